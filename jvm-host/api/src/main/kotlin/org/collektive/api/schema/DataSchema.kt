@@ -1,0 +1,77 @@
+package org.collektive.api.schema
+
+import com.google.flatbuffers.FlatBufferBuilder
+import java.nio.ByteBuffer
+
+/**
+ * One user schema as the host sees it: how to read sensors and write actuators whose fields only generated code knows.
+ *
+ * Implemented by generated Java and found by [java.util.ServiceLoader] in a programs' jar. Instances are stateless.
+ */
+public interface DataSchema {
+    /** Name of the schema, equal to that of the C# side. */
+    public val name: String
+
+    /** Fingerprints of `SensorData`, `ActuatorData` and, where defined, `GlobalData`, nested types included. */
+    public val types: Map<String, Long>
+
+    /** The reader class that programs take (`SensorData`). */
+    public val sensorType: Class<*>
+
+    /** The object class that programs return (`ActuatorDataT`). */
+    public val actuatorType: Class<*>
+
+    /** Makes a reader; each belongs to one thread at a time. */
+    public fun sensorReader(): SensorReader
+
+    /** Makes a writer; each belongs to one thread at a time. */
+    public fun actuatorWriter(): ActuatorWriter
+
+    /** Makes a reader of global data, or `null` when the schema defines none. */
+    public fun globalReader(): GlobalReader?
+}
+
+/** Reads the table `Sensors` of a frame in place; allocates nothing after its construction. */
+public interface SensorReader {
+    /** Points this reader at the table at [position] (bytes from the start) of [frame]; little-endian. */
+    public fun attach(frame: ByteBuffer, position: Int)
+
+    /** Elements in the attached table. */
+    public val size: Int
+
+    /**
+     * Checks that every element, nested tables, vectors and strings included, lies inside the frame.
+     *
+     * @throws MalformedDataException naming the element and the field that does not.
+     */
+    public fun check()
+
+    /** The `SensorData` of element [index]: a view, the same object at every call, valid until the next one. */
+    public operator fun get(index: Int): Any
+}
+
+/** Writes the table `Actuators` of a frame. */
+public interface ActuatorWriter {
+    /**
+     * Writes [results] `0 until count` in this order and returns the table's offset for [builder].
+     *
+     * `ranges[2 * i]` gets the distance of element i's first byte from the *end* of the builder's buffer and
+     * `ranges[2 * i + 1]` its length in bytes, for the digest.
+     */
+    public fun write(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int
+}
+
+/** Reads the table `GlobalData` of a frame in place. */
+public interface GlobalReader {
+    /** Points this reader at the table at [position] of [frame], which stays unchanged while [data] is in use. */
+    public fun attach(frame: ByteBuffer, position: Int)
+
+    /** Like [SensorReader.check]. */
+    public fun check()
+
+    /** The `GlobalData` view. */
+    public val data: Any
+}
+
+/** A user table that does not lie inside its frame. */
+public class MalformedDataException(message: String) : RuntimeException(message)
