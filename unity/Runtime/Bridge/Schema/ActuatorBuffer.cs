@@ -1,0 +1,57 @@
+using System;
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Reads one tick's actuator data in the memory of the answer. Not thread-safe; allocates nothing.</summary>
+    public abstract class ActuatorBuffer
+    {
+        /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
+        public abstract Type DataType { get; }
+
+        /// <summary>
+        /// Points this reader at the table <c>Actuators</c> at <paramref name="position"/> (bytes from the start) of
+        /// <paramref name="frame"/>. Valid until the session's next call.
+        /// </summary>
+        /// <exception cref="BridgeException">The table does not fit the frame: <see cref="BridgeError.Frame"/>.</exception>
+        public abstract void Attach(ByteBuffer frame, int position);
+
+        /// <summary>Elements in the attached table.</summary>
+        public abstract int Count { get; }
+    }
+
+    /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
+    public abstract class ActuatorBuffer<T> : ActuatorBuffer
+    {
+        private protected ByteBuffer frame;
+        private protected int start;
+        private int count;
+
+        /// <inheritdoc/>
+        public sealed override Type DataType => typeof(T);
+
+        /// <inheritdoc/>
+        public sealed override int Count => count;
+
+        /// <summary>The element at an index below <see cref="ActuatorBuffer.Count"/>.</summary>
+        public abstract T this[int index] { get; }
+
+        /// <inheritdoc/>
+        public sealed override void Attach(ByteBuffer frame, int position)
+        {
+            var vector = FrameTable.FindData(frame, position, ElementSize, out count);
+            this.frame = frame;
+            start = vector;
+        }
+
+        /// <summary>Bytes of an element in the vector.</summary>
+        private protected abstract int ElementSize { get; }
+
+        /// <summary>Where an element begins in the vector.</summary>
+        private protected int ElementAt(int index)
+        {
+            if ((uint)index >= (uint)count) throw new ArgumentOutOfRangeException(nameof(index));
+            return start + index * ElementSize;
+        }
+    }
+}

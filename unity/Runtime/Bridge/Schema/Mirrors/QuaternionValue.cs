@@ -1,0 +1,41 @@
+using System.Runtime.InteropServices;
+using Collektive.Bridge;
+
+namespace org.collektive.schema
+{
+    /// <summary>Mirror of <c>Quaternion</c> of <c>types.fbs</c>.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct QuaternionValue : IMirror
+    {
+        /// <summary>Field <c>x</c>.</summary>
+        public float X;
+
+        /// <summary>Field <c>y</c>.</summary>
+        public float Y;
+
+        /// <summary>Field <c>z</c>.</summary>
+        public float Z;
+
+        /// <summary>Field <c>w</c>.</summary>
+        public float W;
+
+        /// <summary>Makes a value of its fields.</summary>
+        public QuaternionValue(float x, float y, float z, float w)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+            W = w;
+        }
+
+        /// <inheritdoc/>
+        public string FindNotFinite()
+        {
+            if (!float.IsFinite(X)) return "x";
+            if (!float.IsFinite(Y)) return "y";
+            if (!float.IsFinite(Z)) return "z";
+            if (!float.IsFinite(W)) return "w";
+            return null;
+        }
+    }
+}

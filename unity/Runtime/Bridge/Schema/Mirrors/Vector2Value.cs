@@ -1,0 +1,31 @@
+using System.Runtime.InteropServices;
+using Collektive.Bridge;
+
+namespace org.collektive.schema
+{
+    /// <summary>Mirror of <c>Vector2</c> of <c>types.fbs</c>.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Vector2Value : IMirror
+    {
+        /// <summary>Field <c>x</c>.</summary>
+        public float X;
+
+        /// <summary>Field <c>y</c>.</summary>
+        public float Y;
+
+        /// <summary>Makes a value of its fields.</summary>
+        public Vector2Value(float x, float y)
+        {
+            X = x;
+            Y = y;
+        }
+
+        /// <inheritdoc/>
+        public string FindNotFinite()
+        {
+            if (!float.IsFinite(X)) return "x";
+            if (!float.IsFinite(Y)) return "y";
+            return null;
+        }
+    }
+}

@@ -1,0 +1,47 @@
+using System;
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// Staging of one tick's sensor data: element i belongs to the i-th due node. Not thread-safe; no allocation once the
+    /// capacities are reached.
+    /// </summary>
+    public abstract class SensorBuffer
+    {
+        /// <summary>The type of an element: what a <c>Sensor&lt;T&gt;</c> must have as its T.</summary>
+        public abstract Type DataType { get; }
+
+        /// <summary>Makes room for at least this many elements; never shrinks.</summary>
+        public abstract void EnsureCapacity(int count);
+
+        /// <summary>Gives an element the defaults of the schema.</summary>
+        public abstract void Clear(int index);
+
+        /// <summary>
+        /// Path of the element's first field that is NaN or infinite, such as <c>obstacles[2].x</c>, else null. A field whose
+        /// default in the schema is not finite may hold such values and is not looked at.
+        /// </summary>
+        public abstract string FindNotFinite(int index);
+
+        /// <summary>Writes the first <paramref name="count"/> elements; the offset of the table <c>Sensors</c>.</summary>
+        /// <exception cref="BridgeException">A required field was not set: <see cref="BridgeError.Argument"/>.</exception>
+        public abstract int Write(FlatBufferBuilder builder, int count);
+    }
+
+    /// <summary>A <see cref="SensorBuffer"/> with typed elements.</summary>
+    public abstract class SensorBuffer<T> : SensorBuffer
+    {
+        /// <summary>The elements; <see cref="SensorBuffer.EnsureCapacity"/> may replace the array.</summary>
+        public T[] Items = Array.Empty<T>();
+
+        /// <inheritdoc/>
+        public sealed override Type DataType => typeof(T);
+
+        /// <inheritdoc/>
+        public override void EnsureCapacity(int count)
+        {
+            if (count > Items.Length) Array.Resize(ref Items, Math.Max(count, 2 * Items.Length));
+        }
+    }
+}

@@ -1,0 +1,31 @@
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Sensor data that is a struct in the schema: all elements go into the frame by one block copy.</summary>
+    public sealed class StructSensorBuffer<T> : SensorBuffer<T> where T : unmanaged, IMirror
+    {
+        private readonly int alignment;
+
+        /// <summary>Makes an empty buffer; <paramref name="alignment"/> is the struct's in the schema, in bytes.</summary>
+        public StructSensorBuffer(int alignment)
+        {
+            this.alignment = alignment;
+        }
+
+        /// <inheritdoc/>
+        public override void Clear(int index)
+        {
+            Items[index] = default;
+        }
+
+        /// <inheritdoc/>
+        public override string FindNotFinite(int index) => Items[index].FindNotFinite();
+
+        /// <inheritdoc/>
+        public override int Write(FlatBufferBuilder builder, int count)
+        {
+            return FrameTable.Write(builder, count == 0 ? 0 : Blit.Vector(builder, Items, count, alignment));
+        }
+    }
+}

@@ -1,0 +1,32 @@
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Global data, which is always a table: staged in one reused draft.</summary>
+    public sealed class TableGlobalBuffer<T> : GlobalBuffer<T> where T : Draft, new()
+    {
+        private readonly DraftWriter writer = new DraftWriter();
+
+        /// <summary>Makes a buffer with the defaults of the schema.</summary>
+        public TableGlobalBuffer()
+        {
+            Data = new T();
+        }
+
+        /// <inheritdoc/>
+        public override void Clear()
+        {
+            Data.Clear();
+        }
+
+        /// <inheritdoc/>
+        public override string FindNotFinite() => Data.FindNotFinite();
+
+        /// <inheritdoc/>
+        public override int Write(FlatBufferBuilder builder)
+        {
+            writer.Begin(builder);
+            return Data.Write(writer);
+        }
+    }
+}
