@@ -1,0 +1,320 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Threading;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests
+{
+    [TestFixture]
+    public sealed class ReplayWriterTests
+    {
+        private const string Before = "<html><script>", After = "</script> ü </html>";
+
+        private string folder;
+        private string scratch;
+        private string template;
+        private string page;
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            folder = Path.Combine(Path.GetTempPath(), "replay-" + Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(folder);
+            scratch = Path.Combine(folder, "scratch");
+            template = Path.Combine(folder, "template.html");
+            page = Path.Combine(folder, "replay.html");
+            File.WriteAllText(template, Before + "@@REPLAY@@" + After);
+        }
+
+        [TearDown]
+        public void DeleteFolder() => Directory.Delete(folder, true);
+
+        [Test]
+        public void OneFrameWithoutNodes()
+        {
+            var replay = Record(writer => Frame(writer, 0));
+            Assert.AreEqual(1, replay.Frames.Count);
+            Assert.AreEqual(0, replay.Frames[0].Nodes.Count);
+            Assert.AreEqual(0, replay.Frames[0].Links.Count);
+        }
+
+        [Test]
+        public void NodesThatComeAndGoTakeTheirLinksWithThem()
+        {
+            var replay = Record(writer =>
+            {
+                Frame(writer, 0, 7, -3, 9);
+                writer.BeginFrame(1);
+                foreach (var id in new[] { 7, -3, 9 }) writer.Node(id, id, 0, 0, id);
+                writer.Link(7, 9);
+                writer.Link(-3, 9);
+                writer.EndFrame();
+                Frame(writer, 2, 9, 7);
+                Frame(writer, 3);
+                writer.BeginFrame(4);
+                writer.Node(-3, 1, 2, 3, 4);
+                writer.Node(100, 5, 6, 7, 8);
+                writer.Link(100, -3);
+                writer.EndFrame();
+            });
+            CollectionAssert.AreEquivalent(new[] { 7, -3, 9 }, replay.Frames[0].Nodes.Keys);
+            CollectionAssert.AreEquivalent(new[] { (7, 9), (-3, 9) }, replay.Frames[1].Links);
+            CollectionAssert.AreEquivalent(new[] { 7, 9 }, replay.Frames[2].Nodes.Keys);
+            Assert.AreEqual(0, replay.Frames[2].Links.Count);
+            Assert.AreEqual(0, replay.Frames[3].Nodes.Count);
+            CollectionAssert.AreEquivalent(new[] { (-3, 100) }, replay.Frames[4].Links);
+            Assert.AreEqual(6f, replay.Frames[4].Nodes[100].Y);
+        }
+
+        [Test]
+        public void LinksOfBothDirectionsAndRepeatedOnesAreOne()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, 0, 0, 0, 0);
+                writer.Node(2, 1, 0, 0, 0);
+                writer.Link(1, 2);
+                writer.Link(2, 1);
+                writer.Link(1, 2);
+                writer.EndFrame();
+            });
+            CollectionAssert.AreEquivalent(new[] { (1, 2) }, replay.Frames[0].Links);
+        }
+
+        [Test]
+        public void LinksThatStayTakeNoSpace()
+        {
+            var replay = Record(writer =>
+            {
+                for (var time = 0; time < 3; time++)
+                {
+                    writer.BeginFrame(time);
+                    for (var id = 0; id < 5; id++) writer.Node(id, id, 0, 0, 0);
+                    for (var id = 1; id < 5; id++) writer.Link(0, id);
+                    if (time == 2) writer.Link(3, 4);
+                    writer.EndFrame();
+                }
+            });
+            Assert.AreEqual(4, replay.Frames[0].LinksChanged);
+            Assert.AreEqual(0, replay.Frames[1].LinksChanged);
+            Assert.AreEqual(1, replay.Frames[2].LinksChanged);
+            Assert.AreEqual(5, replay.Frames[2].Links.Count);
+        }
+
+        [Test]
+        public void NodeWithoutScalarStaysWithout()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, 0, 0, 0, float.NaN);
+                writer.Node(2, 0, 0, 0, -5);
+                writer.Node(3, 0, 0, 0, 5);
+                writer.EndFrame();
+            });
+            Assert.IsNaN(replay.Frames[0].Nodes[1].Scalar);
+            Assert.AreEqual(-5f, replay.Frames[0].Nodes[2].Scalar);
+            Assert.AreEqual(5f, replay.Frames[0].Nodes[3].Scalar);
+        }
+
+        [Test]
+        public void TheGreatestFloatsSurvive()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, float.MinValue, float.Epsilon, 0, 0);
+                writer.Node(2, float.MaxValue, 0, 0, 0);
+                writer.EndFrame();
+            });
+            Assert.AreEqual(float.MinValue, replay.Frames[0].Nodes[1].X);
+            Assert.AreEqual(float.MaxValue, replay.Frames[0].Nodes[2].X);
+        }
+
+        [Test]
+        public void RandomRunsComeBackWithinTheQuantisation([Range(1, 20)] int seed)
+        {
+            var random = new Random(seed);
+            var given = new List<ReplayDecoder.Frame>();
+            var replay = Record(writer =>
+            {
+                var frames = random.Next(1, 40);
+                for (var i = 0; i < frames; i++) given.Add(RandomFrame(writer, random, i));
+            });
+            Assert.AreEqual(given.Count, replay.Frames.Count);
+            for (var i = 0; i < given.Count; i++) AssertSame(given[i], replay.Frames[i]);
+        }
+
+        [Test]
+        public void MetadataIsJsonInTheInvariantCulture()
+        {
+            var culture = Thread.CurrentThread.CurrentCulture;
+            try
+            {
+                Thread.CurrentThread.CurrentCulture = new CultureInfo("de-DE");
+                var metadata = new ReplayMetadata
+                {
+                    Title = "\"A\\\n<b>", Seed = ulong.MaxValue, DeltaTime = 0.05, NodeRadius = 0.5f,
+                    ScalarName = "warmth", ScalarUnit = "°C", ScalarMin = -1.5f, ScalarMax = 2,
+                };
+                metadata.SetArena(-1, 0, -2.5f, 3, 4, 5);
+                metadata.AddBox(1, 2, 3, 4, 5, 6);
+                metadata.AddSphere(1.5f, 0, 0, 2);
+                metadata.AddMarker("source", 25, 0, 0);
+                var replay = Record(writer => Frame(writer, 0), metadata);
+                Assert.AreEqual(
+                    "{\"title\":\"\\\"A\\\\\\u000a<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5," +
+                    "\"arena\":{\"min\":[-1,0,-2.5],\"max\":[3,4,5]}," +
+                    "\"scalar\":{\"name\":\"warmth\",\"unit\":\"°C\",\"min\":-1.5,\"max\":2}," +
+                    "\"shapes\":[{\"kind\":\"box\",\"centre\":[1,2,3],\"size\":[4,5,6],\"rotation\":[0,0,0,1]}," +
+                    "{\"kind\":\"sphere\",\"centre\":[1.5,0,0],\"radius\":2}]," +
+                    "\"markers\":[{\"name\":\"source\",\"position\":[25,0,0]}]}",
+                    replay.Json);
+            }
+            finally
+            {
+                Thread.CurrentThread.CurrentCulture = culture;
+            }
+        }
+
+        [Test]
+        public void BadFramesAreRefusedWithTheNodeAndTheFrame()
+        {
+            AssertRefused<ArgumentException>("Node 5 is at (NaN, 0, 0) in frame 0", w => w.Node(5, float.NaN, 0, 0, 0));
+            AssertRefused<ArgumentException>("Node 5 has an infinite scalar", w => w.Node(5, 0, 0, 0, float.PositiveInfinity));
+            AssertRefused<ArgumentException>("Node 1 is given twice in frame 0", w => w.Node(1, 0, 0, 0, 0));
+            AssertRefused<ArgumentException>("Link 1 - 8: node 8 is not in frame 0", w => w.Link(1, 8));
+            AssertRefused<ArgumentException>("Node 1 is linked to itself", w => w.Link(1, 1));
+            AssertRefused<InvalidOperationException>("BeginFrame: the frame before is not ended", w => w.BeginFrame(1));
+            AssertRefused<InvalidOperationException>("Finish: the last frame is not ended", w => w.Finish(template, page));
+            AssertRefused<InvalidOperationException>("EndFrame: no frame has begun", w => { w.EndFrame(); w.EndFrame(); });
+            AssertRefused<InvalidOperationException>("Node: no frame has begun", w => { w.EndFrame(); w.Node(2, 0, 0, 0, 0); });
+            AssertRefused<InvalidOperationException>("Link: no frame has begun", w => { w.EndFrame(); w.Link(1, 2); });
+            AssertRefused<ArgumentException>("Frame 1 of the replay has time 0", w => { w.EndFrame(); w.BeginFrame(0); });
+            AssertRefused<ArgumentException>("Frame 1 of the replay has time NaN", w => { w.EndFrame(); w.BeginFrame(double.NaN); });
+        }
+
+        [Test]
+        public void ANodeOfAnEarlierFrameCannotBeLinked()
+        {
+            using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
+            {
+                Frame(writer, 0, 1, 2);
+                writer.BeginFrame(1);
+                writer.Node(1, 0, 0, 0, 0);
+                StringAssert.Contains("node 2 is not in frame 1", Assert.Throws<ArgumentException>(() => writer.Link(1, 2)).Message);
+            }
+        }
+
+        [Test]
+        public void ARunWithoutFramesHasNoPage()
+        {
+            using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
+                StringAssert.Contains("there is no frame", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
+        }
+
+        [TestCase("no placeholder")]
+        [TestCase("@@REPLAY@@ @@REPLAY@@")]
+        public void AWrongTemplateIsNamed(string text)
+        {
+            File.WriteAllText(template, text);
+            using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
+            {
+                Frame(writer, 0);
+                StringAssert.Contains(template, Assert.Throws<InvalidDataException>(() => writer.Finish(template, page)).Message);
+            }
+            Assert.IsFalse(File.Exists(page));
+        }
+
+        [Test]
+        public void NumbersOfTheMetadataMustBeFinite()
+        {
+            Assert.Throws<ArgumentException>(() => new ReplayMetadata().AddSphere(0, 0, float.NaN, 1));
+            Assert.Throws<ArgumentException>(() => new ReplayMetadata().SetArena(0, 0, 0, 0, 0, 0));
+            Assert.Throws<ArgumentException>(() => new ReplayWriter(scratch, new ReplayMetadata { NodeRadius = float.PositiveInfinity }));
+            Assert.IsFalse(File.Exists(scratch));
+        }
+
+        private ReplayDecoder Record(Action<ReplayWriter> run, ReplayMetadata metadata = null)
+        {
+            using (var writer = new ReplayWriter(scratch, metadata ?? new ReplayMetadata()))
+            {
+                run(writer);
+                writer.Finish(template, page);
+            }
+            Assert.IsFalse(File.Exists(scratch), "the scratch file stays");
+            return new ReplayDecoder(File.ReadAllText(page), Before, After);
+        }
+
+        private void AssertRefused<T>(string message, Action<ReplayWriter> act) where T : Exception
+        {
+            using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, 0, 0, 0, 0);
+                StringAssert.Contains(message, Assert.Throws<T>(() => act(writer)).Message);
+            }
+        }
+
+        private static void Frame(ReplayWriter writer, double time, params int[] ids)
+        {
+            writer.BeginFrame(time);
+            foreach (var id in ids) writer.Node(id, id, 0, 0, id);
+            writer.EndFrame();
+        }
+
+        private static ReplayDecoder.Frame RandomFrame(ReplayWriter writer, Random random, int index)
+        {
+            var frame = new ReplayDecoder.Frame { Time = index * 0.1 };
+            var extent = Math.Pow(10, random.Next(-3, 6));
+            writer.BeginFrame(frame.Time);
+            for (var n = random.Next(0, 300); n > 0; n--)
+            {
+                var id = random.Next(-200, 200) * 1000003;
+                if (frame.Nodes.ContainsKey(id)) continue;
+                var node = new ReplayDecoder.Node
+                {
+                    X = Coordinate(random, extent), Y = Coordinate(random, extent), Z = Coordinate(random, extent),
+                    Scalar = random.Next(10) == 0 ? float.NaN : Coordinate(random, extent),
+                };
+                frame.Nodes.Add(id, node);
+                writer.Node(id, node.X, node.Y, node.Z, node.Scalar);
+            }
+            var ids = new List<int>(frame.Nodes.Keys);
+            for (var n = ids.Count < 2 ? 0 : random.Next(0, 2000); n > 0; n--)
+            {
+                int a = ids[random.Next(ids.Count)], b = ids[random.Next(ids.Count)];
+                if (a == b) continue;
+                frame.Links.Add((Math.Min(a, b), Math.Max(a, b)));
+                writer.Link(a, b);
+            }
+            writer.EndFrame();
+            return frame;
+        }
+
+        private static float Coordinate(Random random, double extent) => (float)((random.NextDouble() - 0.5) * extent);
+
+        private static void AssertSame(ReplayDecoder.Frame expected, ReplayDecoder.Frame actual)
+        {
+            Assert.AreEqual(expected.Time, actual.Time);
+            Assert.AreEqual(expected.Nodes.Count, actual.Nodes.Count);
+            Assert.IsTrue(expected.Links.SetEquals(actual.Links), "the links differ"); // AreEquivalent takes minutes
+            float extent = 0;
+            foreach (var node in expected.Nodes.Values)
+                extent = Math.Max(extent, Math.Max(Math.Abs(node.X), Math.Max(Math.Abs(node.Y), Math.Max(Math.Abs(node.Z), float.IsNaN(node.Scalar) ? 0 : Math.Abs(node.Scalar)))));
+            var tolerance = 2 * extent / 65534;
+            foreach (var pair in expected.Nodes)
+            {
+                var node = actual.Nodes[pair.Key];
+                Assert.AreEqual(pair.Value.X, node.X, tolerance);
+                Assert.AreEqual(pair.Value.Y, node.Y, tolerance);
+                Assert.AreEqual(pair.Value.Z, node.Z, tolerance);
+                if (float.IsNaN(pair.Value.Scalar)) Assert.IsNaN(node.Scalar);
+                else Assert.AreEqual(pair.Value.Scalar, node.Scalar, tolerance);
+            }
+        }
+    }
+}
