@@ -1,0 +1,271 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package it.unibo.collektive.aggregate
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+
+/**
+ * A value for this device and one for each neighbour aligned where the field was made.
+ *
+ * Immutable and evaluated when made; neighbours are in ascending order of their ids. Functions given to `map` and its kin run once
+ * per entry, neighbours first, and primitives in them are aligned on the entry's id. Two fields are equal when their maps from id to value are, the local
+ * one included.
+ *
+ * @property context the device and round that the field belongs to.
+ */
+public class Field<ID : Any, out T> private constructor(
+    public val context: Aggregate<ID>,
+    private val ids: Array<out Any>,
+    private val neighborValues: Array<out Any?>,
+    private val localValue: T,
+) {
+    /** The local entry. */
+    public val local: FieldEntry<ID, T> get() = FieldEntry(context.localId, localValue)
+
+    /** The neighbours' entries. */
+    public val neighbors: CollapseNeighbors<FieldEntry<ID, T>> get() = NeighborsView(ids.size, ::entryAt)
+
+    /** The neighbours' entries, then the local one. */
+    public val all: CollapseAll<FieldEntry<ID, T>> get() = AllView(ids.size + 1, ::entryAt)
+
+    /**
+     * The value for the device [id].
+     *
+     * @throws NoSuchElementException when it is neither this device nor an aligned neighbour.
+     */
+    public operator fun get(id: ID): T {
+        if (id == context.localId) return localValue
+        val index = indexOf(id)
+        if (index < 0) throw NoSuchElementException("the field of device ${context.localId} has no value for device $id")
+        return valueAt(index)
+    }
+
+    /** The value for the device [id], the local one when it is not in this field: what a receiver [id] gets. */
+    @DelicateCollektiveApi
+    public fun getOrLocal(id: ID): T {
+        val index = indexOf(id)
+        return if (index < 0) localValue else valueAt(index)
+    }
+
+    /** A field of [transform] applied to each entry. */
+    public fun <R> map(transform: (FieldEntry<ID, T>) -> R): Field<ID, R> = build { transform(entryAt(it)) }
+
+    /** A field of [transform] applied to each value. */
+    public fun <R> mapValues(transform: (T) -> R): Field<ID, R> = build { transform(valueAt(it)) }
+
+    /** A field with these devices and one [value]. */
+    public fun <R> mapToConstant(value: R): Field<ID, R> {
+        val values = arrayOfNulls<Any?>(ids.size)
+        values.fill(value)
+        return make(context, ids, values, value)
+    }
+
+    /**
+     * A field of [transform] applied to each id with its value here and in [other].
+     *
+     * @throws IllegalStateException when the fields are not of the same devices; this holds for all functions of this name.
+     */
+    public fun <A, R> alignedMap(other: Field<ID, A>, transform: (ID, T, A) -> R): Field<ID, R> {
+        requireAligned(other)
+        return build { transform(idAt(it), valueAt(it), other.valueAt(it)) }
+    }
+
+    /** [alignedMap] over three fields. */
+    public fun <A, B, R> alignedMap(a: Field<ID, A>, b: Field<ID, B>, transform: (ID, T, A, B) -> R): Field<ID, R> {
+        requireAligned(a)
+        requireAligned(b)
+        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it)) }
+    }
+
+    /** [alignedMap] over four fields. */
+    public fun <A, B, C, R> alignedMap(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        transform: (ID, T, A, B, C) -> R,
+    ): Field<ID, R> {
+        requireAligned(a)
+        requireAligned(b)
+        requireAligned(c)
+        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it)) }
+    }
+
+    /** [alignedMap] over five fields. */
+    public fun <A, B, C, D, R> alignedMap(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        transform: (ID, T, A, B, C, D) -> R,
+    ): Field<ID, R> {
+        requireAligned(a)
+        requireAligned(b)
+        requireAligned(c)
+        requireAligned(d)
+        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it)) }
+    }
+
+    /** [alignedMap] over six fields. */
+    public fun <A, B, C, D, E, R> alignedMap(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        e: Field<ID, E>,
+        transform: (ID, T, A, B, C, D, E) -> R,
+    ): Field<ID, R> {
+        requireAligned(a)
+        requireAligned(b)
+        requireAligned(c)
+        requireAligned(d)
+        requireAligned(e)
+        return build {
+            transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it), e.valueAt(it))
+        }
+    }
+
+    /** [alignedMap] over seven fields. */
+    public fun <A, B, C, D, E, F, R> alignedMap(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        e: Field<ID, E>,
+        f: Field<ID, F>,
+        transform: (ID, T, A, B, C, D, E, F) -> R,
+    ): Field<ID, R> {
+        requireAligned(a)
+        requireAligned(b)
+        requireAligned(c)
+        requireAligned(d)
+        requireAligned(e)
+        requireAligned(f)
+        return build {
+            transform(
+                idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it), e.valueAt(it), f.valueAt(it),
+            )
+        }
+    }
+
+    /** [alignedMap] without the ids. */
+    public fun <A, R> alignedMapValues(other: Field<ID, A>, transform: (T, A) -> R): Field<ID, R> =
+        alignedMap(other) { _, value, a -> transform(value, a) }
+
+    /** [alignedMapValues] over three fields. */
+    public fun <A, B, R> alignedMapValues(a: Field<ID, A>, b: Field<ID, B>, transform: (T, A, B) -> R): Field<ID, R> =
+        alignedMap(a, b) { _, value, va, vb -> transform(value, va, vb) }
+
+    /** [alignedMapValues] over four fields. */
+    public fun <A, B, C, R> alignedMapValues(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        transform: (T, A, B, C) -> R,
+    ): Field<ID, R> = alignedMap(a, b, c) { _, value, va, vb, vc -> transform(value, va, vb, vc) }
+
+    /** [alignedMapValues] over five fields. */
+    public fun <A, B, C, D, R> alignedMapValues(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        transform: (T, A, B, C, D) -> R,
+    ): Field<ID, R> = alignedMap(a, b, c, d) { _, value, va, vb, vc, vd -> transform(value, va, vb, vc, vd) }
+
+    /** [alignedMapValues] over six fields. */
+    public fun <A, B, C, D, E, R> alignedMapValues(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        e: Field<ID, E>,
+        transform: (T, A, B, C, D, E) -> R,
+    ): Field<ID, R> = alignedMap(a, b, c, d, e) { _, value, va, vb, vc, vd, ve -> transform(value, va, vb, vc, vd, ve) }
+
+    /** [alignedMapValues] over seven fields. */
+    public fun <A, B, C, D, E, F, R> alignedMapValues(
+        a: Field<ID, A>,
+        b: Field<ID, B>,
+        c: Field<ID, C>,
+        d: Field<ID, D>,
+        e: Field<ID, E>,
+        f: Field<ID, F>,
+        transform: (T, A, B, C, D, E, F) -> R,
+    ): Field<ID, R> =
+        alignedMap(a, b, c, d, e, f) { _, value, va, vb, vc, vd, ve, vf -> transform(value, va, vb, vc, vd, ve, vf) }
+
+    override fun equals(other: Any?): Boolean = this === other || other is Field<*, *> && all.toMap() == other.all.toMap()
+
+    override fun hashCode(): Int = all.toMap().hashCode()
+
+    override fun toString(): String = "Field(local=${context.localId}: $localValue, neighbors=${neighbors.toMap()})"
+
+    @Suppress("UNCHECKED_CAST")
+    private fun idAt(index: Int): ID = if (index == ids.size) context.localId else ids[index] as ID
+
+    @Suppress("UNCHECKED_CAST")
+    private fun valueAt(index: Int): T = if (index == ids.size) localValue else neighborValues[index] as T
+
+    private fun entryAt(index: Int): FieldEntry<ID, T> = FieldEntry(idAt(index), valueAt(index))
+
+    private inline fun <R> build(value: (Int) -> R): Field<ID, R> {
+        val values = arrayOfNulls<Any?>(ids.size)
+        for (index in ids.indices) values[index] = alignedAt(index, value)
+        return make(context, ids, values, alignedAt(ids.size, value))
+    }
+
+    private inline fun <R> alignedAt(index: Int, value: (Int) -> R): R {
+        context.align(idAt(index))
+        try {
+            return value(index)
+        } finally {
+            context.dealign()
+        }
+    }
+
+    private fun indexOf(id: ID): Int {
+        if (id !is Int) return ids.indexOf(id)
+        var low = 0
+        var high = ids.size - 1
+        while (low <= high) {
+            val middle = (low + high) ushr 1
+            val found = ids[middle] as Int
+            if (found == id) return middle
+            if (found < id) low = middle + 1 else high = middle - 1
+        }
+        return -1
+    }
+
+    private fun requireAligned(other: Field<ID, *>) {
+        check((ids === other.ids || ids.contentEquals(other.ids)) && context.localId == other.context.localId) {
+            "fields of different devices cannot be combined: ${all.ids.list} and ${other.all.ids.list}"
+        }
+    }
+
+    public companion object {
+        /**
+         * Makes a field of [context]'s device from its neighbours' [ids] (ascending where they are [Int]s) and their [values].
+         *
+         * For implementations of [Aggregate], who promise that [context]'s own id is not among [ids]. Both arrays now belong to
+         * the field.
+         *
+         * @throws IllegalStateException when a value is itself a [Field].
+         */
+        @DelicateCollektiveApi
+        public fun <ID : Any, T> make(
+            context: Aggregate<ID>,
+            ids: Array<out Any>,
+            values: Array<out Any?>,
+            local: T,
+        ): Field<ID, T> {
+            for (value in values) refuseField(value)
+            refuseField(local)
+            return Field(context, ids, values, local)
+        }
+
+        private fun refuseField(value: Any?) {
+            check(value !is Field<*, *>) { "a field cannot be a value of a field: $value" }
+        }
+    }
+}

@@ -1,0 +1,42 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package it.unibo.collektive.aggregate.api
+
+import it.unibo.collektive.aggregate.Field
+
+/**
+ * Sends a value of its own to each neighbour and keeps one: [body] gets what aligned neighbours sent here, with the value kept
+ * by the last round ([initial] at first) as the local one, and yields the field to send.
+ *
+ * A receiver unknown to this device when it sends gets the field's local value.
+ */
+public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.exchanging(
+    initial: Shared,
+    noinline body: YieldingScope<Field<ID, Shared>, Return>,
+): Return = exchanging(initial, dataSharingMethod<Shared>(), body)
+
+/** [exchanging] that returns the field it sends. */
+public inline fun <ID : Any, reified Shared> Aggregate<ID>.exchange(
+    initial: Shared,
+    noinline body: (Field<ID, Shared>) -> Field<ID, Shared>,
+): Field<ID, Shared> = exchanging(initial) { received -> body(received).yielding { this } }
+
+/** [exchanging] of one value for all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
+public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.sharing(
+    initial: Shared,
+    noinline transform: YieldingContext<Shared, Return>.(Field<ID, Shared>) -> YieldingResult<Shared, Return>,
+): Return = exchanging(initial) { received ->
+    val (toSend, toReturn) = YieldingContext<Shared, Return>().transform(received)
+    received.mapToConstant(toSend).yielding { toReturn }
+}
+
+/** [sharing] that returns what it sends. */
+public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(
+    initial: Shared,
+    noinline transform: (Field<ID, Shared>) -> Shared,
+): Shared = sharing(initial) { received -> transform(received).yielding { this } }
+
+/** How values of type [Shared] travel; devices of one process pass them by reference. */
+@DelicateCollektiveApi
+@Suppress("UnusedReceiverParameter")
+public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> = InMemory

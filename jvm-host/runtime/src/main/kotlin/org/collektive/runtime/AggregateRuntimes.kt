@@ -1,0 +1,15 @@
+package org.collektive.runtime
+
+/** The project's own implementation: devices of one process that read each other's messages in place. */
+public class AggregateRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
+    private val paths = PathTree(rule)
+
+    override fun device(id: Int): DeviceRuntime = AggregateDevice(id, paths, rule)
+
+    override fun tidy(devices: List<DeviceRuntime>) {
+        if (!paths.isCrowded) return
+        paths.keepOnly { keep ->
+            for (device in devices) (device as AggregateDevice<*>).forEachPath(keep)
+        }
+    }
+}

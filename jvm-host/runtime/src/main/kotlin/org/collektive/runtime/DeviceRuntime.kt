@@ -1,0 +1,59 @@
+package org.collektive.runtime
+
+import it.unibo.collektive.aggregate.api.Aggregate
+
+/**
+ * What the engine needs of an implementation of the Collektive API: the rounds of one device.
+ *
+ * One thread at a time; others may read what the last [commit] made visible, but not during [commit] or [rollback].
+ */
+public interface DeviceRuntime {
+    /**
+     * Runs one round. State and messages stay as they were until [commit], whether [program] returns or throws.
+     *
+     * @param inbox the links into this device.
+     */
+    public fun round(inbox: Inbox, program: RoundProgram): Any?
+
+    /** Makes the state and the messages of the last round the valid ones. */
+    public fun commit()
+
+    /** Takes the last [commit] back; once, and before the next round. */
+    public fun rollback()
+}
+
+/** The links into a device, ascending by the sender's id. */
+public interface Inbox {
+    /** How many links there are. */
+    public val size: Int
+
+    /** The senders' ids, exactly [size]; shared, never changed in place. */
+    public val ids: Array<Any>
+
+    /** The sender of link [index]. */
+    public fun sender(index: Int): DeviceRuntime
+
+    /** Whether link [index] was there when its sender sent; if not, it gets the message's default. */
+    public fun wasKnown(index: Int): Boolean
+}
+
+/** A program, ready to run in one round. */
+public fun interface RoundProgram {
+    /** Runs the round of [aggregate]'s device. */
+    public fun run(aggregate: Aggregate<Int>): Any?
+}
+
+/** Makes the devices of one session and owns what they share. */
+public interface DeviceRuntimes {
+    /** Makes the device [id] (0 or greater), without state. */
+    public fun device(id: Int): DeviceRuntime
+
+    /** Frees what no device uses any more; [devices] are all that live. Between rounds only, cheap when there is nothing to do. */
+    public fun tidy(devices: List<DeviceRuntime>)
+}
+
+/** Decides which values must not leave a round. */
+public fun interface SharingRule {
+    /** Why [value] must be neither shared, nor kept, nor used as a pivot; `null` when it may. */
+    public fun refusal(value: Any?): String?
+}

@@ -1,0 +1,146 @@
+package org.collektive.runtime
+
+/**
+ * All paths of a session, so that equal paths of any two devices are one object.
+ *
+ * Look-ups take no lock: children are entered into a table in place, or into a larger copy, under the tree's lock; a reader that
+ * misses one looks again under the lock. Nodes have only final fields, so a reader never sees half of one.
+ */
+internal class PathTree(private val rule: SharingRule) {
+    val root = PathNode(null, null)
+
+    private var size = 0
+    private var sizeToTidy = FIRST_TIDY
+    private var sweep = 0
+
+    /** The node for [token] below [parent], made when it is new. */
+    fun child(parent: PathNode, token: Any?): PathNode = parent.children.find(token) ?: enter(parent, token)
+
+    /** Whether enough paths were made since the last [keepOnly] to make another worth its time. */
+    val isCrowded: Boolean get() = size > sizeToTidy
+
+    /** Drops all paths but those for which [visit] calls its argument, and their ancestors. No round may run meanwhile. */
+    fun keepOnly(visit: ((PathNode) -> Unit) -> Unit) {
+        sweep++
+        visit(::mark)
+        size = 0
+        val open = ArrayDeque(listOf(root))
+        while (open.isNotEmpty()) {
+            val node = open.removeLast()
+            node.children = node.children.filtered { it.sweep == sweep }
+            node.children.forEach {
+                size++
+                open.addLast(it)
+            }
+        }
+        sizeToTidy = maxOf(FIRST_TIDY, 2 * size)
+    }
+
+    private fun mark(node: PathNode) {
+        var current: PathNode? = node
+        while (current != null && current.sweep != sweep) {
+            current.sweep = sweep
+            current = current.parent
+        }
+    }
+
+    @Synchronized
+    private fun enter(parent: PathNode, token: Any?): PathNode {
+        val children = parent.children
+        children.find(token)?.let { return it }
+        rule.refusal(token)?.let { throw IllegalArgumentException("$it; it cannot be a pivot") }
+        val node = PathNode(parent, token)
+        parent.children = children.with(node)
+        size++
+        return node
+    }
+
+    private companion object {
+        /** Paths worth a sweep; a program without pivots from data never comes near. */
+        const val FIRST_TIDY = 4096
+    }
+}
+
+/** One path: [parent]'s tokens, then [token]. */
+internal class PathNode(val parent: PathNode?, val token: Any?) {
+    private val tokenHash = token.hashCode()
+
+    /** Spread well, since tables use its low bits. */
+    val hash: Int = ((parent?.hash ?: 0) * 31 + tokenHash).let { it * -0x61c88647 xor (it ushr 15) }
+
+    @Volatile
+    var children: PathTable = PathTable.EMPTY
+
+    /** Number of the last sweep that found this node in use. */
+    var sweep = 0
+
+    fun matches(other: Any?, hash: Int) = token === other || tokenHash == hash && token == other
+
+    fun slot(mask: Int) = spread(tokenHash) and mask
+
+    /** `root > a > b`, tokens in the program's words. */
+    fun describe(): String {
+        val tokens = generateSequence(this) { it.parent }.toList().dropLast(1).asReversed()
+        return if (tokens.isEmpty()) "root" else tokens.joinToString(" > ") { it.token.toString() }
+    }
+
+    companion object {
+        fun spread(hash: Int) = hash * -0x61c88647 ushr 7
+    }
+}
+
+/** Children of a node by token: open addressing, at most half full. */
+internal class PathTable private constructor(private val slots: Array<PathNode?>, private var count: Int) {
+    fun find(token: Any?): PathNode? {
+        val hash = token.hashCode()
+        val mask = slots.size - 1
+        var index = PathNode.spread(hash) and mask
+        while (true) {
+            val node = slots[index] ?: return null
+            if (node.matches(token, hash)) return node
+            index = index + 1 and mask
+        }
+    }
+
+    /** A table that has [node] too: this one when there is room. */
+    fun with(node: PathNode): PathTable {
+        val table = if (2 * (count + 1) <= slots.size) this else resized(count + 1)
+        table.put(node)
+        return table
+    }
+
+    /** A table of those nodes that [keep] wants. */
+    inline fun filtered(keep: (PathNode) -> Boolean): PathTable {
+        var kept = 0
+        forEach { if (keep(it)) kept++ }
+        if (kept == 0) return EMPTY
+        val table = PathTable(arrayOfNulls(capacityFor(kept)), 0)
+        forEach { if (keep(it)) table.put(it) }
+        return table
+    }
+
+    inline fun forEach(action: (PathNode) -> Unit) {
+        for (node in slots) if (node != null) action(node)
+    }
+
+    private fun resized(size: Int): PathTable {
+        val table = PathTable(arrayOfNulls(capacityFor(size)), 0)
+        forEach(table::put)
+        return table
+    }
+
+    private fun put(node: PathNode) {
+        val mask = slots.size - 1
+        var index = node.slot(mask)
+        while (slots[index] != null) index = index + 1 and mask
+        slots[index] = node
+        count++
+    }
+
+    companion object {
+        /** Never written to: it has no room. */
+        val EMPTY = PathTable(arrayOfNulls(1), 0)
+
+        private fun capacityFor(size: Int) = maxOf(4, Integer.highestOneBit(2 * size - 1) shl 1)
+    }
+}
