@@ -1,0 +1,43 @@
+package org.collektive.engine
+
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.api.Philox
+import org.collektive.runtime.DeviceRuntime
+import kotlin.random.Random
+
+/** One node of a session: its links, its program, its device. */
+internal class Node(
+    override val id: Int,
+    val program: NodeProgram,
+    override val parameters: Parameters,
+    val runtime: DeviceRuntime,
+    private val clock: Clock,
+    seed: Long,
+) : Device {
+    /** The one object that stands for [id] wherever ids are objects. */
+    val boxedId: Any = id
+    val incoming = IncomingLinks()
+    val outgoing = Peers()
+
+    /** Tick of the last round that gave an answer; 0 before. */
+    var sentAt = 0L
+
+    /** [sentAt] before that round, in case that its answer is rejected. */
+    var sentBefore = 0L
+
+    /** Last validation that removes this node: see TickValidator. */
+    var mark = 0L
+
+    override val random: Random = Philox(seed, id, purpose = 0)
+    override val time: Double get() = clock.time
+    override val deltaTime: Double get() = clock.deltaTime
+    override val globals: Any? get() = clock.globals
+}
+
+/** What all nodes of a session see alike; changes between rounds only. */
+internal class Clock {
+    var time = 0.0
+    var deltaTime = 0.0
+    var globals: Any? = null
+}

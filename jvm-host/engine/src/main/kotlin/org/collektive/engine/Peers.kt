@@ -1,0 +1,84 @@
+package org.collektive.engine
+
+/** Nodes ascending by id. */
+internal open class Peers {
+    var keys = IntArray(INITIAL)
+        private set
+    var nodes = arrayOfNulls<Node>(INITIAL)
+        private set
+    var size = 0
+        private set
+
+    /** Index of the node [id], or `-(index where it would go) - 1`. */
+    fun indexOf(id: Int): Int {
+        // Ids often come in order, and then belong at the end.
+        if (size == 0 || keys[size - 1] < id) return -size - 1
+        return keys.binarySearch(id, 0, size)
+    }
+
+    fun node(index: Int): Node = nodes[index] ?: error("no node at $index of $size")
+
+    fun find(id: Int): Node? {
+        val index = indexOf(id)
+        return if (index < 0) null else nodes[index]
+    }
+
+    /** Enters [node], which is not there yet, and returns where. */
+    fun insert(node: Node): Int {
+        val index = -indexOf(node.id) - 1
+        reserve(size + 1)
+        keys.copyInto(keys, index + 1, index, size)
+        nodes.copyInto(nodes, index + 1, index, size)
+        keys[index] = node.id
+        nodes[index] = node
+        size++
+        return index
+    }
+
+    fun removeAt(index: Int) {
+        keys.copyInto(keys, index, index + 1, size)
+        nodes.copyInto(nodes, index, index + 1, size)
+        nodes[--size] = null
+    }
+
+    fun remove(node: Node) = removeAt(indexOf(node.id))
+
+    /** Enters all of [sorted] (ascending, none of them there yet) in one go. */
+    fun insertAll(sorted: List<Node>) {
+        reserve(size + sorted.size)
+        var old = size - 1
+        var new = sorted.size - 1
+        size += sorted.size
+        for (target in size - 1 downTo 0) {
+            if (new < 0) return
+            val node = if (old >= 0 && keys[old] > sorted[new].id) nodes[old--] else sorted[new--]
+            nodes[target] = node
+            keys[target] = checkNotNull(node).id
+        }
+    }
+
+    inline fun removeIf(gone: (Node) -> Boolean) {
+        var kept = 0
+        for (index in 0 until size) {
+            val node = node(index)
+            if (gone(node)) continue
+            nodes[kept] = node
+            keys[kept++] = node.id
+        }
+        nodes.fill(null, kept, size)
+        size = kept
+    }
+
+    protected open fun resize(capacity: Int) {
+        keys = keys.copyOf(capacity)
+        nodes = nodes.copyOf(capacity)
+    }
+
+    private fun reserve(wanted: Int) {
+        if (wanted > keys.size) resize(maxOf(wanted, keys.size + (keys.size shr 1)))
+    }
+
+    private companion object {
+        const val INITIAL = 8
+    }
+}

@@ -1,0 +1,97 @@
+package org.collektive.engine
+
+import org.collektive.api.Parameters
+
+/**
+ * What one tick asks of the engine; filled, used by [Engine.step], and cleared for the next one.
+ *
+ * Changes apply in the order of the properties, before any round; removing a node removes its links.
+ */
+public class Tick {
+    /** 1 for a session's first tick, then one more each time. */
+    public var number: Long = 0
+
+    /** Simulated seconds at this tick. */
+    public var time: Double = 0.0
+
+    /** Simulated seconds since the tick before. */
+    public var deltaTime: Double = 0.0
+
+    /** Ids of nodes that leave. */
+    public val nodesRemoved: IntList = IntList()
+
+    /** Nodes that come. */
+    public val nodesAdded: MutableList<NewNode> = ArrayList()
+
+    /** Links that end: sender, receiver, sender, receiver... */
+    public val linksRemoved: IntList = IntList()
+
+    /** Links that begin or get new values. */
+    public val links: LinkList = LinkList()
+
+    /** Nodes that run a round, ascending. */
+    public val due: IntList = IntList()
+
+    /** The scene's global data from this tick on; `null`: as before. */
+    public var globals: Any? = null
+
+    /** Forgets everything, and keeps the memory. */
+    public fun clear() {
+        nodesRemoved.clear()
+        nodesAdded.clear()
+        linksRemoved.clear()
+        links.clear()
+        due.clear()
+        globals = null
+    }
+}
+
+/** A node that comes: [id] 0 or greater and free, with the program that it runs. */
+public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
+
+/** Links with their values, without boxes. */
+public class LinkList {
+    private var from = IntArray(16)
+    private var to = IntArray(16)
+    private var lengths = FloatArray(16)
+    private var attenuations = FloatArray(16)
+
+    /** How many there are. */
+    public var size: Int = 0
+        private set
+
+    /** Appends the link by which [to] receives what [from] sends: [length] in metres, [attenuation] 0 (clear) or greater. */
+    public fun add(from: Int, to: Int, length: Float, attenuation: Float) {
+        if (size == this.from.size) {
+            this.from = this.from.copyOf(2 * size)
+            this.to = this.to.copyOf(2 * size)
+            lengths = lengths.copyOf(2 * size)
+            attenuations = attenuations.copyOf(2 * size)
+        }
+        this.from[size] = from
+        this.to[size] = to
+        lengths[size] = length
+        attenuations[size] = attenuation
+        size++
+    }
+
+    /** The sender of link [index]. */
+    public fun from(index: Int): Int = from[index]
+
+    /** The receiver of link [index]. */
+    public fun to(index: Int): Int = to[index]
+
+    /** Metres. */
+    public fun length(index: Int): Float = lengths[index]
+
+    /** 0 (clear) or greater. */
+    public fun attenuation(index: Int): Float = attenuations[index]
+
+    /** Forgets all links. */
+    public fun clear() {
+        size = 0
+    }
+}
+
+/** A tick that breaks a rule and was refused before it changed anything; [message] names the tick, the id and the value. */
+public class TickRefused(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

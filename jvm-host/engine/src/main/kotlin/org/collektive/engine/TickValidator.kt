@@ -1,0 +1,127 @@
+package org.collektive.engine
+
+/**
+ * Checks a whole tick against the nodes and links as they are, and changes neither.
+ *
+ * What a tick takes away is marked with the number of this validation, so that marks of a refused tick mean nothing to the next.
+ */
+internal class TickValidator(private val nodes: Peers) {
+    private var validation = 0L
+    private val removed get() = 2 * validation
+    private val updated get() = 2 * validation + 1
+
+    private var addedIds = IntArray(0)
+    private var addedCount = 0
+    private var newLinks = LongArray(0)
+    private var newLinkCount = 0
+
+    /** @throws TickRefused at the first rule broken. */
+    fun check(tick: Tick, expectedNumber: Long) {
+        validation++
+        checkTime(tick, expectedNumber)
+        checkNodesRemoved(tick)
+        checkNodesAdded(tick)
+        checkLinksRemoved(tick)
+        checkLinks(tick)
+        checkDue(tick)
+    }
+
+    /** Whether the tick that was last checked removes [node]. */
+    fun removes(node: Node): Boolean = node.mark == removed
+
+    private fun checkTime(tick: Tick, expectedNumber: Long) {
+        if (tick.number != expectedNumber) refuse(tick, "tick $expectedNumber must come next")
+        if (!tick.time.isFinite()) refuse(tick, "the time is ${tick.time}; it must be finite")
+        if (!(tick.deltaTime >= 0.0) || tick.deltaTime.isInfinite()) {
+            refuse(tick, "the delta time is ${tick.deltaTime}; it must be finite and 0 or greater")
+        }
+    }
+
+    private fun checkNodesRemoved(tick: Tick) {
+        for (index in 0 until tick.nodesRemoved.size) {
+            val id = tick.nodesRemoved[index]
+            val node = nodes.find(id) ?: refuse(tick, "node $id cannot be removed: there is none")
+            if (removes(node)) refuse(tick, "node $id is removed twice")
+            node.mark = removed
+        }
+    }
+
+    private fun checkNodesAdded(tick: Tick) {
+        addedCount = tick.nodesAdded.size
+        if (addedIds.size < addedCount) addedIds = IntArray(2 * addedCount)
+        for (index in 0 until addedCount) {
+            val id = tick.nodesAdded[index].id
+            if (id < 0) refuse(tick, "node $id cannot be added: ids are 0 or greater")
+            val existing = nodes.find(id)
+            if (existing != null && !removes(existing)) refuse(tick, "node $id cannot be added: it is there already")
+            addedIds[index] = id
+        }
+        addedIds.sort(0, addedCount)
+        for (index in 1 until addedCount) {
+            if (addedIds[index - 1] == addedIds[index]) refuse(tick, "node ${addedIds[index]} is added twice")
+        }
+    }
+
+    private fun checkLinksRemoved(tick: Tick) {
+        val list = tick.linksRemoved
+        for (index in 0 until list.size step 2) {
+            val from = list[index]
+            val to = list[index + 1]
+            val links = staying(to)?.incoming
+            val link = if (links == null || staying(from) == null) -1 else links.indexOf(from)
+            if (links == null || link < 0) refuse(tick, "link $from -> $to cannot be removed: there is none")
+            if (links.mark(link) == removed) refuse(tick, "link $from -> $to is removed twice")
+            links.setMark(link, removed)
+        }
+    }
+
+    private fun checkLinks(tick: Tick) {
+        val list = tick.links
+        if (newLinks.size < list.size) newLinks = LongArray(2 * list.size)
+        newLinkCount = 0
+        for (index in 0 until list.size) checkLink(tick, list.from(index), list.to(index), list.length(index), list.attenuation(index))
+        newLinks.sort(0, newLinkCount)
+        for (index in 1 until newLinkCount) {
+            val key = newLinks[index]
+            if (newLinks[index - 1] == key) refuse(tick, "link ${(key ushr 32).toInt()} -> ${key.toInt()} is made twice")
+        }
+    }
+
+    private fun checkLink(tick: Tick, from: Int, to: Int, length: Float, attenuation: Float) {
+        if (from == to) refuse(tick, "node $from cannot be linked to itself")
+        val sender = staying(from)
+        val receiver = staying(to)
+        if (sender == null && !isAdded(from)) refuse(tick, "link $from -> $to: there is no node $from")
+        if (receiver == null && !isAdded(to)) refuse(tick, "link $from -> $to: there is no node $to")
+        if (!(length >= 0f) || length.isInfinite()) {
+            refuse(tick, "link $from -> $to has length $length; it must be finite and 0 or greater")
+        }
+        if (!(attenuation >= 0f) || attenuation.isInfinite()) {
+            refuse(tick, "link $from -> $to has attenuation $attenuation; it must be finite and 0 or greater")
+        }
+        val links = if (sender == null) null else receiver?.incoming
+        val existing = links?.indexOf(from) ?: -1
+        if (links == null || existing < 0 || links.mark(existing) == removed) {
+            newLinks[newLinkCount++] = from.toLong() shl 32 or to.toLong()
+        } else {
+            if (links.mark(existing) == updated) refuse(tick, "link $from -> $to is given twice")
+            links.setMark(existing, updated)
+        }
+    }
+
+    private fun checkDue(tick: Tick) {
+        var last = -1
+        for (index in 0 until tick.due.size) {
+            val id = tick.due[index]
+            if (id <= last) refuse(tick, "due node $id comes after $last; due ids must ascend without repetition")
+            if (staying(id) == null && !isAdded(id)) refuse(tick, "due node $id: there is no such node")
+            last = id
+        }
+    }
+
+    private fun staying(id: Int): Node? = nodes.find(id)?.takeUnless(::removes)
+
+    private fun isAdded(id: Int) = addedIds.binarySearch(id, 0, addedCount) >= 0
+
+    private fun refuse(tick: Tick, message: String): Nothing = throw TickRefused(tick.number, message)
+}
