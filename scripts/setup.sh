@@ -114,9 +114,3 @@ csc() {
   mono-sgen "$BUILD/roslyn/roslyn.exe" -nologo -noconfig -nostdlib+ -langversion:8.0 -deterministic+ -optimize+ -debug:portable \
     -warnaserror+ -warn:4 -nowarn:1701,1702 -target:library "@$BUILD/roslyn/ref.rsp" "-out:$out" "$@"
 }
-
-cmd_setup() {
-  setup_system
-  setup_flatc
-  setup_roslyn
-}

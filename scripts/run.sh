@@ -1,0 +1,148 @@
+# ./collektive run and ./collektive demo: scenarios without Unity.
+
+DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
+
+help_run() {
+  cat <<'H'
+usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--set FIELD=VALUE]...
+
+Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
+outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html and pictures,
+as the scenario asks. --set gives a public field of the scene builder another value.
+The scenario file's keys are described in unity/Documentation~/headless.md.
+H
+}
+
+help_demo() {
+  cat <<'H'
+usage: ./collektive demo [--nodes N] [--seconds S] [--seed K] [--out DIR]
+
+Runs the case study, environment-aware gradient ascent: 500 bodies (--nodes) climb towards a source around obstacles for 60
+simulated seconds (--seconds). Writes manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures.
+H
+}
+
+setup_kotlin() {
+  once kotlin-compiler "$(fingerprint "$ROOT/jvm-host/pom.xml" "$ROOT/tools/kotlinc")" fetch_kotlin
+}
+
+fetch_kotlin() {
+  local version
+  version=$(sed -n 's:.*<kotlin.version>\(.*\)</kotlin.version>.*:\1:p' "$ROOT/jvm-host/pom.xml")
+  rm -rf "$BUILD/kotlinc"
+  mvn -B -ntp -f "$ROOT/tools/kotlinc/pom.xml" -Dkotlin.version="$version" dependency:copy-dependencies -DoutputDirectory="$BUILD/kotlinc"
+}
+
+# programs_jar SCHEMA PROGRAMS: prints the jar of a folder of Kotlin, compiled when it changed; a jar is printed as it is.
+programs_jar() {
+  local schema=$1 programs=$2 work
+  if [ -f "$programs" ]; then printf '%s\n' "$programs"; return 0; fi
+  work="$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR")"
+  if [ ! -f "$work/programs.jar" ]; then
+    setup_kotlin
+    logged compile-programs compile_programs "$schema" "$programs" "$work"
+  fi
+  printf '%s\n' "$work/programs.jar"
+}
+
+compile_programs() {
+  local schema=$1 programs=$2 work=$3 jdk
+  jdk=$(find_jdk)
+  rm -rf "$work"
+  mkdir -p "$work/java" "$work/classes"
+  generator "$schema" --java "$work/java" || return 1
+  "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" $(find "$work/java" -name '*.java') || return 1
+  (cd "$work/java" && find . -type f -not -name '*.java' | cpio -pdm --quiet "$work/classes" 2>/dev/null) || cp -R "$work/java/META-INF" "$work/classes/" || return 1
+  "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
+    -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs" || return 1
+  "$jdk/bin/jar" --create --file "$work/programs.jar.part" -C "$work/classes" . && mv "$work/programs.jar.part" "$work/programs.jar"
+}
+
+# scripts_dll SCHEMA SCRIPTS: prints the assembly of a folder of C# and the schema's generated code, compiled when they changed.
+# Folders named Generated are left out: the code is generated anew.
+scripts_dll() {
+  local schema=$1 scripts=$2 work
+  work="$BUILD/scripts/$(fingerprint "$schema" "$scripts" "$ROOT/schema" "$GENERATOR_JAR" "$CSHARP"/*.dll)"
+  [ -f "$work/Scenario.dll" ] || logged compile-scripts compile_scripts "$schema" "$scripts" "$work"
+  printf '%s\n' "$work/Scenario.dll"
+}
+
+compile_scripts() {
+  local schema=$1 scripts=$2 work=$3
+  mkdir -p "$work/generated"
+  generator "$schema" --csharp "$work/generated" || return 1
+  find "$scripts" "$work/generated" -name '*.cs' -not -path '*/Generated/*' -printf '"%p"\n' | LC_ALL=C sort >"$work/sources.rsp"
+  csc "$work/Scenario.dll" $GENERATED_CODE_SYMBOLS -warnaserror- -r:"$CSHARP/Collektive.FlatBuffers.dll" -r:"$CSHARP/Collektive.Bridge.dll" \
+    -r:"$CSHARP/UnityEngine.dll" -r:"$CSHARP/Collektive.Unity.dll" "@$work/sources.rsp"
+}
+
+cmd_run() {
+  local scenario= out= seed= arguments=()
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
+      --seconds | --set) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
+      -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
+      *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;
+    esac
+  done
+  [ -n "$scenario" ] || fail "run: name a scenario file (see ./collektive run --help)"
+  [ -n "$out" ] || out="out/$(basename "$scenario" .json)-seed${seed:-default}"
+  setup_system
+  build_native
+  build_jvm
+  build_csharp
+  local plan schema programs scripts jar dll template=()
+  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario") || exit 1
+  schema=$(planned "$plan" schema)
+  programs=$(planned "$plan" programs)
+  scripts=$(planned "$plan" scripts)
+  jar=$(programs_jar "$schema" "$programs")
+  dll=$(scripts_dll "$schema" "$scripts")
+  if [ "$(planned "$plan" replay)" = yes ]; then
+    build_replay_page
+    template=(--template "$BUILD/replay.html")
+  fi
+  say "running $scenario"
+  local code=0
+  managed mono-sgen "$CSHARP/Collektive.Player.exe" run "$scenario" --scripts "$dll" --jar "$jar" --host-jar "$HOST_JAR" \
+    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${arguments[@]}" || code=$?
+  [ "$code" = 0 ] || exit "$code"
+  if [ "$(planned "$plan" pictures)" = yes ]; then
+    logged pictures env COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/pictures.mjs" "$out/replay.html" "$out"
+  fi
+  summary "$out"
+}
+
+# planned PLAN KEY: a value of the player's plan.
+planned() { printf '%s\n' "$1" | sed -n "s/^$2=//p"; }
+
+summary() {
+  python3 - "$1" <<'P'
+import json, os, sys
+out = sys.argv[1]
+m = json.load(open(os.path.join(out, "manifest.json")))
+print(f"{m['nodes']} nodes, {m['ticks']} ticks, {m['shim_calls']} calls into the JVM, seed {m['seed']}, digest {m['digest']}")
+for name in m["end"]:
+    print(f"  {name.replace('_', ' ')}: {m['start'][name]:.2f} -> {m['end'][name]:.2f}")
+print(f"  bridge and rounds {m['step_ms_median']:.2f} ms a tick (median), whole tick {m['tick_ms_median']:.2f} ms (median), {m['tick_ms_p99']:.2f} ms (p99)")
+print(f"  {m['ticks'] / max(m['wall_seconds'], 1e-9):.0f} ticks/s; {m['errors']} errors")
+for name in sorted(os.listdir(out)):
+    print(os.path.join(out, name))
+P
+}
+
+cmd_demo() {
+  local arguments=() out= seed=1
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --nodes) [[ ${2:-} =~ ^[0-9]+$ ]] || fail "demo: --nodes needs a whole number"; arguments+=(--set "nodes=$2"); shift 2 ;;
+      --seed) seed=${2:?--seed needs a number}; shift 2 ;;
+      --seconds) [ $# -ge 2 ] || fail "demo: --seconds needs a number"; arguments+=(--seconds "$2"); shift 2 ;;
+      --out) out=${2:?--out needs a folder}; shift 2 ;;
+      *) fail "demo: unknown argument $1 (see ./collektive demo --help)" ;;
+    esac
+  done
+  cmd_run "$DEMO" --seed "$seed" --out "${out:-out/demo-seed$seed}" "${arguments[@]}"
+}

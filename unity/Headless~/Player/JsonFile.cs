@@ -1,0 +1,126 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>A JSON file read strictly: a key given twice, an unknown key or a value of another type is an error with its line.</summary>
+    internal sealed class JsonFile
+    {
+        private readonly string path;
+
+        private JsonFile(string path, JObject root)
+        {
+            this.path = path;
+            Root = root;
+        }
+
+        internal JObject Root { get; }
+
+        internal static JsonFile Read(string path)
+        {
+            if (!File.Exists(path)) throw new ScenarioException("there is no file '" + path + "': give the path of a scenario file (JSON)");
+            var text = File.ReadAllText(path);
+            try
+            {
+                RefuseDuplicates(path, text);
+                var reader = Reader(text);
+                var root = JToken.ReadFrom(reader) as JObject;
+                if (root == null) throw new ScenarioException(path + ": the file must hold one JSON object");
+                return new JsonFile(path, root);
+            }
+            catch (JsonReaderException error)
+            {
+                throw new ScenarioException(path + ":" + error.LineNumber + ": not valid JSON: " + error.Message);
+            }
+        }
+
+        internal void RefuseUnknown(JObject part, string place, params string[] known)
+        {
+            foreach (var property in part.Properties())
+            {
+                if (Array.IndexOf(known, property.Name) >= 0) continue;
+                throw Error(property, "unknown key '" + place + property.Name + "'; known here: " + string.Join(", ", known));
+            }
+        }
+
+        internal T Required<T>(JObject part, string key)
+        {
+            if (part[key] == null) throw new ScenarioException(path + ": the key '" + key + "' is missing");
+            return Optional(part, key, default(T));
+        }
+
+        internal T Optional<T>(JObject part, string key, T otherwise)
+        {
+            var token = part[key];
+            return token == null ? otherwise : (T)Convert(token, typeof(T), key);
+        }
+
+        /// <summary>A value as a .NET type; numbers must fit it exactly where it is a whole one.</summary>
+        internal object Convert(JToken token, Type type, string key)
+        {
+            var kind = token.Type;
+            var number = kind == JTokenType.Integer || kind == JTokenType.Float;
+            try
+            {
+                if (type == typeof(string) && kind == JTokenType.String) return (string)token;
+                if (type == typeof(bool) && kind == JTokenType.Boolean) return (bool)token;
+                if (type == typeof(int) && kind == JTokenType.Integer) return (int)token;
+                if (type == typeof(ulong) && kind == JTokenType.Integer) return (ulong)token;
+                if (type == typeof(float) && number) return (float)token;
+                if (type == typeof(double) && number) return (double)token;
+                if (type == typeof(JObject) && kind == JTokenType.Object) return token;
+                if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key);
+                if (type.IsEnum && kind == JTokenType.String) return Enum.Parse(type, (string)token, true);
+            }
+            catch (Exception error) when (error is OverflowException || error is ArgumentException)
+            {
+                // Falls through: the value does not fit the type.
+            }
+            var names = type.IsEnum ? " (one of " + string.Join(", ", Enum.GetNames(type)) + ")" : "";
+            throw Error(token, "'" + key + "' is " + token.ToString(Formatting.None) + ", it must be of type " + NameOf(type) + names);
+        }
+
+        internal ScenarioException Error(JToken token, string message)
+        {
+            var line = (IJsonLineInfo)token;
+            return new ScenarioException(path + (line.HasLineInfo() ? ":" + line.LineNumber : "") + ": " + message);
+        }
+
+        private string[] Strings(JArray array, string key)
+        {
+            var strings = new List<string>();
+            foreach (var item in array) strings.Add((string)Convert(item, typeof(string), key));
+            return strings.ToArray();
+        }
+
+        private static string NameOf(Type type)
+        {
+            if (type == typeof(int) || type == typeof(ulong)) return "whole number";
+            if (type == typeof(float) || type == typeof(double)) return "number";
+            if (type == typeof(string[])) return "list of strings";
+            if (type == typeof(bool)) return "true or false";
+            return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
+        }
+
+        private static JsonTextReader Reader(string text) =>
+            new JsonTextReader(new StringReader(text)) { DateParseHandling = DateParseHandling.None };
+
+        private static void RefuseDuplicates(string path, string text)
+        {
+            var reader = Reader(text);
+            var keys = new Stack<HashSet<string>>();
+            while (reader.Read())
+            {
+                if (reader.TokenType == JsonToken.StartObject) keys.Push(new HashSet<string>());
+                else if (reader.TokenType == JsonToken.EndObject) keys.Pop();
+                else if (reader.TokenType == JsonToken.PropertyName && !keys.Peek().Add((string)reader.Value))
+                {
+                    throw new ScenarioException(path + ":" + reader.LineNumber + ": the key '" + reader.Value + "' is given twice");
+                }
+            }
+        }
+    }
+}

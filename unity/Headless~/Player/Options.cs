@@ -1,0 +1,78 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace Collektive.Headless
+{
+    /// <summary>The player's command line; <c>./collektive run</c> writes it.</summary>
+    internal sealed class Options
+    {
+        internal const string Usage =
+            "Player plan SCENARIO\n" +
+            "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
+            "           [--template HTML] [--seed K] [--seconds S] [--set FIELD=VALUE]...";
+
+        internal string Command { get; private set; }
+
+        internal string Scenario { get; private set; }
+
+        internal string Scripts { get; private set; }
+
+        internal List<string> Jars { get; } = new List<string>();
+
+        internal string HostJar { get; private set; }
+
+        internal string JavaHome { get; private set; }
+
+        internal string Out { get; private set; }
+
+        internal string Template { get; private set; }
+
+        internal ulong? Seed { get; private set; }
+
+        internal double? Seconds { get; private set; }
+
+        internal List<string> Assignments { get; } = new List<string>();
+
+        internal static Options Parse(string[] arguments)
+        {
+            if (arguments.Length < 2 || arguments[0] != "plan" && arguments[0] != "run") throw new ScenarioException("usage:\n" + Usage);
+            var options = new Options { Command = arguments[0], Scenario = arguments[1] };
+            for (var i = 2; i < arguments.Length; i += 2)
+            {
+                if (i + 1 == arguments.Length) throw new ScenarioException(arguments[i] + " needs a value");
+                options.Set(arguments[i], arguments[i + 1]);
+            }
+            return options;
+        }
+
+        private void Set(string name, string value)
+        {
+            switch (name)
+            {
+                case "--scripts": Scripts = value; break;
+                case "--jar": Jars.Add(value); break;
+                case "--host-jar": HostJar = value; break;
+                case "--java-home": JavaHome = value; break;
+                case "--out": Out = value; break;
+                case "--template": Template = value; break;
+                case "--set": Assignments.Add(value); break;
+                case "--seed":
+                    if (!ulong.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out var seed))
+                    {
+                        throw new ScenarioException("--seed " + value + ": it must be a whole number from 0 to 2^64 - 1");
+                    }
+                    Seed = seed;
+                    break;
+                case "--seconds":
+                    if (!double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out var seconds) || !(seconds > 0) || seconds > 1e9)
+                    {
+                        throw new ScenarioException("--seconds " + value + ": it must be a number greater than 0");
+                    }
+                    Seconds = seconds;
+                    break;
+                default: throw new ScenarioException("unknown option " + name + "\nusage:\n" + Usage);
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+using System;
+using System.Runtime.InteropServices;
+using Collektive.Bridge;
+
+namespace Collektive.Headless
+{
+    /// <summary>Runs scenario files without Unity: the package's own sources over the stand-in of its API.</summary>
+    internal static class Program
+    {
+        private const int JvmStopLimitMs = 5000;
+
+        private static int Main(string[] arguments)
+        {
+            var code = Run(arguments);
+            // The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.
+            try
+            {
+                Jvm.Stop(JvmStopLimitMs);
+            }
+            catch (BridgeException error)
+            {
+                Console.Error.WriteLine("collektive: the JVM did not end: " + error.Message);
+                code = Math.Max(code, 1);
+            }
+            catch (DllNotFoundException)
+            {
+                // Without the native library no JVM was started; whoever needed it has said so.
+            }
+            return code;
+        }
+
+        private static int Run(string[] arguments)
+        {
+            try
+            {
+                var options = Options.Parse(arguments);
+                var scenario = Scenario.Read(options.Scenario);
+                if (options.Command == "plan")
+                {
+                    Plan(scenario);
+                    return 0;
+                }
+                return new ScenarioRun(scenario, options).Run();
+            }
+            catch (ScenarioException error)
+            {
+                Console.Error.WriteLine("collektive: " + error.Message);
+                return 1;
+            }
+        }
+
+        /// <summary>What the command must build before the run, one "key=value" a line.</summary>
+        private static void Plan(Scenario scenario)
+        {
+            Console.WriteLine("scripts=" + scenario.Scripts);
+            Console.WriteLine("schema=" + scenario.Schema);
+            Console.WriteLine("programs=" + scenario.Programs);
+            Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
+            Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));
+        }
+    }
+}

@@ -1,0 +1,90 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Collektive.Headless
+{
+    /// <summary>Records the scene's nodes, links and standing obstacles for the replay page.</summary>
+    internal sealed class ReplayRecorder : IDisposable
+    {
+        private readonly ReplayWriter writer;
+        private readonly SceneBuilder scene;
+        private readonly SimulationManager manager;
+        private readonly List<LinkRecord> links = new List<LinkRecord>();
+
+        internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, SimulationManager manager)
+        {
+            this.scene = scene;
+            this.manager = manager;
+            var metadata = new ReplayMetadata
+            {
+                Title = scenario.Program,
+                Seed = scenario.Seed,
+                DeltaTime = scenario.DeltaTime,
+                ScalarName = scene.ShadeName ?? "id",
+            };
+            Describe(metadata);
+            writer = new ReplayWriter(scratchPath, metadata);
+        }
+
+        public void Dispose() => writer.Dispose();
+
+        internal void Add(double time)
+        {
+            writer.BeginFrame(time);
+            foreach (var node in manager.Nodes)
+            {
+                var position = node.transform.position;
+                writer.Node(node.Id, position.x, position.y, position.z, scene.ShadeName == null ? node.Id : scene.Shade(node));
+            }
+            manager.CopyLinks(links);
+            foreach (var link in links) writer.Link(link.From, link.To);
+            writer.EndFrame();
+        }
+
+        internal void Finish(string template, string path) => writer.Finish(template, path);
+
+        private void Describe(ReplayMetadata metadata)
+        {
+            var arena = new Bounds();
+            var empty = true;
+            foreach (var collider in Object.FindObjectsByType<Collider>(FindObjectsSortMode.InstanceID))
+            {
+                var bounds = collider.bounds;
+                if (empty) arena = bounds;
+                else arena.Encapsulate(bounds);
+                empty = false;
+                if (collider.GetComponentInParent<Node>() != null)
+                {
+                    if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
+                    continue;
+                }
+                if (collider.attachedRigidbody != null || collider.isTrigger) continue;
+                if (collider is BoxCollider box) Add(metadata, box);
+                if (collider is SphereCollider sphere) Add(metadata, sphere);
+            }
+            metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z);
+            foreach (var landmark in scene.Landmarks)
+            {
+                metadata.AddMarker(landmark.Key, landmark.Value.x, landmark.Value.y, landmark.Value.z);
+            }
+        }
+
+        private static void Add(ReplayMetadata metadata, BoxCollider box)
+        {
+            var centre = box.transform.TransformPoint(box.center);
+            var size = Vector3.Scale(box.size, box.transform.lossyScale);
+            var turn = box.transform.rotation;
+            metadata.AddBox(centre.x, centre.y, centre.z, size.x, size.y, size.z, turn.x, turn.y, turn.z, turn.w);
+        }
+
+        private static void Add(ReplayMetadata metadata, SphereCollider sphere)
+        {
+            var centre = sphere.transform.TransformPoint(sphere.center);
+            metadata.AddSphere(centre.x, centre.y, centre.z, sphere.radius * sphere.transform.lossyScale.x);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+using System.IO;
+using Newtonsoft.Json.Linq;
+using org.collektive.frame;
+
+namespace Collektive.Headless
+{
+    /// <summary>A scenario file. Paths in it are relative to the file; here they are absolute.</summary>
+    internal sealed class Scenario
+    {
+        private const int Version = 1;
+
+        private Scenario(JsonFile file, string path)
+        {
+            var root = file.Root;
+            file.RefuseUnknown(
+                root, "", "version", "scene", "scripts", "schema", "programs", "program", "fields", "seed", "seconds", "deltaTime",
+                "physicsStep", "schedule", "threads", "jvm", "outputs");
+            var version = file.Required<int>(root, "version");
+            if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
+            File = file;
+            Path = path;
+            var folder = System.IO.Path.GetDirectoryName(path);
+            Scene = file.Required<string>(root, "scene");
+            Scripts = Existing(file, root, "scripts", folder, directory: true);
+            Schema = Existing(file, root, "schema", folder, directory: false);
+            Programs = Existing(file, root, "programs", folder, directory: null);
+            Program = file.Required<string>(root, "program");
+            Fields = file.Optional(root, "fields", new JObject());
+            Seed = file.Optional(root, "seed", 1UL);
+            Seconds = file.Required<double>(root, "seconds");
+            if (!(Seconds > 0) || Seconds > 1e9) throw file.Error(root["seconds"], "'seconds' must be greater than 0");
+            DeltaTime = file.Optional(root, "deltaTime", 0.05f);
+            PhysicsStep = file.Optional(root, "physicsStep", 0.02f);
+            Schedule = file.Optional(root, "schedule", Schedule.Lockstep);
+            Threads = file.Optional(root, "threads", 1);
+            var jvm = file.Optional(root, "jvm", new JObject());
+            file.RefuseUnknown(jvm, "jvm.", "home", "options");
+            JavaHome = file.Optional(jvm, "home", "");
+            JvmOptions = file.Optional(jvm, "options", new string[0]);
+            var outputs = file.Optional(root, "outputs", new JObject());
+            file.RefuseUnknown(outputs, "outputs.", "metrics", "replay", "pictures");
+            Metrics = file.Optional(outputs, "metrics", true);
+            Replay = file.Optional(outputs, "replay", false);
+            Pictures = file.Optional(outputs, "pictures", false);
+            if (Pictures && !Replay) throw file.Error(outputs["pictures"], "'outputs.pictures' needs 'outputs.replay': pictures are taken from the replay page");
+        }
+
+        internal JsonFile File { get; }
+
+        internal string Path { get; }
+
+        internal string Scene { get; }
+
+        internal string Scripts { get; }
+
+        internal string Schema { get; }
+
+        internal string Programs { get; }
+
+        internal string Program { get; }
+
+        internal JObject Fields { get; }
+
+        internal ulong Seed { get; set; }
+
+        internal double Seconds { get; set; }
+
+        internal float DeltaTime { get; }
+
+        internal float PhysicsStep { get; }
+
+        internal Schedule Schedule { get; }
+
+        internal int Threads { get; }
+
+        internal string JavaHome { get; }
+
+        internal string[] JvmOptions { get; }
+
+        internal bool Metrics { get; }
+
+        internal bool Replay { get; }
+
+        internal bool Pictures { get; }
+
+        internal static Scenario Read(string path) => new Scenario(JsonFile.Read(path), System.IO.Path.GetFullPath(path));
+
+        private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)
+        {
+            var named = file.Required<string>(root, key);
+            var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(folder, named));
+            var isDirectory = Directory.Exists(path);
+            if (directory == null ? isDirectory || System.IO.File.Exists(path) : directory.Value ? isDirectory : System.IO.File.Exists(path)) return path;
+            var kind = directory == null ? "jar or folder" : directory.Value ? "folder" : "file";
+            throw file.Error(root[key], "'" + key + "' names no " + kind + ": " + path);
+        }
+    }
+}

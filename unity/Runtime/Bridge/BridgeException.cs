@@ -1,0 +1,54 @@
+using System;
+
+namespace Collektive.Bridge
+{
+    /// <summary>What went wrong behind the bridge; the numbers are those of <c>CLK_ERRORS</c> in the shim's header.</summary>
+    public enum BridgeError
+    {
+        /// <summary>An argument is out of range.</summary>
+        Argument = -1,
+        /// <summary>Out of native memory.</summary>
+        Memory = -2,
+        /// <summary>A slot or session handle is stale.</summary>
+        Handle = -3,
+        /// <summary>The time limit passed before the engine answered.</summary>
+        Timeout = -4,
+        /// <summary>No usable JVM at the given place.</summary>
+        JvmNotFound = -5,
+        /// <summary>The JVM refuses its options.</summary>
+        JvmOptions = -6,
+        /// <summary>The JVM could not be created.</summary>
+        JvmStart = -7,
+        /// <summary>The JVM is lost until the process restarts.</summary>
+        JvmLost = -8,
+        /// <summary>No JVM is running.</summary>
+        JvmNotRunning = -9,
+        /// <summary>A JVM runs already, with other settings.</summary>
+        JvmRunning = -10,
+        /// <summary>The host's jar is missing or of another version.</summary>
+        Host = -11,
+        /// <summary>The frame breaks a rule; it changed nothing.</summary>
+        Frame = -12,
+        /// <summary>C# and Kotlin were generated from different schemas.</summary>
+        Schema = -13,
+        /// <summary>A program cannot be loaded.</summary>
+        Program = -14,
+        /// <summary>The session ended after a round that did not finish.</summary>
+        SessionFailed = -15,
+        /// <summary>The host threw an unexpected exception.</summary>
+        Java = -16,
+    }
+
+    /// <summary>An error of the shim or of the JVM behind it; the message says what happened, to what, and what to do.</summary>
+    public sealed class BridgeException : Exception
+    {
+        /// <summary>Makes an exception of the given kind.</summary>
+        public BridgeException(BridgeError error, string message) : base(message)
+        {
+            Error = error;
+        }
+
+        /// <summary>The kind of error.</summary>
+        public BridgeError Error { get; }
+    }
+}

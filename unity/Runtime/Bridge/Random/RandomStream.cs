@@ -1,0 +1,82 @@
+using System;
+
+namespace Collektive.Bridge
+{
+    /// <summary>What a stream of random numbers is for; streams of different purposes are independent.</summary>
+    public enum RandomPurpose
+    {
+        /// <summary><c>Device.random</c> of programs (used on the JVM only).</summary>
+        Program = 0,
+        /// <summary>A node's sensors and actuators.</summary>
+        Node = 1,
+        /// <summary>The scene as a whole: placing nodes, for instance.</summary>
+        Scene = 2,
+    }
+
+    /// <summary>
+    /// Random numbers that depend on seed, node and purpose alone: never on the order in which other nodes draw theirs.
+    /// Not thread-safe; allocates nothing after its construction.
+    /// </summary>
+    public sealed class RandomStream
+    {
+        private readonly ulong seed;
+        private readonly uint node;
+        private readonly uint purpose;
+        private ulong block;
+        private int used = 4;
+        private uint w0, w1, w2, w3;
+
+        /// <summary>Makes the stream of a node (0 or greater; 0 for the scene's own).</summary>
+        public RandomStream(ulong seed, int node, RandomPurpose purpose)
+        {
+            if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "ids are 0 or greater");
+            this.seed = seed;
+            this.node = (uint)node;
+            this.purpose = (uint)purpose;
+        }
+
+        /// <summary>The next 32 random bits.</summary>
+        public uint NextUInt()
+        {
+            if (used == 4)
+            {
+                w0 = (uint)block;
+                w1 = (uint)(block >> 32);
+                w2 = node;
+                w3 = purpose;
+                Philox.Block(seed, ref w0, ref w1, ref w2, ref w3);
+                block++;
+                used = 0;
+            }
+            switch (used++)
+            {
+                case 0: return w0;
+                case 1: return w1;
+                case 2: return w2;
+                default: return w3;
+            }
+        }
+
+        /// <summary>A number in [0, 1), evenly spread over the multiples of 2^-53.</summary>
+        public double NextDouble()
+        {
+            var high = (ulong)NextUInt();
+            var low = NextUInt();
+            return ((high << 32 | low) >> 11) * (1.0 / (1L << 53));
+        }
+
+        /// <summary>A number between <paramref name="low"/> and <paramref name="high"/>, the latter left out but for rounding.</summary>
+        public float Range(float low, float high)
+        {
+            return (float)(low + (high - low) * NextDouble());
+        }
+
+        /// <summary>A whole number from <paramref name="low"/> to <paramref name="high"/> - 1.</summary>
+        /// <exception cref="ArgumentOutOfRangeException"><paramref name="high"/> is not greater than <paramref name="low"/>.</exception>
+        public int Range(int low, int high)
+        {
+            if (high <= low) throw new ArgumentOutOfRangeException(nameof(high), high, "must be greater than " + low);
+            return (int)(low + (long)(NextDouble() * ((long)high - low)));
+        }
+    }
+}

@@ -1,0 +1,35 @@
+using System;
+
+namespace Collektive.Bridge
+{
+    /// <summary>A list that shows its array, so that it can be written as one block. Clearing keeps the memory.</summary>
+    public sealed class GrowingArray<T>
+    {
+        /// <summary>The elements; only the first <see cref="Count"/> count.</summary>
+        public T[] Items { get; private set; } = new T[16];
+
+        /// <summary>How many elements there are.</summary>
+        public int Count { get; private set; }
+
+        /// <summary>Appends an element.</summary>
+        public void Add(T item)
+        {
+            if (Count == Items.Length)
+            {
+                var items = Items;
+                Array.Resize(ref items, Count * 2);
+                Items = items;
+            }
+            Items[Count++] = item;
+        }
+
+        /// <summary>Makes it empty.</summary>
+        public void Clear() => Truncate(0);
+
+        /// <summary>Keeps the first <paramref name="count"/> elements, at most as many as there are.</summary>
+        public void Truncate(int count)
+        {
+            Count = Math.Min(Count, count);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+using System;
+using System.Collections.Generic;
+using Google.FlatBuffers;
+using Frame = org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// One simulation on the JVM: a set of nodes, their links and their programs. <see cref="Step"/> makes exactly one call
+    /// across the boundary. Used from one thread at a time; no managed allocation per step in steady state.
+    /// </summary>
+    public sealed unsafe class Session : IDisposable
+    {
+        private const int FirstCapacity = 64 * 1024;
+
+        private readonly SlotAllocator slot;
+        private readonly FlatBufferBuilder builder;
+        private readonly AnswerMemory answerMemory = new AnswerMemory();
+        private readonly ByteBuffer answerBuffer;
+        private readonly int closeLimitMs;
+        private ulong handle;
+
+        private Session(SessionSettings settings, DataSchema schema)
+        {
+            closeLimitMs = settings.OpenLimitMs;
+            Request = new StepRequest(schema.CreateSensors(), schema.CreateGlobals());
+            Answer = new StepAnswer(schema.CreateActuators());
+            answerBuffer = new ByteBuffer(answerMemory, 0);
+            slot = new SlotAllocator(FirstCapacity);
+            builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));
+        }
+
+        /// <summary>The programs in the session's jars.</summary>
+        public IReadOnlyList<ProgramInfo> Programs { get; private set; }
+
+        /// <summary>What the next step sends.</summary>
+        public StepRequest Request { get; }
+
+        /// <summary>What the last step answered.</summary>
+        public StepAnswer Answer { get; }
+
+        /// <summary>The last tick that succeeded; 0 before the first.</summary>
+        public ulong Tick { get; private set; }
+
+        /// <summary>Simulated seconds at the end of the last tick.</summary>
+        public double Time { get; private set; }
+
+        /// <summary>Bytes of the last request.</summary>
+        public int RequestBytes { get; private set; }
+
+        /// <summary>Bytes of the last answer.</summary>
+        public int AnswerBytes { get; private set; }
+
+        /// <summary>Opens a session on the running JVM.</summary>
+        /// <exception cref="BridgeException">A jar, a program or the schema does not fit, or no JVM runs.</exception>
+        public static Session Open(SessionSettings settings, DataSchema schema)
+        {
+            var session = new Session(settings, schema);
+            try
+            {
+                session.Open(settings, schema.Name, schema.Types);
+                return session;
+            }
+            catch
+            {
+                session.slot.Release();
+                throw;
+            }
+        }
+
+        /// <summary>
+        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with what <see cref="Request"/> holds, and empties
+        /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is as before the call.
+        /// </summary>
+        /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>
+        public void Step(double deltaTime, int limitMs)
+        {
+            if (handle == 0) throw new ObjectDisposedException(nameof(Session));
+            builder.Clear();
+            Request.Write(builder, Tick + 1, Time, deltaTime);
+            var offset = builder.DataBuffer.Position;
+            RequestBytes = builder.DataBuffer.Length - offset;
+            var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
+            Shim.Check(Shim.clk_step(handle, slot.Slot, offset, RequestBytes, limitMs, &answer));
+            Tick++;
+            Time += deltaTime;
+            Request.Clear();
+            Point(answer);
+            Answer.Read(answerBuffer);
+        }
+
+        /// <summary>Closes the session and gives its memory back. A second call does nothing.</summary>
+        public void Dispose()
+        {
+            if (handle == 0) return;
+            var closing = handle;
+            handle = 0;
+            answerMemory.Detach();
+            try
+            {
+                if (Jvm.State == JvmState.Running) Shim.Check(Shim.clk_session_close(closing, closeLimitMs));
+            }
+            finally
+            {
+                slot.Release();
+            }
+        }
+
+        private void Open(SessionSettings settings, string schema, IReadOnlyList<KeyValuePair<string, ulong>> types)
+        {
+            WriteOpenRequest(settings, schema, types);
+            var offset = builder.DataBuffer.Position;
+            var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
+            ulong opened;
+            Shim.Check(Shim.clk_session_open(
+                slot.Slot, offset, builder.DataBuffer.Length - offset, settings.OpenLimitMs, &opened, &answer));
+            handle = opened;
+            Point(answer);
+            Programs = ReadPrograms(Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer));
+        }
+
+        private void WriteOpenRequest(
+            SessionSettings settings, string schema, IReadOnlyList<KeyValuePair<string, ulong>> types)
+        {
+            builder.Clear();
+            var jars = new StringOffset[settings.Jars.Count];
+            for (var i = 0; i < jars.Length; i++) jars[i] = builder.CreateString(settings.Jars[i]);
+            var fingerprints = new Offset<Frame.TypeFingerprint>[types.Count];
+            for (var i = 0; i < fingerprints.Length; i++)
+            {
+                fingerprints[i] = Frame.TypeFingerprint.CreateTypeFingerprint(
+                    builder, builder.CreateString(types[i].Key), types[i].Value);
+            }
+            builder.Finish(Frame.OpenRequest.CreateOpenRequest(
+                builder, SessionSettings.Protocol, settings.Seed, settings.Threads, settings.Schedule,
+                Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema),
+                Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
+                builder.CreateString(settings.Program ?? "")).Value);
+        }
+
+        private static ProgramInfo[] ReadPrograms(Frame.OpenResponse response)
+        {
+            var programs = new ProgramInfo[response.ProgramsLength];
+            for (var i = 0; i < programs.Length; i++)
+            {
+                var program = response.Programs(i).GetValueOrDefault();
+                var parameters = new ProgramParameter[program.ParametersLength];
+                for (var p = 0; p < parameters.Length; p++)
+                {
+                    var parameter = program.Parameters(p).GetValueOrDefault();
+                    parameters[p] = new ProgramParameter(parameter.Name, parameter.DefaultValue, parameter.Description ?? "");
+                }
+                programs[i] = new ProgramInfo(program.Name, parameters);
+            }
+            return programs;
+        }
+
+        private void Point(Shim.Answer answer)
+        {
+            answerMemory.Point(answer);
+            answerBuffer.Position = answer.Offset;
+            AnswerBytes = answer.Length;
+        }
+    }
+}

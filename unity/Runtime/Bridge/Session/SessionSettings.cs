@@ -1,0 +1,29 @@
+using System.Collections.Generic;
+
+namespace Collektive.Bridge
+{
+    /// <summary>What a session is opened with.</summary>
+    public sealed class SessionSettings
+    {
+        /// <summary>Version of <c>frame.fbs</c> that both sides must share.</summary>
+        internal const uint Protocol = 1;
+
+        /// <summary>The one seed that all randomness of the session comes from.</summary>
+        public ulong Seed { get; set; }
+
+        /// <summary>Threads of the JVM that run rounds, 1..256. The results do not depend on it.</summary>
+        public int Threads { get; set; } = 1;
+
+        /// <summary>Which messages a round sees.</summary>
+        public org.collektive.frame.Schedule Schedule { get; set; }
+
+        /// <summary>Paths of the jars with programs; read into memory at the opening, never held open.</summary>
+        public IReadOnlyList<string> Jars { get; set; } = new string[0];
+
+        /// <summary>Program of nodes that name none.</summary>
+        public string Program { get; set; } = "";
+
+        /// <summary>Limit for opening and closing in milliseconds.</summary>
+        public int OpenLimitMs { get; set; } = 30000;
+    }
+}

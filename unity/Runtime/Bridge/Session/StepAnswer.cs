@@ -1,0 +1,70 @@
+using Google.FlatBuffers;
+using Frame = org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>The JVM's answer to a step, read in place; valid until the session's next call. Not thread-safe.</summary>
+    public sealed class StepAnswer
+    {
+        /// <summary>VTable offset of <c>StepResponse.actuators</c>, its fourth field.</summary>
+        private const int ActuatorsField = 4 + 3 * 2;
+
+        private Frame.StepResponse response;
+
+        internal StepAnswer(ActuatorBuffer actuators)
+        {
+            Actuators = actuators;
+        }
+
+        /// <summary>The actuator data; element i belongs to <see cref="Node"/>(i).</summary>
+        public ActuatorBuffer Actuators { get; }
+
+        /// <summary>How many rounds gave an answer.</summary>
+        public int NodeCount => response.NodesLength;
+
+        /// <summary>The tick that was run.</summary>
+        public ulong Tick => response.Tick;
+
+        /// <summary>First 8 bytes of the chained digest of all rounds so far.</summary>
+        public ulong Digest => response.Digest;
+
+        /// <summary>Rounds that failed in this tick.</summary>
+        public int ErrorCount => response.ErrorsLength;
+
+        /// <summary>Nodes that the engine holds.</summary>
+        public int EngineNodes => response.NodeCount;
+
+        /// <summary>Directed links that the engine holds.</summary>
+        public int EngineLinks => response.LinkCount;
+
+        /// <summary>Microseconds that the JVM spent on the step.</summary>
+        public int HostMicros => response.HostMicros;
+
+        /// <summary>Microseconds of these that the rounds took.</summary>
+        public int RoundMicros => response.RoundMicros;
+
+        /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
+        public int Node(int index) => response.Nodes(index);
+
+        /// <summary>The node, the program and the text of a failed round. Allocates.</summary>
+        public (int Node, string Program, string Message) Error(int index)
+        {
+            var error = response.Errors(index).GetValueOrDefault();
+            return (error.Node, error.Program, error.Message);
+        }
+
+        internal void Read(ByteBuffer answer)
+        {
+            response = Frame.StepResponse.GetRootAsStepResponse(answer);
+            var table = new Table(answer.GetInt(answer.Position) + answer.Position, answer);
+            var field = table.__offset(ActuatorsField);
+            if (field == 0) throw new BridgeException(BridgeError.Java, "the host's answer holds no actuator data");
+            Actuators.Attach(answer, table.__indirect(table.bb_pos + field));
+            if (Actuators.Count != NodeCount)
+            {
+                throw new BridgeException(
+                    BridgeError.Java, "the host answered " + Actuators.Count + " actuator data for " + NodeCount + " nodes");
+            }
+        }
+    }
+}

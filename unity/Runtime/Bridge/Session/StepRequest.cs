@@ -1,0 +1,151 @@
+using System;
+using System.Collections.Generic;
+using Google.FlatBuffers;
+using Frame = org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// What changed since the last tick, and who is due. Filled by the owner of the session, written to the request slot by
+    /// <see cref="Session.Step"/>, emptied when the step succeeded. Not thread-safe; no allocation in steady state.
+    /// </summary>
+    public sealed class StepRequest
+    {
+        private readonly GrowingArray<int> nodesRemoved = new GrowingArray<int>();
+        private readonly List<NewNode> nodesAdded = new List<NewNode>();
+        private readonly GrowingArray<LinkEnds> linksRemoved = new GrowingArray<LinkEnds>();
+        private readonly GrowingArray<LinkRecord> links = new GrowingArray<LinkRecord>();
+        private readonly GrowingArray<int> due = new GrowingArray<int>();
+
+        internal StepRequest(SensorBuffer sensors, GlobalBuffer globals)
+        {
+            Sensors = sensors;
+            Globals = globals;
+        }
+
+        /// <summary>Sensor data of the due nodes, element i for the i-th call of <see cref="AddDue"/>.</summary>
+        public SensorBuffer Sensors { get; }
+
+        /// <summary>Global data, or null when the schema has none.</summary>
+        public GlobalBuffer Globals { get; }
+
+        /// <summary>Whether <see cref="Globals"/> goes out with the next step.</summary>
+        public bool GlobalsChanged { get; set; }
+
+        /// <summary>Nodes due in the next step.</summary>
+        public int DueCount => due.Count;
+
+        /// <summary>The id of a due node.</summary>
+        public int Due(int index) => due.Items[index];
+
+        /// <summary>Adds a node; its parameters are kept by reference until the step.</summary>
+        public void AddNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
+        {
+            nodesAdded.Add(new NewNode(id, program, parameters));
+        }
+
+        /// <summary>Removes a node and its links. Removals come before additions.</summary>
+        public void RemoveNode(int id)
+        {
+            nodesRemoved.Add(id);
+        }
+
+        /// <summary>Makes a directed link, or gives an existing one new values.</summary>
+        public void SetLink(LinkRecord link)
+        {
+            links.Add(link);
+        }
+
+        /// <summary>Removes a directed link between nodes that stay.</summary>
+        public void RemoveLink(LinkEnds link)
+        {
+            linksRemoved.Add(link);
+        }
+
+        /// <summary>Makes a node run a round in the next step. Ids must come in ascending order.</summary>
+        public void AddDue(int id)
+        {
+            due.Add(id);
+        }
+
+        /// <summary>Forgets who is due; changes stay.</summary>
+        public void ClearDue()
+        {
+            due.Clear();
+        }
+
+        internal void Clear()
+        {
+            nodesRemoved.Clear();
+            nodesAdded.Clear();
+            linksRemoved.Clear();
+            links.Clear();
+            due.Clear();
+            GlobalsChanged = false;
+        }
+
+        internal unsafe void Write(FlatBufferBuilder builder, ulong tick, double time, double deltaTime)
+        {
+            var sensors = Sensors.Write(builder, due.Count);
+            var globals = GlobalsChanged ? Globals.Write(builder) : 0;
+            var dueVector = Block(builder, due, sizeof(int));
+            var linksVector = Block(builder, links, sizeof(LinkRecord));
+            var linksRemovedVector = Block(builder, linksRemoved, sizeof(LinkEnds));
+            var nodesAddedVector = WriteNodesAdded(builder);
+            var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
+            builder.Finish(Frame.StepRequest.CreateStepRequest(
+                builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals)).Value);
+        }
+
+        private static unsafe VectorOffset Block<T>(FlatBufferBuilder builder, GrowingArray<T> array, int elementSize)
+            where T : unmanaged
+        {
+            if (array.Count == 0) return default;
+            builder.StartVector(elementSize, array.Count, sizeof(int));
+            fixed (T* items = array.Items) builder.Put<byte>((IntPtr)items, array.Count * elementSize);
+            return builder.EndVector();
+        }
+
+        private VectorOffset WriteNodesAdded(FlatBufferBuilder builder)
+        {
+            if (nodesAdded.Count == 0) return default;
+            var offsets = new Offset<Frame.NodeAdded>[nodesAdded.Count];
+            for (var i = 0; i < offsets.Length; i++)
+            {
+                var node = nodesAdded[i];
+                var parameters = WriteParameters(builder, node.Parameters);
+                var program = string.IsNullOrEmpty(node.Program) ? default : builder.CreateSharedString(node.Program);
+                offsets[i] = Frame.NodeAdded.CreateNodeAdded(builder, node.Id, program, parameters);
+            }
+            return Frame.StepRequest.CreateNodesAddedVector(builder, offsets);
+        }
+
+        private static VectorOffset WriteParameters(
+            FlatBufferBuilder builder, IReadOnlyList<KeyValuePair<string, string>> parameters)
+        {
+            if (parameters == null || parameters.Count == 0) return default;
+            var offsets = new Offset<Frame.Parameter>[parameters.Count];
+            for (var i = 0; i < offsets.Length; i++)
+            {
+                offsets[i] = Frame.Parameter.CreateParameter(
+                    builder, builder.CreateSharedString(parameters[i].Key), builder.CreateSharedString(parameters[i].Value));
+            }
+            return Frame.NodeAdded.CreateParametersVector(builder, offsets);
+        }
+
+        private readonly struct NewNode
+        {
+            internal readonly int Id;
+            internal readonly string Program;
+            internal readonly IReadOnlyList<KeyValuePair<string, string>> Parameters;
+
+            internal NewNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
+            {
+                Id = id;
+                Program = program;
+                Parameters = parameters;
+            }
+        }
+    }
+}

@@ -1,0 +1,37 @@
+using System;
+using Collektive.Bridge;
+
+namespace Collektive.Unity
+{
+    /// <summary>Base of all actuators; user actuators derive from <see cref="Actuator{TData}"/>.</summary>
+    public abstract class Actuator : NodePart
+    {
+        internal abstract Type DataType { get; }
+
+        internal abstract void Act(ActuatorBuffer buffer, int index);
+
+        internal sealed override void Attach(Node node) => node.Actuators.Add(this);
+
+        internal sealed override void Detach(Node node) => node.Actuators.Remove(this);
+    }
+
+    /// <summary>Does in the scene what a node's program answered.</summary>
+    /// <typeparam name="TData">
+    /// The generated type of the schema's actuator data: <c>ActuatorDataValue</c> for a struct, <c>ActuatorData</c> for a table.
+    /// </typeparam>
+    public abstract class Actuator<TData> : Actuator
+    {
+        internal sealed override Type DataType => typeof(TData);
+
+        internal sealed override void Act(ActuatorBuffer buffer, int index)
+        {
+            Act(((ActuatorBuffer<TData>)buffer)[index]);
+        }
+
+        /// <summary>
+        /// Called once after each round of the node that gave an answer, on the main thread, before physics advance. Data of a table
+        /// is a view of the bridge's memory: valid during the call only.
+        /// </summary>
+        protected abstract void Act(TData data);
+    }
+}

@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// A device of the simulation. It takes part from <c>OnEnable</c> to <c>OnDisable</c>; coming back it starts afresh, without
+    /// state or messages. Its sensors and actuators are the enabled ones on its GameObject and on children without a Node.
+    /// </summary>
+    [AddComponentMenu("Collektive/Node")]
+    [DisallowMultipleComponent]
+    public sealed class Node : MonoBehaviour
+    {
+        private static readonly List<Node> EnabledNodes = new List<Node>();
+
+        [SerializeField]
+        [Tooltip("Unique number of the node, 0 or greater. -1: the manager gives the next free one.")]
+        private int id = -1;
+
+        [SerializeField]
+        [Tooltip("Name of the program that this node runs. Empty: the manager's.")]
+        private string program = "";
+
+        [SerializeField]
+        [Tooltip("Values of the program's parameters. Parameters without a value here have their default.")]
+        private List<NodeParameter> parameters = new List<NodeParameter>();
+
+        private readonly List<Sensor> sensors = new List<Sensor>();
+        private readonly List<Actuator> actuators = new List<Actuator>();
+        private readonly List<NeighbourhoodRule> rules = new List<NeighbourhoodRule>();
+        private RandomStream random;
+        private int joinedId = -1;
+
+        /// <summary>The id in the running simulation; -1 while the node takes no part.</summary>
+        public int Id => joinedId;
+
+        /// <summary>The wanted id, or -1 for the next free one. Read when the node joins.</summary>
+        public int RequestedId
+        {
+            get => id;
+            set => id = value;
+        }
+
+        /// <summary>The program's name; empty for the manager's. Read when the node joins.</summary>
+        public string Program
+        {
+            get => program;
+            set => program = value ?? "";
+        }
+
+        /// <summary>Values of the program's parameters. Read when the node joins.</summary>
+        public List<NodeParameter> Parameters => parameters;
+
+        /// <summary>Random numbers of this node, for its sensors and actuators; they depend on the seed and the id alone.</summary>
+        /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
+        public RandomStream Random =>
+            random ?? throw new InvalidOperationException("node '" + name + "' has random numbers only while it takes part in a simulation");
+
+        /// <summary>The last error of this node's round, sensors or actuators; empty while there was none.</summary>
+        public string LastError { get; internal set; } = "";
+
+        internal static List<Node> All => EnabledNodes;
+
+        internal Transform Body { get; private set; }
+
+        internal List<Sensor> Sensors => sensors;
+
+        internal List<Actuator> Actuators => actuators;
+
+        internal List<NeighbourhoodRule> Rules => rules;
+
+        internal void Joined(int newId, ulong seed)
+        {
+            joinedId = newId;
+            random = new RandomStream(seed, newId, RandomPurpose.Node);
+            LastError = "";
+        }
+
+        internal void Left()
+        {
+            joinedId = -1;
+            random = null;
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void ResetStatics()
+        {
+            EnabledNodes.Clear();
+        }
+
+        private void Awake()
+        {
+            Body = transform;
+        }
+
+        private void OnEnable()
+        {
+            EnabledNodes.Add(this);
+            if (SimulationManager.Current != null) SimulationManager.Current.Join(this);
+        }
+
+        private void OnDisable()
+        {
+            EnabledNodes.Remove(this);
+            if (SimulationManager.Current != null) SimulationManager.Current.Leave(this);
+        }
+    }
+
+    /// <summary>The value of one program parameter on one node.</summary>
+    [Serializable]
+    public struct NodeParameter
+    {
+        /// <summary>The parameter's name, as the program declares it.</summary>
+        [Tooltip("The parameter's name, as the program declares it.")]
+        public string name;
+
+        /// <summary>Its value as text.</summary>
+        [Tooltip("Its value as text.")]
+        public string value;
+
+        /// <summary>Makes a value.</summary>
+        public NodeParameter(string name, string value)
+        {
+            this.name = name;
+            this.value = value;
+        }
+    }
+}

@@ -1,0 +1,38 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent.
+    /// A subclass that has its own <c>OnEnable</c> or <c>OnDisable</c> overrides these and calls them.
+    /// </summary>
+    public abstract class NodePart : MonoBehaviour
+    {
+        /// <summary>The node that this component belongs to; null until it is enabled.</summary>
+        public Node Node { get; private set; }
+
+        /// <summary>Joins the node.</summary>
+        protected virtual void OnEnable()
+        {
+            Node = GetComponentInParent<Node>();
+            if (Node == null)
+            {
+                Debug.LogError(
+                    GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add one (Collektive/Node)", this);
+                enabled = false;
+                return;
+            }
+            Attach(Node);
+        }
+
+        /// <summary>Leaves the node.</summary>
+        protected virtual void OnDisable()
+        {
+            if (!ReferenceEquals(Node, null)) Detach(Node);
+        }
+
+        internal abstract void Attach(Node node);
+
+        internal abstract void Detach(Node node);
+    }
+}

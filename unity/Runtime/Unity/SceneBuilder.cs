@@ -1,0 +1,44 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Fills a scene from code, so that the same scene runs in the editor and without it. Its public fields can be set in the
+    /// inspector, in a scenario file and on the command line. The scene needs a <see cref="SimulationManager"/>.
+    /// </summary>
+    public abstract class SceneBuilder : MonoBehaviour
+    {
+        /// <summary>Names of the scene's own metrics, for tables.</summary>
+        public virtual IReadOnlyList<string> MetricNames => Array.Empty<string>();
+
+        /// <summary>What <see cref="Shade"/> shows, for the legend of a replay; null: nodes have no shade.</summary>
+        public virtual string ShadeName => null;
+
+        /// <summary>Points to mark in a replay, with their labels.</summary>
+        public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
+
+        /// <summary>Writes the metrics of this moment, one per name. Called between ticks.</summary>
+        public virtual void Measure(double[] values)
+        {
+        }
+
+        /// <summary>A number to colour a node by in a replay.</summary>
+        public virtual float Shade(Node node) => 0;
+
+        /// <summary>Makes the scene's objects. Called once, from <c>Awake</c>, in play mode.</summary>
+        protected abstract void Build(SimulationManager manager);
+
+        private void Awake()
+        {
+            if (SimulationManager.Current == null)
+            {
+                Debug.LogError(
+                    GetType().Name + " on '" + name + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive)", this);
+                return;
+            }
+            Build(SimulationManager.Current);
+        }
+    }
+}

@@ -1,0 +1,571 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+using Collektive.Bridge;
+using UnityEngine;
+using Debug = UnityEngine.Debug;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Runs the simulation of a scene: decides that a tick is due, has the nodes sense, makes the one call into the JVM, has the nodes
+    /// act, and advances physics. One per scene; a second one disables itself. While it is paused there is no call, no physics and
+    /// no time. All members are for the main thread.
+    /// </summary>
+    [AddComponentMenu("Collektive/Simulation Manager")]
+    [DisallowMultipleComponent]
+    [DefaultExecutionOrder(-1000)]
+    public sealed class SimulationManager : MonoBehaviour
+    {
+        /// <summary>A frame that took long makes at most this many ticks; the rest of its time is dropped.</summary>
+        private const int MaxTicksPerFrame = 4;
+
+        /// <summary>Ids index arrays.</summary>
+        private const int MaxId = (1 << 24) - 1;
+
+        [SerializeField]
+        [Tooltip("What the simulation is started with.")]
+        private SimulationSettings settings = new SimulationSettings();
+
+        [SerializeField]
+        [Tooltip("On: no rounds, no physics, no simulated time.")]
+        private bool paused;
+
+        private readonly List<Node> nodes = new List<Node>();
+        private readonly List<Node> joining = new List<Node>();
+        private readonly GrowingArray<int> leaving = new GrowingArray<int>();
+        private readonly List<Node> roster = new List<Node>();
+        private readonly List<Node> due = new List<Node>();
+        private readonly GrowingArray<int> dueIds = new GrowingArray<int>();
+        private readonly NodeGrid grid = new NodeGrid();
+        // By node id: whether the JVM knows the node, and whether it left since the last tick.
+        private bool[] isKnown = new bool[64];
+        private bool[] isGone = new bool[64];
+        private bool anyGone;
+        private float searchRadius = 1;
+        private Session session;
+        private SimulationMode modeBefore;
+        private double accumulated;
+        private int nextId;
+        private bool stepping;
+
+        /// <summary>Called after each tick, when physics have advanced.</summary>
+        public event Action<SimulationManager> Ticked;
+
+        /// <summary>The scene's manager; null when there is none.</summary>
+        public static SimulationManager Current { get; private set; }
+
+        /// <summary>What the simulation is started with.</summary>
+        public SimulationSettings Settings => settings;
+
+        /// <summary>Whether the simulation stands still.</summary>
+        public bool Paused
+        {
+            get => paused;
+            set => paused = value;
+        }
+
+        /// <summary>Why the simulation stopped; empty while it did not.</summary>
+        public string Failure { get; private set; } = "";
+
+        /// <summary>Random numbers of the scene as a whole, from the seed alone.</summary>
+        public RandomStream Random { get; private set; }
+
+        /// <summary>The programs of the session; empty before the first frame.</summary>
+        public IReadOnlyList<ProgramInfo> Programs => session == null ? Array.Empty<ProgramInfo>() : session.Programs;
+
+        /// <summary>Nodes that take part, ascending by id.</summary>
+        public IReadOnlyList<Node> Nodes => nodes;
+
+        /// <summary>Ticks done.</summary>
+        public ulong Tick => session == null ? 0 : session.Tick;
+
+        /// <summary>Simulated seconds.</summary>
+        public double SimulatedTime => session == null ? 0 : session.Time;
+
+        /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
+        public ulong Digest { get; private set; }
+
+        /// <summary>Directed links.</summary>
+        public int LinkCount => Links.Count;
+
+        /// <summary>Errors of rounds, sensors and actuators so far.</summary>
+        public long ErrorCount { get; private set; }
+
+        /// <summary>Duration of the last tick's phases.</summary>
+        public TickTimes Times { get; private set; }
+
+        /// <summary>Microseconds of the last step that the JVM spent, and of these in rounds.</summary>
+        public (int Host, int Rounds) HostMicros { get; private set; }
+
+        internal LinkTable Links { get; } = new LinkTable();
+
+        /// <summary>
+        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> hears <paramref name="a"/>, and unless it is
+        /// <paramref name="directed"/> also the other way round. The length is the distance now. May be called from any script's
+        /// message method, <c>OnTriggerEnter</c> for instance; it takes effect at the next tick.
+        /// </summary>
+        public void AddLink(int a, int b, bool directed = false)
+        {
+            if (!CheckEnds("add", a, b)) return;
+            var length = Vector3.Distance(Find(a).Body.position, Find(b).Body.position);
+            Links.HoldForScripts(a, b, length, 0);
+            if (!directed) Links.HoldForScripts(b, a, length, 0);
+        }
+
+        /// <summary>Removes what <see cref="AddLink"/> made; links of neighbourhood rules stay.</summary>
+        public void RemoveLink(int a, int b, bool directed = false)
+        {
+            if (!CheckEnds("remove", a, b)) return;
+            var removed = Links.ReleaseForScripts(a, b);
+            if (!directed) removed |= Links.ReleaseForScripts(b, a);
+            if (!removed) Debug.LogWarning("no script made a link from node " + a + " to node " + b + ": nothing to remove", this);
+        }
+
+        /// <summary>Whether <paramref name="to"/> hears <paramref name="from"/>.</summary>
+        public bool HasLink(int from, int to) => Links.Contains(from, to);
+
+        /// <summary>Copies all directed links to <paramref name="target"/>, emptied first.</summary>
+        public void CopyLinks(List<LinkRecord> target)
+        {
+            target.Clear();
+            for (var i = 0; i < Links.Capacity; i++)
+            {
+                if (Links.TryGet(i, out var link)) target.Add(link);
+            }
+        }
+
+        /// <summary>The node of that id, or null.</summary>
+        public Node Find(int id)
+        {
+            var index = IndexOf(id);
+            return index < 0 ? null : nodes[index];
+        }
+
+        /// <summary>
+        /// The nodes within <paramref name="radius"/> metres of a point at the beginning of this tick, with their distances, in no order.
+        /// For neighbourhood rules: it is up to date while they are asked.
+        /// </summary>
+        public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances)
+        {
+            if (radius > searchRadius) searchRadius = radius;
+            grid.Find(centre, radius, found, distances);
+        }
+
+        /// <summary>Does one tick now, paused or not.</summary>
+        public void Step()
+        {
+            if (!isActiveAndEnabled || session == null)
+            {
+                Debug.LogError(
+                    Failure.Length > 0 ? "the simulation has stopped: " + Failure : "the simulation has not started: step it from Update on, in play mode", this);
+                return;
+            }
+            if (stepping) throw new InvalidOperationException("Step was called from within a tick");
+            stepping = true;
+            try
+            {
+                DoTick();
+            }
+            catch (BridgeException error)
+            {
+                Fail(error.Message);
+            }
+            finally
+            {
+                stepping = false;
+            }
+        }
+
+        /// <summary>Stops the simulation with an error and disables the manager. The editor and the JVM go on.</summary>
+        public void Fail(string message)
+        {
+            if (Failure.Length > 0) return;
+            Failure = message;
+            Debug.LogError("Simulation stopped: " + message, this);
+            enabled = false;
+        }
+
+        internal void Join(Node node)
+        {
+            var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
+            if (id > MaxId)
+            {
+                Fail("node '" + node.name + "' wants id " + id + ": the largest id is " + MaxId);
+                return;
+            }
+            var place = ~IndexOf(id);
+            if (place < 0)
+            {
+                Fail("node '" + node.name + "' wants id " + id + ", which node '" + nodes[~place].name + "' has: give each node its own id, or -1");
+                return;
+            }
+            nextId = Math.Max(nextId, id + 1);
+            if (id >= isKnown.Length)
+            {
+                Array.Resize(ref isKnown, Math.Max(id + 1, isKnown.Length * 2));
+                Array.Resize(ref isGone, isKnown.Length);
+            }
+            if (isGone[id]) DropLinksOfGone();
+            node.Joined(id, settings.seed);
+            nodes.Insert(place, node);
+            joining.Add(node);
+        }
+
+        internal void Leave(Node node)
+        {
+            var index = IndexOf(node.Id);
+            if (index < 0 || !ReferenceEquals(nodes[index], node)) return;
+            nodes.RemoveAt(index);
+            if (isKnown[node.Id]) leaving.Add(node.Id);
+            else joining.Remove(node);
+            isKnown[node.Id] = false;
+            isGone[node.Id] = true;
+            anyGone = true;
+            for (var i = 0; i < node.Rules.Count; i++) node.Rules[i].ReleaseAll(Links);
+            node.Left();
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void ResetStatics()
+        {
+            Current = null;
+        }
+
+        private void OnEnable()
+        {
+            if (Current != null && Current != this)
+            {
+                Failure = "a second Simulation Manager";
+                Debug.LogError(
+                    "'" + name + "' is a second Simulation Manager; '" + Current.name + "' runs the simulation. Remove one of them", this);
+                enabled = false;
+                return;
+            }
+            Current = this;
+            Failure = "";
+            Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
+            modeBefore = Physics.simulationMode;
+            Physics.simulationMode = SimulationMode.Script;
+            for (var i = 0; i < Node.All.Count && Failure.Length == 0; i++) Join(Node.All[i]);
+        }
+
+        private void OnDisable()
+        {
+            if (Current != this) return;
+            for (var i = nodes.Count - 1; i >= 0; i--) Leave(nodes[i]);
+            Current = null;
+            Physics.simulationMode = modeBefore;
+            CloseSession();
+            DrainLog();
+        }
+
+        private void Update()
+        {
+            if (session == null && !TryOpen()) return;
+            DrainLog();
+            if (paused) return;
+            accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
+            while (accumulated >= settings.deltaTime && isActiveAndEnabled && !paused)
+            {
+                accumulated -= settings.deltaTime;
+                Step();
+            }
+        }
+
+        private bool TryOpen()
+        {
+            try
+            {
+                var problem = settings.FindProblem();
+                if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
+                var schema = Schemas.Find(settings.schema);
+                StartJvm();
+                session = Session.Open(SettingsOfSession(), schema);
+                return true;
+            }
+            catch (BridgeException error)
+            {
+                Fail(error.Message);
+                return false;
+            }
+        }
+
+        private void StartJvm()
+        {
+            var home = string.IsNullOrEmpty(settings.javaHome) ? Installation.JavaHome : settings.javaHome;
+            try
+            {
+                Jvm.Start(new JvmSettings(home, Installation.HostJar, settings.jvmOptions));
+            }
+            catch (BridgeException error) when (error.Error == BridgeError.JvmRunning)
+            {
+                Debug.LogWarning(error.Message + " The running JVM is used; the new settings take effect after a restart of the editor.", this);
+            }
+        }
+
+        private SessionSettings SettingsOfSession()
+        {
+            var jars = new string[settings.jars.Count];
+            for (var i = 0; i < jars.Length; i++) jars[i] = Path.GetFullPath(settings.jars[i]);
+            return new SessionSettings
+            {
+                Seed = settings.seed,
+                Threads = settings.threads,
+                Schedule = settings.schedule,
+                Jars = jars,
+                Program = settings.program,
+            };
+        }
+
+        private void CloseSession()
+        {
+            if (session == null) return;
+            var closing = session;
+            session = null;
+            try
+            {
+                closing.Dispose();
+            }
+            catch (BridgeException error)
+            {
+                Debug.LogError("the session did not close: " + error.Message, this);
+            }
+        }
+
+        private void DoTick()
+        {
+            var start = Stopwatch.GetTimestamp();
+            Physics.SyncTransforms();
+            FlushChanges();
+            if (session == null) return;
+            SenseAll();
+            if (session == null) return;
+            // Last, since users' code may add and remove links until here.
+            Links.Flush(session.Request, isKnown);
+            var sensed = Stopwatch.GetTimestamp();
+            session.Step(settings.deltaTime, settings.stepLimitMs);
+            var stepped = Stopwatch.GetTimestamp();
+            ActAll();
+            if (session == null) return;
+            var acted = Stopwatch.GetTimestamp();
+            Simulate();
+            if (session == null) return;
+            var end = Stopwatch.GetTimestamp();
+            Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+            Ticked?.Invoke(this);
+        }
+
+        private void FlushChanges()
+        {
+            if (leaving.Count > 0)
+            {
+                for (var i = 0; i < leaving.Count; i++) session.Request.RemoveNode(leaving.Items[i]);
+                leaving.Clear();
+            }
+            if (anyGone) DropLinksOfGone();
+            for (var i = 0; i < joining.Count; i++)
+            {
+                var node = joining[i];
+                session.Request.AddNode(node.Id, node.Program, ParametersOf(node));
+                isKnown[node.Id] = true;
+            }
+            joining.Clear();
+            // Users' code may make nodes join and leave from here on; this tick is for those of the roster that stay.
+            roster.Clear();
+            roster.AddRange(nodes);
+            grid.Build(roster, searchRadius);
+            for (var i = 0; i < roster.Count && session != null; i++)
+            {
+                if (roster[i].Id >= 0) UpdateRules(roster[i]);
+            }
+        }
+
+        private void DropLinksOfGone()
+        {
+            Links.DropLinksOf(isGone);
+            Array.Clear(isGone, 0, isGone.Length);
+            anyGone = false;
+        }
+
+        private static KeyValuePair<string, string>[] ParametersOf(Node node)
+        {
+            var parameters = new KeyValuePair<string, string>[node.Parameters.Count];
+            for (var i = 0; i < parameters.Length; i++)
+            {
+                parameters[i] = new KeyValuePair<string, string>(node.Parameters[i].name, node.Parameters[i].value);
+            }
+            return parameters;
+        }
+
+        private void UpdateRules(Node node)
+        {
+            var rules = node.Rules;
+            for (var i = 0; i < rules.Count; i++)
+            {
+                try
+                {
+                    rules[i].UpdateLinks(this);
+                }
+                catch (Exception error)
+                {
+                    Report(node, rules[i], error);
+                }
+            }
+        }
+
+        private void SenseAll()
+        {
+            due.Clear();
+            dueIds.Clear();
+            var request = session.Request;
+            request.ClearDue();
+            request.Sensors.EnsureCapacity(roster.Count);
+            for (var i = 0; i < roster.Count && session != null; i++)
+            {
+                var node = roster[i];
+                if (node.Id < 0) continue;
+                var index = dueIds.Count;
+                request.Sensors.Clear(index);
+                if (!Sense(node, request.Sensors, index) || node.Id < 0) continue;
+                var field = request.Sensors.FindNotFinite(index);
+                if (field != null)
+                {
+                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field + ": correct the sensor that writes it");
+                    return;
+                }
+                request.AddDue(node.Id);
+                due.Add(node);
+                dueIds.Add(node.Id);
+            }
+        }
+
+        private bool Sense(Node node, SensorBuffer buffer, int index)
+        {
+            var sensors = node.Sensors;
+            for (var i = 0; i < sensors.Count; i++)
+            {
+                var sensor = sensors[i];
+                if (sensor.DataType != buffer.DataType)
+                {
+                    Fail(Mismatch("sensor", sensor.GetType(), node, sensor.DataType, buffer.DataType));
+                    return false;
+                }
+                try
+                {
+                    sensor.Sense(buffer, index);
+                }
+                catch (Exception error)
+                {
+                    Report(node, sensor, error);
+                    return false;
+                }
+            }
+            return true;
+        }
+
+        private void ActAll()
+        {
+            var answer = session.Answer;
+            Digest = answer.Digest;
+            HostMicros = (answer.HostMicros, answer.RoundMicros);
+            for (var i = 0; i < answer.ErrorCount; i++)
+            {
+                var (id, program, message) = answer.Error(i);
+                var node = Find(id);
+                if (node != null) node.LastError = message;
+                ErrorCount++;
+                Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + answer.Tick + ": " + message, node);
+            }
+            // Answers and due nodes are both ascending; due nodes without an answer failed.
+            var place = 0;
+            for (var i = 0; i < answer.NodeCount && session != null; i++)
+            {
+                var id = answer.Node(i);
+                while (dueIds.Items[place] != id) place++;
+                // Not so when an actuator made the node leave.
+                if (due[place].Id == id) Act(due[place], answer.Actuators, i);
+            }
+        }
+
+        private void Act(Node node, ActuatorBuffer buffer, int index)
+        {
+            var actuators = node.Actuators;
+            for (var i = 0; i < actuators.Count; i++)
+            {
+                var actuator = actuators[i];
+                if (actuator.DataType != buffer.DataType)
+                {
+                    Fail(Mismatch("actuator", actuator.GetType(), node, actuator.DataType, buffer.DataType));
+                    return;
+                }
+                try
+                {
+                    actuator.Act(buffer, index);
+                }
+                catch (Exception error)
+                {
+                    Report(node, actuator, error);
+                }
+            }
+        }
+
+        private void Simulate()
+        {
+            var steps = (int)Math.Ceiling(settings.deltaTime / settings.physicsStep - 1e-6);
+            var step = settings.deltaTime / steps;
+            for (var i = 0; i < steps; i++) Physics.Simulate(step);
+        }
+
+        private void Report(Node node, Component part, Exception error)
+        {
+            ErrorCount++;
+            node.LastError = error.Message;
+            Debug.LogException(
+                new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + (Tick + 1), error), part);
+        }
+
+        private void DrainLog()
+        {
+            while (HostLog.TryRead(out var level, out var line))
+            {
+                if (level == HostLogLevel.Error) Debug.LogError(line, this);
+                else if (level == HostLogLevel.Warning) Debug.LogWarning(line, this);
+                else Debug.Log(line, this);
+            }
+        }
+
+        private bool CheckEnds(string verb, int a, int b)
+        {
+            if (a == b)
+            {
+                Fail("cannot " + verb + " a link from node " + a + " to itself");
+                return false;
+            }
+            var unknown = Find(a) == null ? a : Find(b) == null ? b : -1;
+            if (unknown < 0) return true;
+            Fail("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + unknown + " takes no part in the simulation");
+            return false;
+        }
+
+        private int IndexOf(int id)
+        {
+            var low = 0;
+            var high = nodes.Count - 1;
+            while (low <= high)
+            {
+                var middle = (low + high) / 2;
+                if (nodes[middle].Id == id) return middle;
+                if (nodes[middle].Id < id) low = middle + 1;
+                else high = middle - 1;
+            }
+            return ~low;
+        }
+
+        private static string Mismatch(string kind, Type type, Node node, Type has, Type wants) =>
+            kind + " " + type.Name + " of node " + node.Id + " ('" + node.name + "') is made for " + has.FullName + ", the session's schema has " + wants.FullName;
+
+        private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;
+    }
+}

@@ -1,0 +1,71 @@
+using System;
+using System.Collections.Generic;
+using org.collektive.frame;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>What a simulation is started with; read when its session opens, so changes take effect at the next start.</summary>
+    [Serializable]
+    public sealed class SimulationSettings
+    {
+        /// <summary>Full name of the generated schema class; empty when the project has only one.</summary>
+        [Tooltip("Full name of the generated schema class, for instance gradientascent.GradientAscentSchema. Empty: the only one.")]
+        public string schema = "";
+
+        /// <summary>Jars with programs; relative paths start at the project's folder.</summary>
+        [Tooltip("Jars with programs. Relative paths start at the project's folder.")]
+        public List<string> jars = new List<string>();
+
+        /// <summary>Program of nodes that name none.</summary>
+        [Tooltip("Program of nodes that name none.")]
+        public string program = "";
+
+        /// <summary>The one seed that all randomness comes from.</summary>
+        [Tooltip("The one seed that all randomness comes from: same scene, same seed, same result.")]
+        public ulong seed = 1;
+
+        /// <summary>Simulated seconds from one round to the next, greater than 0.</summary>
+        [Tooltip("Simulated seconds from one round to the next.")]
+        [Min(0.001f)]
+        public float deltaTime = 0.05f;
+
+        /// <summary>Longest physics sub-step in seconds, greater than 0 and at most 0.02.</summary>
+        [Tooltip("Longest physics sub-step in seconds; a tick is divided into equal sub-steps.")]
+        [Range(0.001f, 0.02f)]
+        public float physicsStep = 0.02f;
+
+        /// <summary>Which messages a round sees.</summary>
+        [Tooltip("Lockstep: all nodes see what was sent before the tick. Sequential: in id order, each sees what earlier nodes sent.")]
+        public Schedule schedule = Schedule.Lockstep;
+
+        /// <summary>Threads of the JVM that run rounds.</summary>
+        [Tooltip("Threads of the JVM that run rounds. Results do not depend on it.")]
+        [Range(1, 256)]
+        public int threads = 1;
+
+        /// <summary>Milliseconds after which a tick counts as hung.</summary>
+        [Tooltip("Milliseconds after which a tick counts as hung; the simulation then stops with an error.")]
+        [Min(1)]
+        public int stepLimitMs = 10000;
+
+        /// <summary>Root of a JRE or JDK; empty for the bundled one or JAVA_HOME.</summary>
+        [Tooltip("Root folder of a JRE or JDK, 17 or newer. Empty: the bundled one, else JAVA_HOME.")]
+        public string javaHome = "";
+
+        /// <summary>JVM options, each one word.</summary>
+        [Tooltip("JVM options, each one word, for instance -Xmx2g. They take effect when the JVM starts: once per editor session.")]
+        public List<string> jvmOptions = new List<string>();
+
+        /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
+        public string FindProblem()
+        {
+            if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
+            if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
+            if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
+            if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
+            if (jars.Count == 0) return "no jar with programs is named: add the path of one to the settings";
+            return null;
+        }
+    }
+}
