@@ -33,14 +33,20 @@ public interface DataSchema {
 
 /** Reads the table `Sensors` of a frame in place; allocates nothing after its construction. */
 public interface SensorReader {
-    /** Points this reader at the table at [position] (bytes from the start) of [frame]; little-endian. */
+    /**
+     * Points this reader at the table at [position] (bytes from the start of the buffer) of [frame]; little-endian. The frame
+     * is what lies between the buffer's position and limit.
+     *
+     * @throws MalformedDataException when the table or its vector lies outside of the frame.
+     */
     public fun attach(frame: ByteBuffer, position: Int)
 
     /** Elements in the attached table. */
     public val size: Int
 
     /**
-     * Checks that every element, nested tables, vectors and strings included, lies inside the frame.
+     * Checks that every element, nested tables, vectors and strings included, lies inside the frame. Reading what passed
+     * never throws.
      *
      * @throws MalformedDataException naming the element and the field that does not.
      */
@@ -53,7 +59,13 @@ public interface SensorReader {
 /** Writes the table `Actuators` of a frame. */
 public interface ActuatorWriter {
     /**
-     * Writes [results] `0 until count` in this order and returns the table's offset for [builder].
+     * What makes a program's result impossible to write, its path first (`target is null`), or `null` when nothing does. Ask
+     * after each round: a result with a fault would spoil the whole answer.
+     */
+    public fun findFault(result: Any?): String?
+
+    /**
+     * Writes [results] `0 until count` in this order and returns the table's offset for [builder]. None may have a fault.
      *
      * `ranges[2 * i]` gets the distance of element i's first byte from the *end* of the builder's buffer and
      * `ranges[2 * i + 1]` its length in bytes, for the digest.

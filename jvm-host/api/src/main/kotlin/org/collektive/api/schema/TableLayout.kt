@@ -1,0 +1,52 @@
+package org.collektive.api.schema
+
+/**
+ * Where the fields of one table of a user's schema lie, so that a frame can be checked. Made by generated code: each function
+ * adds a field and returns this layout; `entry` is the field's place in the vtable, in bytes.
+ */
+public class TableLayout {
+    internal val fields: MutableList<FieldLayout> = ArrayList()
+
+    /** A scalar, an enum or a struct of [bytes] bytes. */
+    public fun inline(name: String, entry: Int, bytes: Int, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.INLINE, bytes, null, required))
+
+    /** A string. */
+    public fun string(name: String, entry: Int, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.STRING, OFFSET_BYTES, null, required))
+
+    /** A table. */
+    public fun table(name: String, entry: Int, layout: TableLayout, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.TABLE, OFFSET_BYTES, layout, required))
+
+    /** A vector of scalars, enums or structs of [bytes] bytes each. */
+    public fun vector(name: String, entry: Int, bytes: Int, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.VECTOR, bytes, null, required))
+
+    /** A vector of strings. */
+    public fun strings(name: String, entry: Int, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.STRINGS, OFFSET_BYTES, null, required))
+
+    /** A vector of tables. */
+    public fun tables(name: String, entry: Int, layout: TableLayout, required: Boolean): TableLayout =
+        add(FieldLayout(name, entry, FieldKind.TABLES, OFFSET_BYTES, layout, required))
+
+    private fun add(field: FieldLayout): TableLayout {
+        fields.add(field)
+        return this
+    }
+}
+
+internal enum class FieldKind { INLINE, STRING, TABLE, VECTOR, STRINGS, TABLES }
+
+/** [bytes]: of the value itself, or of one element of a vector. [layout]: of the table or tables it leads to. */
+internal class FieldLayout(
+    val name: String,
+    val entry: Int,
+    val kind: FieldKind,
+    val bytes: Int,
+    val layout: TableLayout?,
+    val required: Boolean,
+)
+
+internal const val OFFSET_BYTES: Int = 4

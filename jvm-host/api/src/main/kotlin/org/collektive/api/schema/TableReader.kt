@@ -1,0 +1,21 @@
+package org.collektive.api.schema
+
+import java.nio.ByteBuffer
+
+/** Reads the table `GlobalData` of any user schema; made by generated code. */
+public class TableReader(private val layout: TableLayout, private val view: View) : GlobalReader {
+    private val checker = FrameChecker()
+    private var frame: ByteBuffer = ByteBuffer.allocate(0)
+    private var position = 0
+
+    override fun attach(frame: ByteBuffer, position: Int) {
+        this.frame = frame
+        this.position = position
+    }
+
+    override fun check() {
+        checker.check(frame, position, layout)
+    }
+
+    override val data: Any get() = view.at(position, frame)
+}

@@ -1,0 +1,43 @@
+package org.collektive.generator
+
+import java.nio.file.Files
+import java.nio.file.Path
+
+/**
+ * The command line.
+ *
+ * @property include folder of `types.fbs`.
+ * @property csharp folder that gets the C# code, or `null` for none; the same for [java].
+ */
+internal class Arguments(val flatc: Path, val schema: Path, val include: Path, val csharp: Path?, val java: Path?) {
+    companion object {
+        const val USAGE: String =
+            "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER [--csharp FOLDER] [--java FOLDER]"
+
+        private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--java")
+
+        fun parse(words: Array<String>): Arguments {
+            val values = HashMap<String, Path>()
+            for (i in words.indices step 2) {
+                val option = words[i]
+                if (option !in options) throw GeneratorException("unknown option $option\n$USAGE")
+                val value = words.getOrNull(i + 1) ?: throw GeneratorException("$option needs a value\n$USAGE")
+                if (values.put(option, Path.of(value)) != null) throw GeneratorException("$option is given twice\n$USAGE")
+            }
+
+            fun required(option: String) = values[option] ?: throw GeneratorException("$option is missing\n$USAGE")
+            val arguments = Arguments(
+                required("--flatc"), required("--schema"), required("--include"), values["--csharp"], values["--java"],
+            )
+            if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
+            if (!Files.isRegularFile(arguments.schema)) throw GeneratorException("no schema file at ${arguments.schema}")
+            if (!Files.isRegularFile(arguments.include.resolve(CORE_TYPES))) {
+                throw GeneratorException("no $CORE_TYPES in ${arguments.include}: --include names the folder that holds it")
+            }
+            return arguments
+        }
+    }
+}
+
+/** The value types that every user schema may include. Their code is part of the product and never generated here. */
+internal const val CORE_TYPES: String = "types.fbs"

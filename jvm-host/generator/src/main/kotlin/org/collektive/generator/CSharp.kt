@@ -1,0 +1,222 @@
+package org.collektive.generator
+
+/** What the C# template shows of a schema. */
+internal object CSharp {
+    /**
+     * flatc's C# depends on symbols that the FlatBuffers assembly was compiled with. Defined in each file, they need no setting
+     * in the projects of users.
+     */
+    fun defineSymbols(text: String): String {
+        val header = "// </auto-generated>\n"
+        require(header in text) { "flatc's C# has no header" }
+        return text.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
+    }
+
+    fun model(schema: UserSchema): Map<String, Any?> = mapOf(
+        "file" to schema.file,
+        "namespace" to schema.name.namespace,
+        "name" to schema.name.simple,
+        "types" to listOfNotNull(schema.sensor, schema.actuator, schema.global).map {
+            mapOf("name" to it.name.simple, "hash" to Fingerprint.of(it).toULong().toString(16).padStart(16, '0'))
+        },
+        "layouts" to schema.structs.map(::layout),
+        "sensors" to when (val sensor = schema.sensor) {
+            is StructType -> "Bridge::StructSensorBuffer<${mirror(sensor)}>(${sensor.alignment})"
+            is TableType -> "Bridge::TableSensorBuffer<${draft(sensor)}>()"
+        },
+        "actuators" to when (val actuator = schema.actuator) {
+            is StructType -> "Bridge::StructActuatorBuffer<${mirror(actuator)}>()"
+            is TableType -> "Bridge::TableActuatorBuffer<global::${actuator.name}>()"
+        },
+        "globals" to listOfNotNull(schema.global).map { "Bridge::TableGlobalBuffer<${draft(it)}>()" },
+        "mirrors" to schema.structs.filter { !it.core }.map(::mirrorModel),
+        "drafts" to schema.tables.map(::draftModel),
+    )
+
+    private fun layout(type: StructType) = mapOf(
+        "mirror" to mirror(type),
+        "bytes" to type.bytes,
+        "fields" to type.fields.map { mapOf("member" to member(type, it), "offset" to it.offset) },
+    )
+
+    private fun mirrorModel(type: StructType) = mapOf(
+        "namespace" to type.name.namespace,
+        "name" to "${type.name.simple}Value",
+        "documentation" to documentation(type.documentation, "Mirror of the struct", type.name.simple),
+        "fields" to type.fields.map {
+            mapOf(
+                "documentation" to documentation(it.documentation, "Field", it.name),
+                "type" to csharp(it.type),
+                "member" to member(type, it),
+            )
+        },
+        "checks" to type.fields.mapNotNull { finiteCheck(type, it) },
+    )
+
+    private fun draftModel(type: TableType) = mapOf(
+        "namespace" to type.name.namespace,
+        "name" to "${type.name.simple}Draft",
+        "documentation" to documentation(type.documentation, "Staging of the table", type.name.simple),
+        "fields" to type.fields.map {
+            mapOf("documentation" to documentation(it.documentation, "Field", it.name), "declaration" to declaration(type, it))
+        },
+        "nested" to type.fields.filter { it.type is TableType }.map {
+            mapOf(
+                "type" to csharp(it.type),
+                "member" to member(type, it),
+                "plain" to upperCamel(it.name),
+                "spare" to "spare${it.id}",
+            )
+        },
+        "clears" to type.fields.map { clear(it, member(type, it)) },
+        "checks" to type.fields.mapNotNull { finiteCheck(type, it) },
+        "children" to type.fields.mapNotNull { requirement(type, it) } + type.fields.mapNotNull { child(type, it) },
+        "slots" to type.slots,
+        // The largest alignments first waste the least room.
+        "additions" to type.fields.sortedWith(compareBy({ -alignment(it.type) }, Field::id)).map { addition(it, member(type, it)) },
+    )
+
+    private fun declaration(owner: TableType, field: Field): String {
+        val member = member(owner, field)
+        val type = csharp(field.type)
+        return when (field.type) {
+            is VectorType -> "$type $member { get; } = new $type();"
+            is TableType -> "$type $member { get; private set; }"
+            is StructType -> if (field.required) "$type $member;" else "$type? $member;"
+            is StringType -> "$type $member;"
+            is Scalar, is EnumType -> if (field.optional) "$type? $member;" else "$type $member;"
+        }
+    }
+
+    private fun clear(field: Field, member: String): String = when (val type = field.type) {
+        is VectorType -> "$member.Clear();"
+        is Scalar -> "$member = ${if (field.optional) "null" else literal(type, field.default)};"
+        is EnumType -> "$member = ${if (field.optional) "null" else "(${csharp(type)})(${literal(type.underlying, field.default)})"};"
+        is StructType -> "$member = ${if (field.required) "default" else "null"};"
+        is StringType, is TableType -> "$member = null;"
+    }
+
+    /** A field whose own default is not finite may hold such values. */
+    private fun finiteCheck(owner: Composite, field: Field): String? {
+        val member = member(owner, field)
+        val nullable = field.optional || owner is TableType && field.type is StructType && !field.required
+        val value = if (nullable) "$member.Value" else member
+        val absent = if (nullable) "$member.HasValue && " else ""
+        val type = field.type
+        return when {
+            !canBeNotFinite(type) -> null
+            type is Scalar && !field.default.real.isFinite() -> null
+            type is Scalar -> "if ($absent!${csharp(type)}.IsFinite($value)) return \"${field.name}\";"
+            type is StructType -> "if ($absent$value.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
+            type is TableType -> "if ($member?.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
+            type is VectorType -> vectorCheck(type, field, member)
+            else -> null
+        }
+    }
+
+    private fun vectorCheck(type: VectorType, field: Field, member: String): String {
+        val element = type.element
+        val place = "\"${field.name}[\" + i + \"]"
+        val body = if (element is Scalar) {
+            "if (!${csharp(element)}.IsFinite($member[i])) return $place\";"
+        } else {
+            "if ($member[i].FindNotFinite() is string path) return $place.\" + path;"
+        }
+        return "for (var i = 0; i < $member.Count; i++) $body"
+    }
+
+    private fun canBeNotFinite(type: Type, seen: Set<Type> = emptySet()): Boolean = when (type) {
+        is Scalar -> type.real
+        is EnumType, is StringType -> false
+        is VectorType -> canBeNotFinite(type.element, seen)
+        is Composite -> type !in seen && type.fields.any { canBeNotFinite(it.type, seen + type) }
+    }
+
+    private fun requirement(owner: TableType, field: Field): String? {
+        val checked = field.type is StringType || field.type is TableType
+        if (!field.required || !checked) return null
+        return "writer.Require(${member(owner, field)} != null, \"${owner.name.simple}.${field.name}\");"
+    }
+
+    private fun child(owner: TableType, field: Field): String? {
+        val member = member(owner, field)
+        val write = when (val type = field.type) {
+            is StringType -> "writer.String($member)"
+            is TableType -> "$member == null ? 0 : $member.Write(writer)"
+            is VectorType -> when (type.element) {
+                is StringType -> "writer.Strings($member, ${field.required}, \"${owner.name.simple}.${field.name}\")"
+                is TableType -> "writer.Tables($member, ${field.required})"
+                else -> "writer.Values($member, ${field.required}, ${alignment(type.element)})"
+            }
+            else -> return null
+        }
+        return "var child${field.id} = $write;"
+    }
+
+    private fun addition(field: Field, member: String): String {
+        val slot = field.id
+        return when (val type = field.type) {
+            is Scalar -> add(slot, type, member, field)
+            is EnumType -> add(slot, type.underlying, "(${type.underlying.csharp}${if (field.optional) "?" else ""})$member", field)
+            is StructType -> "writer.Struct<${csharp(type)}>($slot, $member, ${type.alignment});"
+            is StringType, is VectorType, is TableType -> "builder.AddOffset($slot, child$slot, 0);"
+        }
+    }
+
+    private fun add(slot: Int, type: Scalar, value: String, field: Field): String {
+        val default = if (field.optional) "" else ", ${literal(type, field.default)}"
+        return "builder.Add${type.builder}($slot, $value$default);"
+    }
+
+    private fun literal(type: Scalar, default: Default): String = when (type) {
+        Scalar.BOOL -> if (default.integer != 0L) "true" else "false"
+        Scalar.FLOAT -> real(default.real.toFloat().toString(), "float", "f")
+        Scalar.DOUBLE -> real(default.real.toString(), "double", "")
+        Scalar.ULONG -> "${default.integer.toULong()}UL"
+        Scalar.LONG -> "${default.integer}L"
+        Scalar.UINT -> "${default.integer}U"
+        else -> "${default.integer}"
+    }
+
+    private fun real(text: String, type: String, suffix: String): String = when (text) {
+        "NaN" -> "$type.NaN"
+        "Infinity" -> "$type.PositiveInfinity"
+        "-Infinity" -> "$type.NegativeInfinity"
+        else -> text + suffix
+    }
+
+    private fun csharp(type: Type): String = when (type) {
+        is Scalar -> type.csharp
+        is StringType -> "string"
+        is EnumType -> "global::${type.name}"
+        is StructType -> mirror(type)
+        is TableType -> draft(type)
+        is VectorType -> (if (type.element is TableType) "Bridge::DraftTables" else "Bridge::DraftList") + "<${csharp(type.element)}>"
+    }
+
+    private fun mirror(type: StructType) = "global::${type.name}Value"
+
+    private fun draft(type: TableType) = "global::${type.name}Draft"
+
+    private fun alignment(type: Type): Int = when (type) {
+        is Scalar -> type.bytes
+        is EnumType -> type.underlying.bytes
+        is StructType -> type.alignment
+        else -> 4
+    }
+
+    private val taken = setOf(
+        "Clear", "FindNotFinite", "Write", "Equals", "GetHashCode", "GetType", "ToString", "MemberwiseClone", "Finalize", "ReferenceEquals",
+    )
+
+    /** The C# name of a field; an underscore is added where a member of that name is there already. */
+    private fun member(owner: Composite, field: Field): String {
+        val name = upperCamel(field.name)
+        val type = owner.name.simple + if (owner is StructType) "Value" else "Draft"
+        val makers = owner.fields.filter { it.type is TableType }.map { "Make${upperCamel(it.name)}" }
+        return if (name in taken || name == type || name in makers) "${name}_" else name
+    }
+
+    private fun documentation(text: String, kind: String, name: String): String =
+        if (text.isEmpty()) "$kind <c>$name</c>." else text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+}

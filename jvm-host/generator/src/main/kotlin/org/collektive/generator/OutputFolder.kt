@@ -1,0 +1,21 @@
+package org.collektive.generator
+
+import java.nio.file.Files
+import java.nio.file.Path
+
+/** A folder of generated files. A file whose text is the same keeps its time, so that nothing is built anew for it. */
+internal class OutputFolder(private val root: Path) {
+    fun write(path: String, text: String) {
+        val file = root.resolve(path)
+        if (Files.exists(file) && Files.readString(file) == text) return
+        Files.createDirectories(file.parent)
+        Files.writeString(file, text)
+    }
+
+    /** Takes over all files of [folder], each changed by [edit]. */
+    fun copy(folder: Path, edit: (String) -> String) {
+        if (!Files.exists(folder)) return
+        val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }
+        for (file in files) write(folder.relativize(file).toString(), edit(Files.readString(file)))
+    }
+}

@@ -1,0 +1,194 @@
+package org.collektive.generator
+
+import com.google.flatbuffers.reflection.BaseType
+import com.google.flatbuffers.reflection.Schema
+import java.nio.ByteBuffer
+import java.nio.file.Path
+import com.google.flatbuffers.reflection.Enum as BinaryEnum
+import com.google.flatbuffers.reflection.Field as BinaryField
+import com.google.flatbuffers.reflection.Object as BinaryObject
+import com.google.flatbuffers.reflection.Type as BinaryType
+
+/** Reads flatc's binary form of a user's schema. [core] is the file of the core types. */
+internal class SchemaReader(binary: ByteArray, private val file: Path, private val core: Path) {
+    private val schema = Schema.getRootAsSchema(ByteBuffer.wrap(binary))
+    private val composites = HashMap<Int, Composite>()
+    private val enums = HashMap<Int, EnumType>()
+
+    /** The schema files that make up this one, but for the core types: those whose code is generated. */
+    val files: List<Path> = (0 until schema.fbsFilesLength())
+        .map { plain(schema.fbsFiles(it).filename()) }
+        .filter { it != core }
+
+    fun read(): UserSchema {
+        val sensor = root("SensorData") ?: throw missing("SensorData")
+        val actuator = root("ActuatorData") ?: throw missing("ActuatorData")
+        val global = root("GlobalData")
+        if (sensor.name.namespace != actuator.name.namespace) {
+            throw error("SensorData lies in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one")
+        }
+        if (global != null && global !is TableType) throw error("GlobalData is a struct: make it a table")
+        val reached = composites.values.sortedBy { it.name.toString() }
+        val user = UserSchema(
+            file.fileName.toString(),
+            TypeName(sensor.name.namespace, upperCamel(file.fileName.toString().removeSuffix(".fbs")) + "Schema"),
+            sensor, actuator, global,
+            reached.filterIsInstance<StructType>(), reached.filterIsInstance<TableType>(),
+        )
+        checkGeneratedNames(user)
+        return user
+    }
+
+    private fun root(name: String): Composite? {
+        val found = objects().filter { simple(it.second.name()) == name }
+        if (found.size > 1) throw error("$name is defined twice: ${found.joinToString(" and ") { it.second.name() }}")
+        return found.firstOrNull()?.let { composite(it.first) }
+    }
+
+    private fun missing(name: String): GeneratorException {
+        val others = objects().filter { plain(it.second.declarationFile()) != core }.joinToString { simple(it.second.name()) }
+        val has = if (others.isEmpty()) "it defines no types" else "it defines $others"
+        return error("there is no $name; add `table $name { ... }` or `struct $name { ... }` ($has)")
+    }
+
+    private fun composite(index: Int): Composite {
+        composites[index]?.let { return it }
+        val source = schema.objects(index)
+        val name = name(source.name())
+        val documentation = lines(source.documentationLength(), source::documentation)
+        val sources = (0 until source.fieldsLength()).map(source::fields).sortedBy { it.id() }
+        val type = if (source.isStruct) {
+            StructType(name, documentation, plain(source.declarationFile()) == core, source.bytesize(), source.minalign())
+        } else {
+            TableType(name, documentation, (sources.maxOfOrNull { it.id() } ?: -1) + 1)
+        }
+        composites[index] = type
+        type.fields = sources.filter { !it.deprecated() }.map { field(source, it) }
+        if (type is StructType) checkLayout(type)
+        return type
+    }
+
+    private fun field(owner: BinaryObject, source: BinaryField): Field {
+        if (source.name() == "class") throw error("${simple(owner.name())}.class: Java cannot have a getter of this name; rename the field")
+        return Field(
+            source.name(),
+            type(owner, source),
+            source.id(),
+            source.offset(),
+            Default(source.defaultInteger(), source.defaultReal()),
+            source.optional() && scalar(source.type().baseType()) != null,
+            source.required(),
+            lines(source.documentationLength(), source::documentation),
+        )
+    }
+
+    private fun type(owner: BinaryObject, field: BinaryField): Type {
+        val type = field.type()
+        val index = type.index()
+        return when (type.baseType()) {
+            BaseType.String -> StringType
+            BaseType.Obj -> composite(index)
+            BaseType.Vector -> VectorType(element(owner, field, type))
+            // The hidden field that says which case a union holds comes first; the error names the union itself.
+            BaseType.UType -> throw unsupported(owner, field.name().removeSuffix("_type"), UNION)
+            BaseType.Union -> throw unsupported(owner, field.name(), UNION)
+            BaseType.Array -> throw unsupported(
+                owner, field.name(), "fixed arrays are not supported; use one field for each element, or a vector in a table",
+            )
+            BaseType.Vector64 -> throw unsupported(owner, field.name(), "64-bit vectors are not supported; use a plain vector")
+            else -> plainOrEnum(type.baseType(), index) ?: throw unsupported(owner, field.name(), "its type is not supported")
+        }
+    }
+
+    private fun element(owner: BinaryObject, field: BinaryField, type: BinaryType): Type = when (type.element()) {
+        BaseType.String -> StringType
+        BaseType.Obj -> composite(type.index())
+        BaseType.UType -> throw unsupported(owner, field.name().removeSuffix("_type"), UNION)
+        BaseType.Union -> throw unsupported(owner, field.name(), UNION)
+        else -> plainOrEnum(type.element(), type.index())
+            ?: throw unsupported(owner, field.name(), "vectors of this type are not supported; use a vector of tables")
+    }
+
+    private fun plainOrEnum(base: Byte, index: Int): Type? {
+        val scalar = scalar(base) ?: return null
+        if (index < 0) return scalar
+        return enums.getOrPut(index) { enum(schema.enums(index), scalar) }
+    }
+
+    private fun enum(source: BinaryEnum, underlying: Scalar): EnumType {
+        val values = (0 until source.valuesLength()).map { source.values(it).name() to source.values(it).value() }
+        return EnumType(name(source.name()), underlying, values)
+    }
+
+    /** The C# mirrors rely on each field lying at the next multiple of its own alignment, as the C# runtime does it. */
+    private fun checkLayout(type: StructType) {
+        var end = 0
+        var largest = 1
+        for (field in type.fields) {
+            val (bytes, alignment) = when (val fieldType = field.type) {
+                is Scalar -> fieldType.bytes to fieldType.bytes
+                is EnumType -> fieldType.underlying.bytes to fieldType.underlying.bytes
+                is StructType -> fieldType.bytes to fieldType.alignment
+                else -> throw error("${type.name.simple}.${field.name}: structs hold only scalars, enums and structs")
+            }
+            end = aligned(end, alignment)
+            if (end != field.offset) break
+            end += bytes
+            largest = maxOf(largest, alignment)
+        }
+        if (aligned(end, largest) != type.bytes || largest != type.alignment) {
+            throw error("${type.name.simple}: force_align is not supported; remove it")
+        }
+    }
+
+    /** Generated types stand beside flatc's in one namespace. */
+    private fun checkGeneratedNames(user: UserSchema) {
+        val taken = objects().map { it.second.name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
+        val made = user.structs.map { "${it.name}Value" } + user.tables.map { "${it.name}Draft" } + user.name.toString()
+        taken.intersect(made.toSet()).firstOrNull()?.let {
+            throw error("${simple(it)} is a name that the generator gives; rename the type")
+        }
+    }
+
+    private fun objects() = (0 until schema.objectsLength()).map { it to schema.objects(it) }
+
+    private fun name(full: String): TypeName {
+        if ('.' !in full) throw error("$full lies in no namespace; write `namespace yours;` before the first type of its file")
+        return TypeName(full.substringBeforeLast('.'), simple(full))
+    }
+
+    private fun unsupported(owner: BinaryObject, field: String, what: String): GeneratorException {
+        val place = plain(owner.declarationFile()).fileName
+        return GeneratorException("$place: ${simple(owner.name())}.$field: $what")
+    }
+
+    private fun error(what: String) = GeneratorException("${file.fileName}: $what")
+
+    private companion object {
+        const val UNION = "unions are not supported; use one optional table field for each case"
+
+        fun simple(full: String): String = full.substringAfterLast('.')
+
+        fun plain(path: String): Path = Path.of(path.removePrefix("//")).toAbsolutePath().normalize()
+
+        fun aligned(offset: Int, alignment: Int): Int = (offset + alignment - 1) / alignment * alignment
+
+        fun lines(count: Int, line: (Int) -> String): String =
+            (0 until count).map { line(it).trim() }.filter { it.isNotEmpty() }.joinToString(" ")
+
+        fun scalar(base: Byte): Scalar? = when (base) {
+            BaseType.Bool -> Scalar.BOOL
+            BaseType.Byte -> Scalar.BYTE
+            BaseType.UByte -> Scalar.UBYTE
+            BaseType.Short -> Scalar.SHORT
+            BaseType.UShort -> Scalar.USHORT
+            BaseType.Int -> Scalar.INT
+            BaseType.UInt -> Scalar.UINT
+            BaseType.Long -> Scalar.LONG
+            BaseType.ULong -> Scalar.ULONG
+            BaseType.Float -> Scalar.FLOAT
+            BaseType.Double -> Scalar.DOUBLE
+            else -> null
+        }
+    }
+}

@@ -1,0 +1,15 @@
+package org.collektive.generator
+
+import com.samskivert.mustache.Mustache
+
+/** The templates of `schema/templates`, packed beside this class. */
+internal object Templates {
+    private val compiler = Mustache.compiler().escapeHTML(false).strictSections(true)
+
+    fun render(template: String, model: Any): String {
+        val resource = "$template.mustache"
+        val stream = Templates::class.java.getResourceAsStream(resource)
+            ?: throw IllegalStateException("the jar holds no $resource; build it anew")
+        return stream.reader().use { compiler.compile(it).execute(model) }
+    }
+}
