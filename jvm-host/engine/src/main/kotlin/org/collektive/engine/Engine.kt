@@ -1,9 +1,9 @@
 package org.collektive.engine
 
+import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.runtime.DeviceRuntime
 import org.collektive.runtime.DeviceRuntimes
 import org.collektive.runtime.RoundProgram
-import it.unibo.collektive.aggregate.api.Aggregate
 
 /**
  * Nodes, links and their rounds: one simulation.
@@ -19,7 +19,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
     private val rounds = Array(settings.threads) { Round(it) }
     private val task = RoundPool.Task(::runRange)
-    private var sensors = SensorSource { _, _ -> null }
+    private var data: RoundData? = null
     private var lastTick = 0L
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
@@ -38,32 +38,19 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
      *
      * A round that throws costs its node this round only: state and messages stay those of its last good one.
      *
-     * @param sensors asked once per due node, on the thread that runs its round.
+     * @param data used on the threads that run rounds.
      * @param deadline in terms of `System.nanoTime()`.
      * @throws TickRefused when the tick breaks a rule; nothing has changed then.
      * @throws RoundsNotFinished when rounds still ran at the deadline; this engine can only be closed then.
      */
-    public fun step(tick: Tick, sensors: SensorSource, deadline: Long): TickResult {
+    public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
         validator.check(tick, lastTick + 1)
         apply(tick)
         runtimes.tidy(runtimesOfNodes)
         findDue(tick)
-        runRounds(sensors, deadline)
+        runRounds(data, deadline)
         return result
-    }
-
-    /**
-     * Turns the answer of the due node [index] of the last tick into a failure: for answers that turn out to be useless after the rounds.
-     * The node goes back to the state and messages before the tick.
-     */
-    public fun reject(index: Int, reason: Throwable) {
-        val node = result.node(index)
-        check(result.failure(index) == null) { "the round of node ${node.id} has failed already" }
-        node.runtime.rollback()
-        node.sentAt = node.sentBefore
-        result.failed(index, reason)
-        result.failureCount++
     }
 
     /** Ends the engine's threads, those in a round when it ends. */
@@ -128,8 +115,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
-    private fun runRounds(sensors: SensorSource, deadline: Long) {
-        this.sensors = sensors
+    private fun runRounds(data: RoundData, deadline: Long) {
+        this.data = data
         val begin = System.nanoTime()
         val count = result.size
         val isSequential = settings.schedule == Schedule.SEQUENTIAL
@@ -158,15 +145,21 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
                 result.answered(index, answer)
             } catch (failure: Throwable) {
                 // Whatever a program throws, errors of the JVM included, is the failure of its round.
-                result.failed(index, failure)
+                result.failed(index, describe(node.program, failure))
             }
             thread.node = -1
         }
     }
 
+    /** On the thread of the round, since a program's exceptions are its code too. */
+    private fun describe(program: NodeProgram, failure: Throwable): String = try {
+        program.describe(failure)
+    } catch (_: Throwable) {
+        "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
+    }
+
     private fun commit(node: Node) {
         node.runtime.commit()
-        node.sentBefore = node.sentAt
         node.sentAt = lastTick
     }
 
@@ -178,13 +171,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         fun run(node: Node, index: Int): Any {
             this.node = node
             this.index = index
-            return node.runtime.round(node.incoming, this)
-                ?: throw IllegalStateException("the program returned null instead of its actuator data")
+            val answer = node.runtime.round(node.incoming, this) ?: throw UnusableAnswer("the result is null")
+            checkNotNull(data).fault(worker, answer)?.let { throw UnusableAnswer(it) }
+            return answer
         }
 
         override fun run(aggregate: Aggregate<Int>): Any? {
             val node = checkNotNull(node)
-            return node.program.round(aggregate, sensors.sensors(worker, index), node)
+            return node.program.round(aggregate, checkNotNull(data).sensors(worker, index), node)
         }
     }
 
@@ -195,6 +189,9 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         const val MAX_RANGE = 512
     }
 }
+
+/** A program's answer that cannot be sent; the message says why. */
+public class UnusableAnswer(message: String) : IllegalStateException(message)
 
 /** Rounds that still ran when the limit passed; [threads] tells what they were doing. */
 public class RoundsNotFinished(tick: Long, public val threads: String) :

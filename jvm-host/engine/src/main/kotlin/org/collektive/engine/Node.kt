@@ -23,9 +23,6 @@ internal class Node(
     /** Tick of the last round that gave an answer; 0 before. */
     var sentAt = 0L
 
-    /** [sentAt] before that round, in case that its answer is rejected. */
-    var sentBefore = 0L
-
     /** Last validation that removes this node: see TickValidator. */
     var mark = 0L
 

@@ -10,10 +10,16 @@ public interface NodeProgram {
 
     /** Runs one round of [device] on [sensors]; the result must not be `null`. */
     public fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any?
+
+    /** The text of an error by which a round failed: what happened, then where. */
+    public fun describe(failure: Throwable): String
 }
 
-/** Gives the sensor data of a tick. */
-public fun interface SensorSource {
-    /** The data of the node `due[index]`, for use on the thread [worker] (0 until [EngineSettings.threads]) until its next call. */
+/** The data that flows into and out of the rounds of a tick; opaque to the engine. */
+public interface RoundData {
+    /** The sensors of the node `due[index]`, for use on the thread [worker] (0 until [EngineSettings.threads]) until its next call. */
     public fun sensors(worker: Int, index: Int): Any?
+
+    /** Why [answer] is of no use, which makes its round a failed one; `null` when nothing is wrong. Called on the thread [worker]. */
+    public fun fault(worker: Int, answer: Any): String?
 }

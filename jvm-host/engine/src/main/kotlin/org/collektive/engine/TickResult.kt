@@ -4,7 +4,7 @@ package org.collektive.engine
 public class TickResult internal constructor() {
     private var nodes = arrayOfNulls<Node>(0)
     private var answers = arrayOfNulls<Any?>(0)
-    private var failures = arrayOfNulls<Throwable>(0)
+    private var failures = arrayOfNulls<String>(0)
 
     /** How many nodes were due. */
     public var size: Int = 0
@@ -28,7 +28,7 @@ public class TickResult internal constructor() {
     public fun answer(index: Int): Any? = answers[index]
 
     /** Why the round of the due node [index] failed; `null` when it did not. */
-    public fun failure(index: Int): Throwable? = failures[index]
+    public fun failure(index: Int): String? = failures[index]
 
     internal fun node(index: Int): Node = nodes[index] ?: error("no due node $index of $size")
 
@@ -55,8 +55,7 @@ public class TickResult internal constructor() {
         answers[index] = answer
     }
 
-    internal fun failed(index: Int, failure: Throwable) {
-        answers[index] = null
+    internal fun failed(index: Int, failure: String) {
         failures[index] = failure
     }
 }

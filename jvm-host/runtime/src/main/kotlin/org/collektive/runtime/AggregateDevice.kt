@@ -48,8 +48,6 @@ internal class AggregateDevice<ID : Any>(
         running = last
     }
 
-    override fun rollback() = commit()
-
     fun forEachPath(action: (PathNode) -> Unit) = valid.forEachPath(action)
 
     override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {

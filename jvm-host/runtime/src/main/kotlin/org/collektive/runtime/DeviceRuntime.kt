@@ -5,7 +5,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 /**
  * What the engine needs of an implementation of the Collektive API: the rounds of one device.
  *
- * One thread at a time; others may read what the last [commit] made visible, but not during [commit] or [rollback].
+ * One thread at a time; others may read what the last [commit] made visible, but not during [commit].
  */
 public interface DeviceRuntime {
     /**
@@ -17,9 +17,6 @@ public interface DeviceRuntime {
 
     /** Makes the state and the messages of the last round the valid ones. */
     public fun commit()
-
-    /** Takes the last [commit] back; once, and before the next round. */
-    public fun rollback()
 }
 
 /** The links into a device, ascending by the sender's id. */
