@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests
             for (var i = 0; i < x.Length; i++)
             {
                 var distance = Length(x[i] - LampX, z[i]);
-                var speed = Math.Min(2.2f, distance * 0.5f) * Step;
+                var speed = Math.Min(2.2f, distance * 0.12f) * Step;
                 var sway = 0.6f * (float)Math.Sin(0.13 * frame + i);
                 float moveX = (LampX - x[i]) / (distance + 0.01f) * speed, moveZ = -z[i] / (distance + 0.01f) * speed + sway * speed * 0.4f;
                 if (x[i] > 6.5f && x[i] < 12 && InsideWall(x[i] + moveX + 0.4f, z[i], out var centre))

@@ -1,0 +1,32 @@
+// Takes start.png, middle.png and end.png (1600 x 900) of a replay page: node pictures.mjs replay.html OUTDIR [light|dark]
+import { mkdirSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { launch } from './browser.mjs';
+
+const [page, out, colorScheme = 'light'] = process.argv.slice(2);
+if (!page || !out) {
+  console.error('Usage: node pictures.mjs replay.html OUTDIR [light|dark]');
+  process.exit(2);
+}
+
+mkdirSync(out, { recursive: true });
+const browser = await launch();
+try {
+  const tab = await browser.newPage({ viewport: { width: 1600, height: 900 }, colorScheme });
+  await tab.goto(pathToFileURL(resolve(page)).href);
+  const frames = await tab.evaluate(async () => {
+    await window.replay.ready;
+    window.replay.setControls(false);
+    return window.replay.frames;
+  });
+  for (const [name, frame] of [['start', 0], ['middle', Math.floor((frames - 1) / 2)], ['end', frames - 1]]) {
+    await tab.evaluate((i) => {
+      window.replay.seek(i);
+      window.replay.draw();
+    }, frame);
+    await tab.screenshot({ path: resolve(out, `${name}.png`) });
+  }
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,364 @@
+// The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
+import {
+  AmbientLight, BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
+  EdgesGeometry, Group, HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry, Scene, ShadowMaterial, SphereGeometry, Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+const THEMES = {
+  light: { background: '#eef1f4', floor: '#fbfcfd', grid: '#dfe4ea', border: '#b4bec9', shape: '#8793a3', edge: '#4d5967', outline: '#2f3a46', link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, accent: '#d6336c' },
+  dark: { background: '#0d1014', floor: '#191e24', grid: '#262d35', border: '#48525e', shape: '#5d6875', edge: '#98a4b1', outline: '#c3ccd6', link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, accent: '#ff5c8a' },
+};
+const LINE_GAP = 0.012; // lines lie this share of the arena's height unit above the floor, against flicker
+const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
+
+export class View {
+  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
+  constructor(canvas, labels, metadata, slots, maxLinks) {
+    this.canvas = canvas;
+    this.labels = labels;
+    this.arena = {
+      min: new Vector3(metadata.arena.min[0], metadata.arena.min[1], -metadata.arena.max[2]),
+      max: new Vector3(metadata.arena.max[0], metadata.arena.max[1], -metadata.arena.min[2]),
+    };
+    this.radius = metadata.nodeRadius;
+    this.insets = { top: 0, bottom: 0 };
+    this.onFrame = () => {};
+    this.detailed = slots <= DETAILED_NODES;
+
+    // The buffer is kept so that scripts can read the canvas at any time.
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
+    this.renderer.shadowMap.enabled = true;
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(24, 1, 0.1, 1000);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.12;
+    this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('change', () => this.request());
+
+    this.materials = {
+      floor: new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
+      shadow: new ShadowMaterial({ depthWrite: false }),
+      grid: new LineBasicMaterial(),
+      border: new LineBasicMaterial(),
+      shape: new MeshLambertMaterial(),
+      edge: new LineBasicMaterial(),
+      outline: new MeshBasicMaterial({ side: BackSide }),
+      link: new LineBasicMaterial({ transparent: true, depthWrite: false }),
+      accent: new MeshBasicMaterial({ side: DoubleSide }),
+      accentLine: new LineBasicMaterial(),
+      halo: new MeshBasicMaterial({ side: BackSide }),
+    };
+    this.addLights();
+    this.addFloor();
+    for (const shape of metadata.shapes) this.addShape(shape);
+    this.markers = metadata.markers.map((marker) => this.addMarker(marker));
+    this.addNodes(slots);
+    this.links = this.addLines(maxLinks, this.materials.link, 1);
+    this.ownLinks = this.addLines(0, this.materials.accentLine, 2);
+  }
+
+  addLights() {
+    const { min, max } = this.arena;
+    const centre = min.clone().add(max).multiplyScalar(0.5);
+    const reach = min.distanceTo(max) / 2;
+    const sun = new DirectionalLight('#ffffff', 1.5);
+    sun.position.copy(centre).add(new Vector3(-0.45, 1.2, 0.35).multiplyScalar(reach));
+    sun.target.position.copy(centre);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    sun.shadow.radius = 3;
+    Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 3 * reach });
+    this.scene.add(sun, sun.target, new HemisphereLight('#ffffff', '#aab4c0', 1.5), new AmbientLight('#ffffff', 0.55));
+  }
+
+  addFloor() {
+    const { min, max } = this.arena;
+    const width = max.x - min.x;
+    const depth = max.z - min.z;
+    for (const material of [this.materials.floor, this.materials.shadow]) {
+      const plane = new Mesh(new PlaneGeometry(width, depth).rotateX(-Math.PI / 2), material);
+      plane.position.set((min.x + max.x) / 2, min.y, (min.z + max.z) / 2);
+      plane.receiveShadow = material === this.materials.shadow;
+      this.scene.add(plane);
+    }
+    const step = [1, 2, 5].flatMap((n) => [-3, -2, -1, 0, 1, 2, 3, 4].map((e) => n * 10 ** e)).sort((a, b) => a - b)
+      .find((length) => Math.max(width, depth) / length <= 20) ?? 1e5;
+    this.gridStep = step;
+    const points = [];
+    const y = min.y + LINE_GAP;
+    for (let x = Math.ceil(min.x / step) * step; x < max.x; x += step) points.push(x, y, min.z, x, y, max.z);
+    for (let z = Math.ceil(min.z / step) * step; z < max.z; z += step) points.push(min.x, y, z, max.x, y, z);
+    this.scene.add(lines(points, this.materials.grid));
+    const border = [min.x, y, min.z, max.x, y, min.z, max.x, y, min.z, max.x, y, max.z, max.x, y, max.z, min.x, y, max.z, min.x, y, max.z, min.x, y, min.z];
+    this.scene.add(lines(border, this.materials.border));
+  }
+
+  addShape(shape) {
+    const [x, y, z] = shape.centre;
+    const box = shape.kind === 'box';
+    const geometry = box ? new BoxGeometry(...shape.size) : new SphereGeometry(shape.radius, 48, 32);
+    const mesh = new Mesh(geometry, this.materials.shape);
+    mesh.castShadow = true;
+    const group = new Group().add(mesh);
+    if (box) {
+      group.add(new LineSegments(new EdgesGeometry(geometry), this.materials.edge));
+      const [qx, qy, qz, qw] = shape.rotation;
+      group.quaternion.set(-qx, -qy, qz, qw);
+    }
+    group.position.set(x, y, -z);
+    this.scene.add(group);
+  }
+
+  addMarker({ name, position: [x, y, z] }) {
+    const size = this.arena.min.distanceTo(this.arena.max) / 100;
+    const top = new Vector3(x, y + 5 * size, -z);
+    for (const radius of [0.55, 1]) {
+      const ring = new Mesh(new RingGeometry(size * (radius - 0.16), size * radius, 48).rotateX(-Math.PI / 2), this.materials.accent);
+      ring.position.set(x, y + 2 * LINE_GAP, -z);
+      this.scene.add(ring);
+    }
+    this.scene.add(lines([x, y, -z, top.x, top.y, top.z], this.materials.accentLine));
+    const label = document.createElement('div');
+    label.className = 'marker';
+    label.textContent = name;
+    this.labels.append(label);
+    return { label, top };
+  }
+
+  addNodes(slots) {
+    const sphere = this.detailed ? new SphereGeometry(1, 24, 16) : new SphereGeometry(1, 10, 7);
+    const instances = Math.max(slots, 1);
+    this.nodes = new InstancedMesh(sphere, new MeshLambertMaterial(), instances);
+    this.nodes.instanceMatrix.setUsage(DynamicDrawUsage);
+    this.nodes.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * instances), 3).setUsage(DynamicDrawUsage);
+    this.nodes.castShadow = this.detailed;
+    const shell = sphere.clone().scale(1.16, 1.16, 1.16);
+    this.outlines = new InstancedMesh(shell, this.materials.outline, instances);
+    this.outlines.instanceMatrix = this.nodes.instanceMatrix;
+    this.halos = new InstancedMesh(sphere.clone().scale(1.5, 1.5, 1.5), this.materials.halo, instances);
+    this.halos.instanceMatrix.setUsage(DynamicDrawUsage);
+    for (const mesh of [this.nodes, this.outlines, this.halos]) {
+      mesh.frustumCulled = false;
+      mesh.count = 0;
+      this.scene.add(mesh);
+    }
+  }
+
+  addLines(capacity, material, order) {
+    const object = new LineSegments(new BufferGeometry(), material);
+    object.frustumCulled = false;
+    object.renderOrder = order;
+    this.scene.add(object);
+    reserve(object, capacity);
+    return object;
+  }
+
+  setTheme(name) {
+    const theme = THEMES[name];
+    this.theme = theme;
+    this.scene.background = new Color(theme.background);
+    for (const key of ['floor', 'grid', 'border', 'shape', 'edge', 'outline', 'link', 'accent']) this.materials[key].color.set(theme[key]);
+    this.materials.accentLine.color.set(theme.accent);
+    this.materials.halo.color.set(theme.accent);
+    this.materials.shadow.opacity = theme.shadow;
+    this.materials.link.opacity = theme.linkOpacity;
+    this.request();
+  }
+
+  /** Fits the canvas to its place; `insets` are the pixels at the top and bottom that the page's panels cover. */
+  resize(width, height, insets) {
+    this.insets = insets;
+    this.width = width;
+    this.height = height;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, 0, (insets.bottom - insets.top) / 2, width, height);
+    this.request();
+  }
+
+  /** Looks at the whole arena, `from` 'above' at an angle or from the 'top'. */
+  frame(from) {
+    const { min, max } = this.arena;
+    const target = new Vector3((min.x + max.x) / 2, min.y, (min.z + max.z) / 2);
+    // Straight down would leave the turn undefined.
+    const direction = from === 'top' ? new Vector3(0, 1, 1e-4) : new Vector3(0, 1.3, 1).normalize();
+    const corners = [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+    const free = 1 - (this.insets.top + this.insets.bottom) / this.height;
+    const fits = (distance) => {
+      this.camera.position.copy(target).addScaledVector(direction, distance);
+      this.camera.near = distance / 100;
+      this.camera.far = distance * 10;
+      this.camera.lookAt(target);
+      this.camera.updateProjectionMatrix();
+      this.camera.updateMatrixWorld();
+      const shift = (this.insets.bottom - this.insets.top) / this.height;
+      return corners.every((corner) => {
+        const seen = corner.clone().project(this.camera);
+        return seen.z < 1 && Math.abs(seen.x) < 0.95 && Math.abs(seen.y - shift) < 0.97 * free;
+      });
+    };
+    let near = 0;
+    let far = min.distanceTo(max) * 20;
+    for (let i = 0; i < 30; i++) {
+      const middle = (near + far) / 2;
+      if (fits(middle)) far = middle;
+      else near = middle;
+    }
+    fits(far);
+    this.controls.target.copy(target);
+    this.controls.minDistance = far / 60;
+    this.controls.maxDistance = far * 4;
+    this.controls.update();
+    this.request();
+  }
+
+  /** Turns the camera about its target by radians, or moves it nearer (`zoom` < 1). */
+  turn(aside, up, zoom) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const length = Math.min(Math.max(offset.length() * zoom, this.controls.minDistance), this.controls.maxDistance);
+    const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.0001), this.controls.maxPolarAngle);
+    const azimuth = Math.atan2(offset.x, offset.z) + aside;
+    offset.set(Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), Math.sin(polar) * Math.cos(azimuth));
+    this.camera.position.copy(this.controls.target).addScaledVector(offset, length);
+    this.controls.update();
+    this.request();
+  }
+
+  /** Pixels that a node's radius takes in the middle of the picture when drawn at its real size. */
+  get nodePixels() {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (this.radius * this.height) / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
+  }
+
+  /**
+   * Shows nodes and links. `count` nodes of `slots` at `positions` (by slot, three each, Unity's axes), coloured by `scale`
+   * from `scalars`; `linkCount` links of `pairs`; `selected` is a slot or -1.
+   */
+  show({ count, slots, positions, scalars, scale, pairs, linkCount, linksVisible, selected, factor }) {
+    const radius = this.radius * factor;
+    const matrices = this.nodes.instanceMatrix.array;
+    const colours = this.nodes.instanceColor.array;
+    for (let i = 0; i < count; i++) {
+      writeMatrix(matrices, i, positions, slots[i], radius);
+      scale.write(scalars[slots[i]], colours, 3 * i);
+    }
+    this.nodes.count = this.outlines.count = count;
+    upload(this.nodes.instanceMatrix, 16 * count);
+    upload(this.nodes.instanceColor, 3 * count);
+
+    this.links.visible = linksVisible;
+    this.materials.link.opacity = this.theme.linkOpacity * (selected < 0 ? 1 : 0.4);
+    if (linksVisible) writeLines(this.links, pairs, linkCount, positions);
+    this.showSelection(selected, pairs, linkCount, positions, radius);
+    this.request();
+  }
+
+  showSelection(selected, pairs, linkCount, positions, radius) {
+    const own = [];
+    if (selected >= 0) {
+      for (let i = 0; i < 2 * linkCount; i += 2) if (pairs[i] === selected || pairs[i + 1] === selected) own.push(pairs[i], pairs[i + 1]);
+      writeMatrix(this.halos.instanceMatrix.array, 0, positions, selected, radius * 1.2);
+      for (let i = 0; i < own.length; i += 2) {
+        writeMatrix(this.halos.instanceMatrix.array, 1 + i / 2, positions, own[i] === selected ? own[i + 1] : own[i], radius * 0.92);
+      }
+    }
+    this.halos.count = selected < 0 ? 0 : 1 + own.length / 2;
+    upload(this.halos.instanceMatrix, 16 * this.halos.count);
+    reserve(this.ownLinks, own.length / 2);
+    writeLines(this.ownLinks, own, own.length / 2, positions);
+  }
+
+  /** The slot of the node nearest to a point of the canvas, within reach of a finger; -1 if there is none. */
+  pick(x, y, { count, slots, positions, factor }) {
+    const point = new Vector3();
+    const unit = this.height / (2 * Math.tan((this.camera.fov * Math.PI) / 360));
+    let best = -1;
+    let bestScore = Infinity;
+    for (let i = 0; i < count; i++) {
+      point.fromArray(positions, 3 * slots[i]);
+      point.z = -point.z;
+      const depth = point.distanceTo(this.camera.position);
+      point.project(this.camera);
+      if (point.z > 1) continue;
+      const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
+      const reach = Math.max((this.radius * factor * unit) / depth, 9);
+      // Inside a node's disc the one in front wins, else the nearest on the screen.
+      const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
+      if (score < bestScore) {
+        best = slots[i];
+        bestScore = score;
+      }
+    }
+    return best;
+  }
+
+  /** Draws soon, once for any number of calls. */
+  request() {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame((now) => {
+      this.pending = false;
+      this.onFrame(now);
+      this.draw();
+    });
+  }
+
+  draw() {
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+    const point = new Vector3();
+    for (const { label, top } of this.markers) {
+      point.copy(top).project(this.camera);
+      label.hidden = point.z > 1;
+      label.style.transform = `translate(${((point.x + 1) / 2) * this.width}px, ${((1 - point.y) / 2) * this.height}px) translate(-50%, -100%)`;
+    }
+  }
+}
+
+function lines(points, material) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
+  return new LineSegments(geometry, material);
+}
+
+function reserve(object, count) {
+  const position = object.geometry.getAttribute('position');
+  if (position && position.count >= 2 * count) return;
+  object.geometry.dispose();
+  object.geometry = new BufferGeometry();
+  object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(6 * Math.max(count, 16)), 3).setUsage(DynamicDrawUsage));
+}
+
+function writeLines(object, pairs, count, positions) {
+  const attribute = object.geometry.getAttribute('position');
+  for (let i = 0; i < 2 * count; i++) {
+    const from = 3 * pairs[i];
+    attribute.array[3 * i] = positions[from];
+    attribute.array[3 * i + 1] = positions[from + 1];
+    attribute.array[3 * i + 2] = -positions[from + 2];
+  }
+  object.geometry.setDrawRange(0, 2 * count);
+  upload(attribute, 6 * count);
+}
+
+function writeMatrix(matrices, index, positions, slot, radius) {
+  const at = 16 * index;
+  matrices[at] = matrices[at + 5] = matrices[at + 10] = radius;
+  matrices[at + 12] = positions[3 * slot];
+  matrices[at + 13] = positions[3 * slot + 1];
+  matrices[at + 14] = -positions[3 * slot + 2];
+  matrices[at + 15] = 1;
+}
+
+function upload(attribute, length) {
+  attribute.clearUpdateRanges();
+  if (length === 0) return;
+  attribute.addUpdateRange(0, length);
+  attribute.needsUpdate = true;
+}

@@ -1,0 +1,315 @@
+// Tests a replay page in headless Chromium: node test.mjs replay.html
+// Prints a line for each test, then "N passed, M failed"; exits 1 if one failed.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { launch } from './browser.mjs';
+
+const file = process.argv[2];
+if (!file) {
+  console.error('Usage: node test.mjs replay.html');
+  process.exit(2);
+}
+
+const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
+const html = readFileSync(file, 'utf8');
+const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
+const browser = await launch();
+let passed = 0;
+let failed = 0;
+
+async function test(name, run) {
+  try {
+    await run();
+    passed++;
+    console.log(`ok    ${name}`);
+  } catch (error) {
+    failed++;
+    console.log(`FAIL  ${name}\n      ${error.message.split('\n').join('\n      ')}`);
+  }
+}
+
+function check(holds, message) {
+  if (!holds) throw new Error(message);
+}
+
+/** Opens a page and collects whatever it complains about or fetches. */
+async function open(path, { in: where = browser, ...options } = {}) {
+  const context = await where.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  const tab = await context.newPage();
+  const url = pathToFileURL(resolve(path)).href;
+  const complaints = [];
+  tab.on('console', (message) => ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall due to ReadPixels') && complaints.push(message.text()));
+  tab.on('pageerror', (error) => complaints.push(error.message));
+  tab.on('request', (request) => request.url() !== url && !request.url().startsWith('data:') && complaints.push(`fetched ${request.url()}`));
+  await tab.goto(url);
+  return { tab, complaints, close: () => context.close() };
+}
+
+const state = (tab) => tab.evaluate(() => {
+  const { frame, time, playing, nodes, links } = window.replay.state();
+  return { frame, time, playing, nodes: nodes.length, links: links.length };
+});
+
+const seek = (tab, frame) => tab.evaluate((i) => window.replay.seek(i), frame);
+
+/** The canvas as it is drawn now. */
+const canvas = (tab) => tab.evaluate(() => {
+  window.replay.draw();
+  return document.getElementById('canvas').toDataURL();
+});
+
+const colours = (tab) => tab.evaluate(() => {
+  window.replay.draw();
+  const from = document.getElementById('canvas');
+  const to = new OffscreenCanvas(from.width, from.height).getContext('2d');
+  to.drawImage(from, 0, 0);
+  return new Set(new Uint32Array(to.getImageData(0, 0, from.width, from.height).data.buffer)).size;
+});
+
+/** Waits until `holds` of the state is true. */
+async function eventually(tab, holds, message) {
+  let now;
+  for (const end = Date.now() + 15000; Date.now() < end; await tab.waitForTimeout(50)) {
+    now = await state(tab);
+    if (holds(now)) return;
+  }
+  throw new Error(`${message}; it is ${JSON.stringify(now)}`);
+}
+
+/** A copy of the page with other data. */
+function withData(name, change) {
+  const path = join(folder, `${name}.html`);
+  writeFileSync(path, html.replace(DATA, (_, before, data, after) => before + change(data) + after));
+  return path;
+}
+
+async function expectMessage(path, words, options) {
+  const { tab, complaints, close } = await open(path, options);
+  const error = await tab.evaluate(() => window.replay.ready.then(() => null, (e) => e.message));
+  const shown = await tab.locator('#message').isVisible() ? await tab.locator('#message').innerText() : '(nothing)';
+  const controls = await tab.locator('#controls').isVisible();
+  await close();
+  check(error !== null, '`ready` is fulfilled');
+  check(words.test(shown), `the page says: ${shown}`);
+  check(!controls, 'the controls are there');
+  check(complaints.length === 0, complaints.join('\n'));
+}
+
+const { tab, complaints, close } = await open(file);
+try {
+  await tab.evaluate(() => window.replay.ready);
+  const frames = await tab.evaluate(() => window.replay.frames);
+  const middle = Math.floor((frames - 1) / 2);
+  await seek(tab, middle);
+  const { nodes, links } = await state(tab);
+
+  await test('the canvas shows a picture', async () => {
+    const found = await colours(tab);
+    check(found > 200, `${found} colours`);
+  });
+
+  if (frames > 1) {
+    await test('play moves the time, pause stops it', async () => {
+      await seek(tab, 0);
+      const start = (await state(tab)).time;
+      await tab.click('#play');
+      await eventually(tab, (now) => now.time > start, 'time stands still');
+      await tab.click('#play');
+      const paused = await state(tab);
+      await tab.waitForTimeout(300);
+      check(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
+    });
+
+    await test('the run stops at its end and starts anew', async () => {
+      await tab.selectOption('#speed', '8');
+      await seek(tab, frames - 2);
+      await tab.evaluate(() => window.replay.play());
+      await eventually(tab, (now) => !now.playing && now.frame === frames - 1, 'it does not stop at the last frame');
+      await tab.evaluate(() => window.replay.play());
+      await eventually(tab, (now) => now.frame < frames - 1, 'it does not start anew');
+      await tab.evaluate(() => window.replay.pause());
+      await tab.selectOption('#speed', '1');
+    });
+
+    await test('the scrub bar reaches every frame and changes the picture', async () => {
+      await tab.locator('#scrub').fill('0');
+      check((await state(tab)).frame === 0, 'not at the first frame');
+      const first = await canvas(tab);
+      await tab.locator('#scrub').fill(String(frames - 1));
+      check((await state(tab)).frame === frames - 1, 'not at the last frame');
+      check((await canvas(tab)) !== first, 'first and last frame look the same');
+    });
+
+    await test('a frame is the same whichever way it is reached', async () => {
+      const all = (order) => tab.evaluate(([indices, wanted]) => {
+        let found;
+        for (const i of indices) {
+          window.replay.seek(i);
+          if (i === wanted) found = JSON.stringify(window.replay.state());
+        }
+        return found;
+      }, [order, middle]);
+      const forward = await all(Array.from({ length: middle + 1 }, (_, i) => i));
+      const backward = await all(Array.from({ length: frames - middle }, (_, i) => frames - 1 - i));
+      check(forward === backward && forward === await all([0, frames - 1, middle]), 'the states differ');
+    });
+
+    await test('seeking is instant', async () => {
+      const each = await tab.evaluate((count) => {
+        const start = performance.now();
+        for (let i = 0; i < 100; i++) window.replay.seek((i * 7919) % count);
+        return (performance.now() - start) / 100;
+      }, frames);
+      check(each < 50, `${each.toFixed(1)} ms`);
+      console.log(`      ${each.toFixed(2)} ms a seek, ${frames} frames, ${nodes} nodes and ${links} links in the middle`);
+    });
+
+    await test('keys', async () => {
+      await tab.evaluate(() => document.activeElement.blur());
+      await seek(tab, 0);
+      await tab.keyboard.press('ArrowRight');
+      check((await state(tab)).frame === 1, 'right: not the next frame');
+      await tab.keyboard.press('ArrowLeft');
+      check((await state(tab)).frame === 0, 'left: not the frame before');
+      await tab.keyboard.press('End');
+      check((await state(tab)).frame === frames - 1, 'End: not the last frame');
+      await tab.keyboard.press('Home');
+      check((await state(tab)).frame === 0, 'Home: not the first frame');
+      await tab.keyboard.press(' ');
+      check((await state(tab)).playing, 'space does not play');
+      await tab.keyboard.press(' ');
+      check(!(await state(tab)).playing, 'space does not pause');
+      await tab.keyboard.press('l');
+      check(!(await tab.isChecked('#links')), 'l does not hide the links');
+      await tab.keyboard.press('l');
+      await tab.keyboard.press('.');
+      check((await tab.inputValue('#speed')) === '2', '. is not faster');
+      await tab.keyboard.press(',');
+      await tab.focus('#play');
+      await tab.keyboard.press(' ');
+      check((await state(tab)).playing, 'space on the play button does not play');
+      await tab.keyboard.press(' ');
+      check(!(await state(tab)).playing, 'space on the play button does not pause');
+    });
+  }
+
+  if (links > 0) {
+    await test('links can be hidden and shown', async () => {
+      await seek(tab, middle);
+      const shown = await canvas(tab);
+      await tab.uncheck('#links');
+      const hidden = await canvas(tab);
+      await tab.check('#links');
+      check(shown !== hidden, 'the picture stays the same');
+      check(shown === await canvas(tab), 'the links do not come back');
+    });
+  }
+
+  if (nodes > 0) {
+    await test('a node is found by its id, with its neighbours, and let go', async () => {
+      await seek(tab, middle);
+      const { id, neighbours } = await tab.evaluate(() => {
+        const { nodes: all, links: pairs } = window.replay.state();
+        const some = pairs.length ? pairs[0][0] : all[0].id;
+        return { id: some, neighbours: pairs.filter((pair) => pair.includes(some)).length };
+      });
+      const before = await canvas(tab);
+      await tab.fill('#find', String(id));
+      await tab.keyboard.press('Enter');
+      const text = await tab.innerText('#selection');
+      check(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page says: ${text}`);
+      check((await canvas(tab)) !== before, 'nothing is highlighted');
+      await tab.click('#deselect');
+      check((await canvas(tab)) === before, 'the highlight stays');
+    });
+
+    await test('a click selects a node', async () => {
+      await seek(tab, 0);
+      const id = await tab.evaluate(() => {
+        window.replay.select(window.replay.state().nodes[0].id);
+        return document.getElementById('selected-name').textContent;
+      });
+      await tab.evaluate(() => window.replay.select(NaN));
+      check(await tab.locator('#selection').isHidden(), `${id} stays selected`);
+      let found = false;
+      for (let y = 120; y < 560 && !found; y += 12) {
+        for (let x = 260; x < 1020 && !found; x += 12) {
+          await tab.mouse.click(x, y);
+          found = await tab.locator('#selection').isVisible();
+        }
+      }
+      check(found, 'no click finds a node');
+      await tab.evaluate(() => document.activeElement.blur());
+      await tab.keyboard.press('Escape');
+      check(await tab.locator('#selection').isHidden(), 'Escape does not deselect');
+    });
+  }
+
+  await test('the mouse turns the view and R brings it back', async () => {
+    await seek(tab, middle);
+    await tab.keyboard.press('r');
+    await tab.waitForTimeout(300);
+    const before = await canvas(tab);
+    await tab.mouse.move(640, 300);
+    await tab.mouse.down();
+    await tab.mouse.move(760, 340, { steps: 4 });
+    await tab.mouse.up();
+    await tab.waitForTimeout(300);
+    check((await canvas(tab)) !== before, 'the picture stays the same');
+    await tab.keyboard.press('t');
+    await tab.keyboard.press('a');
+    await tab.keyboard.press('r');
+    await tab.waitForTimeout(300);
+    check((await canvas(tab)) === before, 'the first view does not come back');
+  });
+
+  await test('the view fills the window after a resize', async () => {
+    for (const size of [{ width: 700, height: 900 }, { width: 400, height: 300 }, { width: 1280, height: 720 }]) {
+      await tab.setViewportSize(size);
+      await tab.waitForTimeout(200);
+      const drawn = await tab.evaluate(() => {
+        const c = document.getElementById('canvas');
+        return { width: c.width / devicePixelRatio, height: c.height / devicePixelRatio, overflow: document.documentElement.scrollWidth > innerWidth };
+      });
+      check(drawn.width === size.width && drawn.height === size.height && !drawn.overflow, `${JSON.stringify(size)} gives ${JSON.stringify(drawn)}`);
+      check((await colours(tab)) > 50, `blank at ${JSON.stringify(size)}`);
+    }
+  });
+
+  await test('the dark scheme looks different', async () => {
+    const light = await canvas(tab);
+    await tab.emulateMedia({ colorScheme: 'dark' });
+    const dark = await canvas(tab);
+    await tab.emulateMedia({ colorScheme: 'light' });
+    check(light !== dark, 'the picture stays the same');
+  });
+
+  await test('no error, no warning, nothing fetched', async () => {
+    check(complaints.length === 0, complaints.join('\n'));
+  });
+} catch (error) {
+  failed++;
+  console.log(`FAIL  the page opens\n      ${error.message}`);
+} finally {
+  await close();
+}
+
+await test('data cut short gives a clear message', () => expectMessage(withData('short', (data) => data.slice(0, (data.length >> 3) * 4)), /damaged or cut short/));
+await test('a flipped byte gives a clear message', () => expectMessage(withData('flipped', (data) => {
+  const bytes = Buffer.from(data, 'base64');
+  bytes[bytes.length >> 1] ^= 0x55;
+  return bytes.toString('base64');
+}), /damaged or cut short/));
+await test('text that is no data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
+await test('the empty template says so', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
+await browser.close();
+
+const blind = await launch(undefined, ['--disable-3d-apis']);
+await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
+await blind.close();
+rmSync(folder, { recursive: true });
+
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);
