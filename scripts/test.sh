@@ -1,1 +1,135 @@
-# placeholder
+# ./collektive test: every suite, and one line with the sum of their real results at the end.
+
+PROBE="$ROOT/unity/Headless~/Tests/Simulation/Probe"
+
+help_test() {
+  cat <<'H'
+usage: ./collektive test [SUITE]...
+
+Builds and tests everything, or the suites named: shim, jvm, csharp, roundtrip, page, acceptance.
+The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed.
+H
+}
+
+TOTAL_PASSED=0
+TOTAL_FAILED=0
+
+# suite NAME COMMAND...: runs a suite that prints "N passed, N failed" as its last such line, and adds that up.
+suite() {
+  local name=$1 log="$BUILD/log/test-$1.log" code=0 result passed failed
+  shift
+  mkdir -p "$BUILD/log"
+  say "test $name ..."
+  "$@" >"$log" 2>&1 || code=$?
+  result=$(grep -aoE '[0-9]+ passed, [0-9]+ failed' "$log" | tail -n 1)
+  passed=${result%% passed*}
+  failed=${result##*, }
+  failed=${failed%% failed*}
+  if [ -z "$result" ] || { [ "$code" != 0 ] && [ "$failed" = 0 ]; }; then
+    failed=$((${failed:-0} + 1))
+    passed=${passed:-0}
+    echo "suite $name ended with code $code${result:+ after \"$result\"}" >>"$log"
+  fi
+  TOTAL_PASSED=$((TOTAL_PASSED + passed))
+  TOTAL_FAILED=$((TOTAL_FAILED + failed))
+  [ "$failed" = 0 ] || tail -n 80 "$log" >&2
+  say "test $name: $passed passed, $failed failed"
+}
+
+# All JDKs on this machine that the tests run on: the oldest supported and the newest.
+test_jdks() {
+  { for jdk in /usr/lib/jvm/*; do [ -e "$jdk/lib/server/libjvm.so" ] && [ -e "$jdk/release" ] && readlink -f "$jdk"; done; find_jdk; } | sort -u
+}
+
+test_shim() {
+  local jdk passed=0 failed=0 log
+  cmake_configure && cmake --build "$BUILD/cmake" --target shim_tests -j 2 || return 1
+  for jdk in $(test_jdks); do
+    echo "== $jdk"
+    log=$(CLK_TEST_JAVA_HOME="$jdk" ctest --test-dir "$BUILD/cmake" --output-on-failure -j 2) || true
+    printf '%s\n' "$log"
+    failed=$((failed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of [0-9]*.*/\1/p' | tail -n 1)))
+    passed=$((passed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of \([0-9]*\).*/\2 - \1/p' | tail -n 1)))
+  done
+  echo "$passed passed, $failed failed"
+}
+
+test_jvm() {
+  local code=0
+  find "$ROOT/jvm-host" -path '*/target/surefire-reports/*.xml' -delete
+  maven package -Dmaven.test.failure.ignore=true || code=$?
+  [ "$code" = 0 ] && jvm_fingerprint >"$BUILD/stamp/jvm-host"
+  python3 - "$ROOT/jvm-host" <<'P' || code=1
+import glob, sys, xml.etree.ElementTree as tree
+total = bad = 0
+for path in glob.glob(sys.argv[1] + "/*/target/surefire-reports/TEST-*.xml"):
+    suite = tree.parse(path).getroot()
+    total += int(suite.get("tests")) - int(suite.get("skipped"))
+    bad += int(suite.get("failures")) + int(suite.get("errors"))
+print(f"{total - bad} passed, {bad} failed")
+sys.exit(bad > 0)
+P
+  return $code
+}
+
+build_csharp_tests() {
+  local work="$BUILD/csharp-tests" schema key
+  key=$(fingerprint "$ROOT/schema" "$PROBE/probe.fbs" "$GENERATOR_JAR")
+  once test-schemas "$key" generate_test_schemas "$work"
+  assembly Collektive.Headless.Tests.dll \
+    "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $CSHARP/Collektive.Player.exe $NUNIT" \
+    "$ROOT/unity/Headless~/Tests" "$work" -- $GENERATED_CODE_SYMBOLS
+  assembly Collektive.TestRunner.exe "$NUNIT" "$ROOT/unity/Headless~/TestRunner" -- -target:exe
+}
+
+generate_test_schemas() {
+  rm -rf "$1"
+  mkdir -p "$1"
+  local schema
+  for schema in "$PROBE/probe.fbs" "$ROOT"/schema/test/*.fbs; do
+    generator "$schema" --csharp "$1/$(basename "$schema" .fbs)" || return 1
+  done
+}
+
+# csharp_tests RUNTIME JDK: all C# tests on one runtime and one JVM.
+csharp_tests() {
+  cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
+  COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") \
+    managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll"
+}
+
+test_acceptance() {
+  python3 "$ROOT/scripts/acceptance/acceptance.py" "$ROOT"
+}
+
+wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
+
+cmd_test() {
+  local known="shim jvm csharp roundtrip page acceptance" name jdk
+  SUITES=("$@")
+  for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
+  setup_system
+  build_native
+  if wanted jvm; then
+    setup_flatc
+    suite jvm test_jvm
+  fi
+  build_jvm
+  build_csharp
+  if wanted shim; then suite shim test_shim; fi
+  if wanted csharp; then
+    build_csharp_tests
+    for jdk in $(test_jdks); do suite "csharp-on-$(basename "$jdk")" csharp_tests mono-sgen "$jdk"; done
+  fi
+  if wanted roundtrip; then suite roundtrip bash "$ROOT/schema/test/roundtrip.sh"; fi
+  if wanted page || wanted acceptance; then build_replay_page; fi
+  if wanted acceptance; then suite acceptance test_acceptance; fi
+  if wanted page; then suite page test_page; fi
+  echo "$TOTAL_PASSED passed, $TOTAL_FAILED failed"
+  [ "$TOTAL_FAILED" = 0 ]
+}
+
+test_page() {
+  "$ROOT/collektive" demo --nodes 60 --seconds 10 --out "$BUILD/page-demo" || return 1
+  COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/test.mjs" "$BUILD/page-demo/replay.html"
+}

@@ -13,8 +13,6 @@ namespace Collektive.Bridge
     {
         private readonly GrowingArray<int> nodesRemoved = new GrowingArray<int>();
         private readonly List<NewNode> nodesAdded = new List<NewNode>();
-        private readonly GrowingArray<LinkEnds> linksRemoved = new GrowingArray<LinkEnds>();
-        private readonly GrowingArray<LinkRecord> links = new GrowingArray<LinkRecord>();
         private readonly GrowingArray<int> due = new GrowingArray<int>();
 
         internal StepRequest(SensorBuffer sensors, GlobalBuffer globals)
@@ -31,6 +29,12 @@ namespace Collektive.Bridge
 
         /// <summary>Whether <see cref="Globals"/> goes out with the next step.</summary>
         public bool GlobalsChanged { get; set; }
+
+        /// <summary>Directed links made or changed since the last step.</summary>
+        internal GrowingArray<LinkRecord> Links { get; } = new GrowingArray<LinkRecord>();
+
+        /// <summary>Directed links removed since the last step.</summary>
+        internal GrowingArray<LinkEnds> LinksRemoved { get; } = new GrowingArray<LinkEnds>();
 
         /// <summary>Nodes due in the next step.</summary>
         public int DueCount => due.Count;
@@ -53,13 +57,13 @@ namespace Collektive.Bridge
         /// <summary>Makes a directed link, or gives an existing one new values.</summary>
         public void SetLink(LinkRecord link)
         {
-            links.Add(link);
+            Links.Add(link);
         }
 
         /// <summary>Removes a directed link between nodes that stay.</summary>
         public void RemoveLink(LinkEnds link)
         {
-            linksRemoved.Add(link);
+            LinksRemoved.Add(link);
         }
 
         /// <summary>Makes a node run a round in the next step. Ids must come in ascending order.</summary>
@@ -78,8 +82,8 @@ namespace Collektive.Bridge
         {
             nodesRemoved.Clear();
             nodesAdded.Clear();
-            linksRemoved.Clear();
-            links.Clear();
+            LinksRemoved.Clear();
+            Links.Clear();
             due.Clear();
             GlobalsChanged = false;
         }
@@ -89,8 +93,8 @@ namespace Collektive.Bridge
             var sensors = Sensors.Write(builder, due.Count);
             var globals = GlobalsChanged ? Globals.Write(builder) : 0;
             var dueVector = Block(builder, due, sizeof(int));
-            var linksVector = Block(builder, links, sizeof(LinkRecord));
-            var linksRemovedVector = Block(builder, linksRemoved, sizeof(LinkEnds));
+            var linksVector = Block(builder, Links, sizeof(LinkRecord));
+            var linksRemovedVector = Block(builder, LinksRemoved, sizeof(LinkEnds));
             var nodesAddedVector = WriteNodesAdded(builder);
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(

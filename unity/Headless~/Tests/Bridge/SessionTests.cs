@@ -1,0 +1,194 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using NUnit.Framework;
+using probe;
+
+namespace Collektive.Headless.Tests.Bridge
+{
+    /// <summary>The path without Unity: real frames of 500 nodes through the shim into programs and back.</summary>
+    [TestFixture]
+    public sealed class SessionTests
+    {
+        private const int Nodes = 500;
+        private const int Limit = 10000;
+
+        private Session session;
+
+        [SetUp]
+        public void StartJvm()
+        {
+            Jvm.Start(new JvmSettings(Variable("COLLEKTIVE_TEST_JAVA_HOME"), Variable("COLLEKTIVE_HOST_JAR"), new[] { "-Xmx256m", "-XX:+UseSerialGC" }));
+        }
+
+        [TearDown]
+        public void CloseSession()
+        {
+            session?.Dispose();
+            session = null;
+        }
+
+        [Test]
+        public void Five_hundred_nodes_on_a_ring_add_up_what_both_sides_sent()
+        {
+            session = Open("sum");
+            AddRing();
+            for (var tick = 0; tick < 50; tick++)
+            {
+                Fill(i => i + tick);
+                session.Step(0.05, Limit);
+                Assert.That(session.Answer.NodeCount, Is.EqualTo(Nodes));
+                Assert.That(session.Answer.EngineLinks, Is.EqualTo(2 * Nodes));
+                var actuators = (ActuatorBuffer<ActuatorDataValue>)session.Answer.Actuators;
+                for (var i = 0; i < Nodes; i++)
+                {
+                    Assert.That(session.Answer.Node(i), Is.EqualTo(i));
+                    var left = (i + Nodes - 1) % Nodes + tick - 1;
+                    var right = (i + 1) % Nodes + tick - 1;
+                    Assert.That(actuators[i].Value, Is.EqualTo(tick == 0 ? 0 : left + right), "tick " + tick + ", node " + i);
+                }
+            }
+        }
+
+        [Test]
+        public void A_tick_allocates_no_managed_memory_in_steady_state()
+        {
+            session = Open("sum");
+            AddRing();
+            for (var i = 0; i < 50; i++) Tick();
+            var bytes = AllocatedBy(() => { for (var i = 0; i < 2000; i++) Tick(); });
+            var control = AllocatedBy(() => { for (var i = 0; i < 2000; i++) { Tick(); Keep = new byte[100]; } });
+            Assert.That(control, Is.GreaterThan(2000 * 100), "the measurement sees allocations");
+            Assert.That(bytes, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void A_rejected_frame_says_why_and_changes_nothing()
+        {
+            session = Open("sum");
+            AddRing();
+            for (var i = 0; i < 3; i++) Tick();
+            var tick = session.Tick;
+            session.Request.SetLink(new LinkRecord { From = 1, To = 100000 });
+            var error = Assert.Throws<BridgeException>(Tick);
+            Assert.That(error.Error, Is.EqualTo(BridgeError.Frame));
+            Assert.That(error.Message, Is.StringContaining("100000"));
+            Assert.That(session.Tick, Is.EqualTo(tick));
+        }
+
+        [Test]
+        public void A_closed_session_refuses_steps_and_closes_twice_without_harm()
+        {
+            session = Open("sum");
+            session.Dispose();
+            session.Dispose();
+            Assert.Throws<ObjectDisposedException>(() => session.Step(0.05, Limit));
+        }
+
+        [Test]
+        public void Another_schema_is_refused_with_the_type_that_differs()
+        {
+            var error = Assert.Throws<BridgeException>(() => Session.Open(Settings("sum"), new ChangedSchema()));
+            Assert.That(error.Error, Is.EqualTo(BridgeError.Schema));
+            Assert.That(error.Message, Is.StringContaining("ActuatorData"));
+        }
+
+        [Test]
+        public void Several_sessions_live_side_by_side()
+        {
+            session = Open("double");
+            using (var other = Open("double"))
+            {
+                foreach (var each in new[] { session, other })
+                {
+                    each.Request.AddNode(1, "", null);
+                    each.Request.AddDue(1);
+                    each.Request.Sensors.EnsureCapacity(1);
+                    each.Request.Sensors.Clear(0);
+                    ((SensorBuffer<SensorDataValue>)each.Request.Sensors).Items[0].Value = each == session ? 1 : 10;
+                }
+                other.Step(0.1, Limit);
+                session.Step(0.1, Limit);
+                Assert.That(((ActuatorBuffer<ActuatorDataValue>)other.Answer.Actuators)[0].Value, Is.EqualTo(20));
+                Assert.That(((ActuatorBuffer<ActuatorDataValue>)session.Answer.Actuators)[0].Value, Is.EqualTo(2));
+            }
+        }
+
+        /// <summary>Keeps the control's allocation from being optimised away.</summary>
+        public static byte[] Keep { get; private set; }
+
+        private static string Variable(string name) =>
+            Environment.GetEnvironmentVariable(name) ?? throw new InvalidOperationException(name + " is not set: run ./collektive test");
+
+        private static long AllocatedBy(Action action)
+        {
+            action();
+            var before = GC.GetAllocatedBytesForCurrentThread();
+            action();
+            return GC.GetAllocatedBytesForCurrentThread() - before;
+        }
+
+        private static SessionSettings Settings(string program) => new SessionSettings
+        {
+            Seed = 1,
+            Program = program,
+            Jars = new[] { Variable("COLLEKTIVE_PROBE_JAR") },
+        };
+
+        private static Session Open(string program) => Session.Open(Settings(program), new ProbeSchema());
+
+        private void AddRing()
+        {
+            for (var i = 0; i < Nodes; i++)
+            {
+                session.Request.AddNode(i, "", null);
+                session.Request.SetLink(new LinkRecord { From = i, To = (i + 1) % Nodes, Length = 1 });
+                session.Request.SetLink(new LinkRecord { From = (i + 1) % Nodes, To = i, Length = 1 });
+            }
+        }
+
+        private void Tick()
+        {
+            Fill(null);
+            session.Step(0.05, Limit);
+        }
+
+        private void Fill(Func<int, float> value)
+        {
+            var sensors = (SensorBuffer<SensorDataValue>)session.Request.Sensors;
+            sensors.EnsureCapacity(Nodes);
+            session.Request.ClearDue();
+            for (var i = 0; i < Nodes; i++)
+            {
+                sensors.Clear(i);
+                sensors.Items[i].Value = value == null ? i : value(i);
+                session.Request.AddDue(i);
+            }
+        }
+
+        /// <summary>The probe schema as if its actuator data had been generated from another text.</summary>
+        private sealed class ChangedSchema : DataSchema
+        {
+            private readonly ProbeSchema probe = new ProbeSchema();
+
+            public override string Name => probe.Name;
+
+            public override IReadOnlyList<KeyValuePair<string, ulong>> Types
+            {
+                get
+                {
+                    var types = new List<KeyValuePair<string, ulong>>();
+                    foreach (var type in probe.Types)
+                    {
+                        types.Add(new KeyValuePair<string, ulong>(type.Key, type.Key == "ActuatorData" ? type.Value ^ 1 : type.Value));
+                    }
+                    return types;
+                }
+            }
+
+            public override SensorBuffer CreateSensors() => probe.CreateSensors();
+
+            public override ActuatorBuffer CreateActuators() => probe.CreateActuators();
+        }
+    }
+}

@@ -1,0 +1,83 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Same scene, seed and inputs: bit-identical rounds, proved by the chained digest.</summary>
+    [TestFixture]
+    public sealed class DeterminismTests : SimulationFixture
+    {
+        private const int Ticks = 12;
+
+        [TestCase(1)]
+        [TestCase(2)]
+        [TestCase(8)]
+        public void Digests_repeat_with_any_number_of_threads(int threads)
+        {
+            var once = Digests(settings => settings.threads = 1, 0);
+            var again = Digests(settings => settings.threads = threads, 0);
+            Assert.That(again, Is.EqualTo(once));
+        }
+
+        [Test]
+        public void Another_seed_gives_other_digests()
+        {
+            Assert.That(Digests(settings => settings.seed = 2, 0), Is.Not.EqualTo(Digests(settings => settings.seed = 1, 0)));
+        }
+
+        [Test]
+        public void One_sensor_bit_flipped_changes_the_digests_from_its_tick_on_and_none_before()
+        {
+            const int flipped = 5;
+            var plain = Digests(null, 0);
+            var other = Digests(null, flipped);
+            for (var tick = 1; tick <= Ticks; tick++)
+            {
+                if (tick < flipped) Assert.That(other[tick - 1], Is.EqualTo(plain[tick - 1]), "tick " + tick);
+                else Assert.That(other[tick - 1], Is.Not.EqualTo(plain[tick - 1]), "tick " + tick);
+            }
+        }
+
+        /// <summary>The digest after each tick of a little swarm that moves at random; the last bit of one sensor flips at a tick.</summary>
+        private List<ulong> Digests(Action<SimulationSettings> change, int flipAt)
+        {
+            StopPlaying();
+            StartPlaying();
+            Configure("random", change);
+            var nodes = new List<ProbeNode>();
+            for (var i = 0; i < 40; i++)
+            {
+                var place = new Vector3(Manager.Random.Range(0f, 10f), 0, Manager.Random.Range(0f, 10f));
+                nodes.Add(MakeNode(i + 1, place));
+                nodes[i].Node.Program = i % 2 == 0 ? "random" : "scaled";
+                nodes[i].Node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = 2;
+            }
+            Rejoin(nodes);
+            var digests = new List<ulong>();
+            for (var tick = 1; tick <= Ticks; tick++)
+            {
+                if (tick == flipAt) nodes[3].Sensor.Value = BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(nodes[3].Sensor.Value) ^ 1);
+                Play(1);
+                if (tick == flipAt) nodes[3].Sensor.Value = 4;
+                foreach (var node in nodes) node.Node.transform.position += new Vector3(node.Node.Random.Range(-0.5f, 0.5f), 0, 0);
+                digests.Add(Manager.Digest);
+            }
+            Assert.That(Errors, Is.Empty);
+            return digests;
+        }
+
+        /// <summary>Programs are read when a node joins.</summary>
+        private static void Rejoin(List<ProbeNode> nodes)
+        {
+            foreach (var node in nodes)
+            {
+                node.Node.RequestedId = node.Node.Id;
+                node.Node.enabled = false;
+                node.Node.enabled = true;
+            }
+        }
+    }
+}

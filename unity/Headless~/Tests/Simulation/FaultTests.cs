@@ -1,0 +1,181 @@
+using System;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Bad input and bad programs: one clear error, nothing else lost.</summary>
+    [TestFixture]
+    public sealed class FaultTests : SimulationFixture
+    {
+        [TestCase(13, "thirteen")]
+        [TestCase(15, "StackOverflowError")]
+        [TestCase(16, "SecurityException")]
+        [TestCase(17, "SecurityException")]
+        [TestCase(18, "OutOfMemoryError")]
+        [TestCase(19, "view")]
+        public void A_round_that_fails_costs_its_node_this_round_and_nobody_else_anything(int trouble, string expected)
+        {
+            Configure("trouble");
+            var good = MakeNode(0);
+            var bad = MakeNode(0);
+            Play(2);
+            bad.Sensor.Value = trouble;
+            Play(1);
+            Assert.That(good.Answer, Is.EqualTo(3));
+            Assert.That(bad.Actuator.Calls, Is.EqualTo(2));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("node " + bad.Node.Id).And.StringContaining("trouble").And.StringContaining(expected));
+            Assert.That(bad.Node.LastError, Is.StringContaining(expected));
+            bad.Sensor.Value = 0;
+            Play(1);
+            Assert.That(bad.Answer, Is.EqualTo(3), "the failed round left the state as it was");
+            Assert.That(good.Answer, Is.EqualTo(4));
+            Assert.That(Manager.Failure, Is.Empty);
+        }
+
+        [Test]
+        public void A_round_that_never_ends_ends_the_session_and_the_next_one_works()
+        {
+            Configure("trouble", settings => settings.stepLimitMs = 500);
+            var node = MakeNode(14);
+            Play(1);
+            Assert.That(Manager.Failure, Is.Not.Empty);
+            Assert.That(Manager.enabled, Is.False);
+            Assert.That(Errors.Count, Is.GreaterThanOrEqualTo(1));
+            StopPlaying();
+            StartPlaying();
+            node = MakeNode(4);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(8));
+        }
+
+        [Test]
+        public void What_a_program_prints_reaches_the_console()
+        {
+            Configure("trouble");
+            MakeNode(20);
+            Play(3);
+            Assert.That(string.Join("\n", Log), Is.StringContaining("a line from the program"));
+        }
+
+        [Test]
+        public void A_number_that_is_not_finite_stops_the_simulation_and_names_node_and_field()
+        {
+            MakeNode(1);
+            var node = MakeNode(float.NaN);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("node " + node.Node.Id).And.StringContaining("value"));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void A_duplicate_id_stops_the_simulation_and_names_both_nodes()
+        {
+            MakeNode(1, default, 5).Node.name = "first";
+            var second = new GameObject("second");
+            second.SetActive(false);
+            second.AddComponent<Node>().RequestedId = 5;
+            second.SetActive(true);
+            Assert.That(Manager.Failure, Is.StringContaining("id 5").And.StringContaining("first").And.StringContaining("second"));
+        }
+
+        [Test]
+        public void A_link_to_an_unknown_node_stops_the_simulation_and_names_it()
+        {
+            var node = MakeNode(1);
+            Manager.AddLink(node.Node.Id, 99);
+            Assert.That(Manager.Failure, Is.StringContaining("node 99"));
+        }
+
+        [Test]
+        public void A_link_from_a_node_to_itself_is_refused()
+        {
+            var node = MakeNode(1);
+            Manager.AddLink(node.Node.Id, node.Node.Id);
+            Assert.That(Manager.Failure, Is.StringContaining("itself"));
+        }
+
+        [Test]
+        public void A_missing_jar_is_named()
+        {
+            Configure("double", settings => settings.jars[0] = "nowhere/programs.jar");
+            MakeNode(1);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("programs.jar"));
+        }
+
+        [Test]
+        public void An_unknown_program_is_named_with_those_that_there_are()
+        {
+            Configure("nonesuch");
+            MakeNode(1);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("nonesuch").And.StringContaining("double"));
+        }
+
+        [Test]
+        public void An_unknown_program_of_one_node_is_named_with_the_node()
+        {
+            var node = new GameObject("odd");
+            node.SetActive(false);
+            node.AddComponent<Node>().Program = "nonesuch";
+            node.SetActive(true);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("nonesuch").And.StringContaining("0"));
+        }
+
+        [Test]
+        public void An_unknown_schema_is_named()
+        {
+            Configure("double", settings => settings.schema = "nowhere.NowhereSchema");
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("nowhere.NowhereSchema"));
+        }
+
+        [Test]
+        public void A_sensor_that_throws_costs_its_node_the_round_and_is_reported_with_its_name()
+        {
+            var good = MakeNode(1);
+            var bad = MakeNode(1);
+            bad.Node.gameObject.AddComponent<ThrowingSensor>();
+            Play(1);
+            Assert.That(good.Answer, Is.EqualTo(2));
+            Assert.That(bad.Actuator.Calls, Is.EqualTo(0));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("ThrowingSensor"));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void A_sensor_made_for_another_schema_is_refused_with_both_types()
+        {
+            var node = MakeNode(1);
+            node.Node.gameObject.AddComponent<ForeignSensor>();
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignSensor").And.StringContaining("SensorDataValue"));
+        }
+
+        [Test]
+        public void Settings_out_of_range_are_refused_before_anything_starts()
+        {
+            Configure("double", settings => settings.deltaTime = 0);
+            MakeNode(1);
+            UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(Manager.Failure, Is.StringContaining("delta time"));
+        }
+
+        public sealed class ThrowingSensor : Sensor<probe.SensorDataValue>
+        {
+            protected override void Sense(ref probe.SensorDataValue data) => throw new InvalidOperationException("broken on purpose");
+        }
+
+        public sealed class ForeignSensor : Sensor<int>
+        {
+            protected override void Sense(ref int data)
+            {
+            }
+        }
+    }
+}

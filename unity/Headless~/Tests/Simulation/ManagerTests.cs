@@ -1,0 +1,258 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    [TestFixture]
+    public sealed class ManagerTests : SimulationFixture
+    {
+        [Test]
+        public void A_round_sees_its_sensors_and_drives_its_actuators()
+        {
+            var node = MakeNode(21);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(42));
+            Assert.That(node.Actuator.Calls, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Ticks_follow_simulated_time_and_not_the_frame_rate()
+        {
+            MakeNode(0);
+            for (var i = 0; i < 10; i++) Loop.Frame(0.02f);
+            Assert.That(Manager.Tick, Is.EqualTo(4));
+            Loop.Frame(0.1f);
+            Assert.That(Manager.Tick, Is.EqualTo(6));
+        }
+
+        [Test]
+        public void A_long_frame_makes_a_bounded_number_of_ticks()
+        {
+            MakeNode(0);
+            Loop.Frame(10);
+            Assert.That(Manager.Tick, Is.EqualTo(4));
+            Loop.Frame(0.05f);
+            Assert.That(Manager.Tick, Is.EqualTo(5));
+        }
+
+        [Test]
+        public void Paused_there_is_no_call_no_physics_and_no_time()
+        {
+            var node = MakeNode(1, new Vector3(0, 10, 0));
+            var body = node.Node.gameObject.AddComponent<Rigidbody>();
+            node.Node.gameObject.AddComponent<SphereCollider>();
+            Play(2);
+            var calls = Jvm.StepCalls;
+            var time = Manager.SimulatedTime;
+            var height = body.position.y;
+            Manager.Paused = true;
+            Play(5);
+            Assert.That(Jvm.StepCalls, Is.EqualTo(calls));
+            Assert.That(Manager.SimulatedTime, Is.EqualTo(time));
+            Assert.That(body.position.y, Is.EqualTo(height));
+            Manager.Step();
+            Assert.That(Manager.SimulatedTime, Is.GreaterThan(time));
+            Assert.That(body.position.y, Is.LessThan(height));
+        }
+
+        [Test]
+        public void Time_and_delta_time_reach_the_program()
+        {
+            Configure("clock", settings => settings.deltaTime = 0.1f);
+            var node = MakeNode(0);
+            Play(3);
+            Assert.That(node.Answer, Is.EqualTo(0.2f).Within(1e-6f));
+            Assert.That(node.Actuator.Last.Heard, Is.EqualTo(100));
+        }
+
+        [Test]
+        public void Each_node_can_have_its_own_program_and_parameters()
+        {
+            var first = MakeNode(2);
+            var second = new GameObject("Scaled");
+            second.SetActive(false);
+            var node = second.AddComponent<Node>();
+            node.Program = "scaled";
+            node.Parameters.Add(new NodeParameter("factor", "10"));
+            second.AddComponent<ProbeSensor>().Value = 2;
+            var actuator = second.AddComponent<ProbeActuator>();
+            second.SetActive(true);
+            Play(1);
+            Assert.That(first.Answer, Is.EqualTo(4));
+            Assert.That(actuator.Last.Value, Is.EqualTo(20));
+        }
+
+        [Test]
+        public void The_programs_of_the_jar_are_listed_with_their_parameters()
+        {
+            MakeNode(0);
+            Play(1);
+            var names = new List<string>();
+            foreach (var program in Manager.Programs) names.Add(program.Name);
+            Assert.That(names, Is.EquivalentTo(new[] { "clock", "count", "double", "hops", "random", "scaled", "sum", "trouble" }));
+            foreach (var program in Manager.Programs)
+            {
+                if (program.Name != "scaled") continue;
+                Assert.That(program.Parameters.Count, Is.EqualTo(1));
+                Assert.That(program.Parameters[0].Name, Is.EqualTo("factor"));
+                Assert.That(program.Parameters[0].DefaultValue, Is.EqualTo("3"));
+            }
+        }
+
+        [Test]
+        public void Nodes_come_and_go_while_running_and_start_afresh_when_they_return()
+        {
+            Configure("count");
+            var a = MakeNode(0);
+            Play(3);
+            var b = MakeNode(0);
+            Play(2);
+            Assert.That(a.Answer, Is.EqualTo(5));
+            Assert.That(b.Answer, Is.EqualTo(2));
+            a.Node.enabled = false;
+            Play(2);
+            Assert.That(a.Actuator.Calls, Is.EqualTo(5));
+            Assert.That(b.Answer, Is.EqualTo(4));
+            Assert.That(Manager.Nodes.Count, Is.EqualTo(1));
+            a.Node.enabled = true;
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(1));
+            Object.Destroy(b.Node.gameObject);
+            Play(2);
+            Assert.That(Manager.Nodes.Count, Is.EqualTo(1));
+            Assert.That(a.Answer, Is.EqualTo(3));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void An_id_can_be_used_again_within_one_tick()
+        {
+            Configure("count");
+            var a = MakeNode(0, default, 7);
+            Play(3);
+            a.Node.enabled = false;
+            var b = MakeNode(0, default, 7);
+            Play(1);
+            Assert.That(b.Answer, Is.EqualTo(1));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Scripts_link_nodes_directed_or_not()
+        {
+            Configure("sum");
+            var a = MakeNode(1);
+            var b = MakeNode(10);
+            var c = MakeNode(100);
+            Manager.AddLink(a.Node.Id, b.Node.Id);
+            Manager.AddLink(c.Node.Id, b.Node.Id, directed: true);
+            Play(2);
+            Assert.That(a.Answer, Is.EqualTo(10));
+            Assert.That(b.Answer, Is.EqualTo(101));
+            Assert.That(c.Answer, Is.EqualTo(0));
+            Manager.RemoveLink(a.Node.Id, b.Node.Id);
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(0));
+            Assert.That(b.Answer, Is.EqualTo(100));
+        }
+
+        [Test]
+        public void A_link_wanted_by_a_rule_and_by_a_script_stays_until_neither_wants_it()
+        {
+            Configure("sum");
+            var a = MakeNode(1);
+            var b = MakeNode(10, new Vector3(1, 0, 0));
+            var rule = a.Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            rule.Radius = 2;
+            Manager.AddLink(a.Node.Id, b.Node.Id);
+            Play(2);
+            rule.enabled = false;
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(10));
+            Manager.RemoveLink(a.Node.Id, b.Node.Id);
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(0));
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void A_trigger_zone_makes_neighbours_of_the_bodies_inside()
+        {
+            Configure("sum");
+            var zone = MakeNode(1);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var visitor = MakeNode(10, new Vector3(10, 0, 0));
+            visitor.Node.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
+            var body = visitor.Node.gameObject.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            body.isKinematic = true;
+            Play(2);
+            Assert.That(zone.Answer, Is.EqualTo(0));
+            visitor.Node.transform.position = new Vector3(1, 0, 0);
+            Play(3);
+            Assert.That(zone.Answer, Is.EqualTo(10));
+            Assert.That(visitor.Answer, Is.EqualTo(1));
+            visitor.Node.transform.position = new Vector3(10, 0, 0);
+            Play(3);
+            Assert.That(zone.Answer, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void Random_numbers_depend_on_seed_and_node_alone()
+        {
+            Configure("random", settings => settings.seed = 7);
+            var a = MakeNode(0);
+            Play(2);
+            var drawn = a.Answer;
+            Restart("random", settings => settings.seed = 7);
+            a = MakeNode(0);
+            MakeNode(0);
+            Play(2);
+            Assert.That(a.Answer, Is.EqualTo(drawn));
+            Restart("random", settings => settings.seed = 8);
+            a = MakeNode(0);
+            Play(2);
+            Assert.That(a.Answer, Is.Not.EqualTo(drawn));
+        }
+
+        [Test]
+        public void A_second_manager_disables_itself_and_the_first_goes_on()
+        {
+            var second = new GameObject("Second").AddComponent<SimulationManager>();
+            Assert.That(second.enabled, Is.False);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("second Simulation Manager"));
+            var node = MakeNode(1);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(2));
+            Assert.That(SimulationManager.Current, Is.SameAs(Manager));
+        }
+
+        [Test]
+        public void Play_mode_can_be_entered_and_left_fifty_times()
+        {
+            for (var i = 0; i < 50; i++)
+            {
+                Restart("count");
+                var node = MakeNode(0);
+                Play(2);
+                Assert.That(node.Answer, Is.EqualTo(2), "entry " + i);
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        private void Restart(string program, System.Action<SimulationSettings> change = null)
+        {
+            StopPlaying();
+            StartPlaying();
+            Configure(program, change);
+        }
+    }
+}

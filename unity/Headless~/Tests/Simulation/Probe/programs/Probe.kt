@@ -1,0 +1,68 @@
+package probe
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.evolve
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.api.share
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+
+private fun answer(value: Float, heard: Int = 0): ActuatorDataT = ActuatorDataT().also {
+    it.value = value
+    it.heard = heard
+}
+
+@Program("double")
+public fun Aggregate<Int>.double(sensors: SensorData): ActuatorDataT = answer(sensors.value() * 2)
+
+@Program("sum")
+public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorDataT {
+    val heard = neighboring(sensors.value()).neighbors.toMap().values
+    return answer(heard.sum(), heard.size)
+}
+
+/** Hops to the nearest node whose value is 0; -1 while none is known. */
+@Program("hops")
+public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
+    val unknown = Int.MAX_VALUE
+    val source = sensors.value() == 0f
+    val hops = share(unknown) { field ->
+        val nearest = field.neighbors.toMap().values.minOrNull() ?: unknown
+        if (source) 0 else if (nearest == unknown) unknown else nearest + 1
+    }
+    return answer(if (hops == unknown) -1f else hops.toFloat())
+}
+
+@Program("count")
+public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT = answer(evolve(0) { it + 1 }.toFloat())
+
+@Program("random")
+public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorDataT = answer(device.random.nextDouble().toFloat())
+
+@Program("clock")
+public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorDataT =
+    answer(device.time.toFloat(), (device.deltaTime * 1000).toInt())
+
+@Program("scaled", parameters = [Parameter("factor", "3", "What the value is multiplied with.")])
+public fun Aggregate<Int>.scaled(sensors: SensorData, device: Device): ActuatorDataT =
+    answer(sensors.value() * device.parameters.double("factor").toFloat())
+
+/** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
+@Program("trouble")
+public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
+    val rounds = evolve(0) { it + 1 }
+    when (sensors.value().toInt()) {
+        13 -> error("thirteen")
+        14 -> while (true) Thread.onSpinWait()
+        15 -> recurse(0)
+        16 -> System.exit(3)
+        17 -> Runtime.getRuntime().halt(3)
+        18 -> generateSequence { LongArray(1 shl 26) }.toList()
+        19 -> neighboring(sensors)
+        20 -> println("a line from the program")
+    }
+    return answer(rounds.toFloat())
+}
+
+private fun recurse(depth: Int): Int = if (depth < 0) 0 else recurse(depth + 1) + 1

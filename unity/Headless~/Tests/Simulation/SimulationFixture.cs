@@ -1,0 +1,115 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>A scene of probe nodes on a real JVM, made anew for each test.</summary>
+    public abstract class SimulationFixture
+    {
+        private readonly List<string> errors = new List<string>();
+
+        protected SimulationManager Manager { get; private set; }
+
+        /// <summary>Messages logged as errors since the test began.</summary>
+        protected IReadOnlyList<string> Errors => errors;
+
+        /// <summary>Messages of any kind.</summary>
+        protected List<string> Log { get; } = new List<string>();
+
+        [SetUp]
+        public void StartPlaying()
+        {
+            Loop.Reset();
+            errors.Clear();
+            Log.Clear();
+            Application.logMessageReceived += Keep;
+            Installation.HostJar = Variable("COLLEKTIVE_HOST_JAR");
+            Installation.JavaHome = Variable("COLLEKTIVE_TEST_JAVA_HOME");
+            Loop.Start(1);
+            Manager = MakeManager("double");
+        }
+
+        [TearDown]
+        public void StopPlaying()
+        {
+            Loop.Quit();
+            Application.logMessageReceived -= Keep;
+        }
+
+        protected static string Variable(string name) =>
+            Environment.GetEnvironmentVariable(name) ?? throw new InvalidOperationException(name + " is not set: run ./collektive test");
+
+        protected SimulationManager MakeManager(string program, Action<SimulationSettings> change = null)
+        {
+            var manager = new GameObject("Simulation Manager").AddComponent<SimulationManager>();
+            Configure(manager, program, change);
+            return manager;
+        }
+
+        /// <summary>Gives the manager other settings before the first frame.</summary>
+        protected void Configure(string program, Action<SimulationSettings> change = null) => Configure(Manager, program, change);
+
+        private static void Configure(SimulationManager manager, string program, Action<SimulationSettings> change)
+        {
+            var settings = manager.Settings;
+            settings.schema = "probe.ProbeSchema";
+            settings.jars = new List<string> { Variable("COLLEKTIVE_PROBE_JAR") };
+            settings.program = program;
+            settings.deltaTime = 0.05f;
+            settings.jvmOptions = new List<string> { "-Xmx256m", "-XX:+UseSerialGC" };
+            change?.Invoke(settings);
+            // A changed seed counts from the next enabling on.
+            manager.enabled = false;
+            manager.enabled = true;
+        }
+
+        protected static ProbeNode MakeNode(float value, Vector3 place = default, int id = -1)
+        {
+            var holder = new GameObject("Probe");
+            holder.SetActive(false);
+            holder.transform.position = place;
+            var node = holder.AddComponent<Node>();
+            node.RequestedId = id;
+            var sensor = holder.AddComponent<ProbeSensor>();
+            sensor.Value = value;
+            var actuator = holder.AddComponent<ProbeActuator>();
+            holder.SetActive(true);
+            return new ProbeNode(node, sensor, actuator);
+        }
+
+        /// <summary>Plays frames of one tick each.</summary>
+        protected void Play(int ticks)
+        {
+            for (var i = 0; i < ticks; i++) Loop.Frame(Manager.Settings.deltaTime);
+        }
+
+        private void Keep(string message, string stack, LogType type)
+        {
+            Log.Add(message);
+            if (type == LogType.Error || type == LogType.Exception) errors.Add(message);
+        }
+    }
+
+    /// <summary>A node of the tests with its parts.</summary>
+    public sealed class ProbeNode
+    {
+        public ProbeNode(Node node, ProbeSensor sensor, ProbeActuator actuator)
+        {
+            Node = node;
+            Sensor = sensor;
+            Actuator = actuator;
+        }
+
+        public Node Node { get; }
+
+        public ProbeSensor Sensor { get; }
+
+        public ProbeActuator Actuator { get; }
+
+        public float Answer => Actuator.Last.Value;
+    }
+}

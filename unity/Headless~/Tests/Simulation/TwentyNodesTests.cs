@@ -1,0 +1,94 @@
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Twenty nodes a metre apart on a line, each hearing those within 1.5 m; all values are worked out by hand.</summary>
+    [TestFixture]
+    public sealed class TwentyNodesTests : SimulationFixture
+    {
+        private const int Count = 20;
+
+        private readonly ProbeNode[] line = new ProbeNode[Count];
+
+        [Test]
+        public void In_lockstep_hops_travel_one_node_a_tick()
+        {
+            Configure("hops");
+            MakeLine();
+            for (var tick = 1; tick <= 25; tick++)
+            {
+                Play(1);
+                for (var i = 0; i < Count; i++)
+                {
+                    Assert.That(line[i].Answer, Is.EqualTo(i < tick ? i : -1), "tick " + tick + ", node " + i);
+                }
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void In_sequence_hops_travel_along_ascending_ids_within_one_tick()
+        {
+            Configure("hops", settings => settings.schedule = org.collektive.frame.Schedule.Sequential);
+            MakeLine();
+            Play(1);
+            for (var i = 0; i < Count; i++) Assert.That(line[i].Answer, Is.EqualTo(i), "node " + i);
+        }
+
+        [Test]
+        public void A_node_hears_what_its_neighbours_sensed_one_tick_before()
+        {
+            Configure("sum");
+            MakeLine();
+            Play(1);
+            for (var i = 0; i < Count; i++) Assert.That(line[i].Actuator.Last.Heard, Is.EqualTo(0), "first tick, node " + i);
+            for (var i = 0; i < Count; i++) line[i].Sensor.Value = 1000;
+            Play(1);
+            for (var i = 0; i < Count; i++)
+            {
+                var left = i > 0 ? i - 1 : 0;
+                var right = i < Count - 1 ? i + 1 : 0;
+                Assert.That(line[i].Answer, Is.EqualTo(left + right), "node " + i);
+                Assert.That(line[i].Actuator.Last.Heard, Is.EqualTo(i == 0 || i == Count - 1 ? 1 : 2), "node " + i);
+            }
+        }
+
+        [Test]
+        public void There_is_one_call_a_tick_and_every_link_is_known_on_both_sides()
+        {
+            var before = Collektive.Bridge.Jvm.StepCalls;
+            MakeLine();
+            Play(7);
+            Assert.That(Collektive.Bridge.Jvm.StepCalls - before, Is.EqualTo(7));
+            Assert.That(Manager.Tick, Is.EqualTo(7));
+            Assert.That(Manager.LinkCount, Is.EqualTo(2 * (Count - 1)));
+            Assert.That(Manager.HasLink(3, 4) && Manager.HasLink(4, 3) && !Manager.HasLink(3, 5), Is.True);
+        }
+
+        [Test]
+        public void A_node_that_moves_away_is_no_longer_heard()
+        {
+            Configure("sum");
+            MakeLine();
+            Play(2);
+            line[1].Node.transform.position += new Vector3(0, 0, 50);
+            Play(1);
+            Assert.That(line[0].Actuator.Last.Heard, Is.EqualTo(0));
+            Assert.That(line[2].Answer, Is.EqualTo(3));
+            line[1].Node.transform.position -= new Vector3(0, 0, 50);
+            Play(2);
+            Assert.That(line[2].Answer, Is.EqualTo(1 + 3));
+        }
+
+        private void MakeLine()
+        {
+            for (var i = 0; i < Count; i++)
+            {
+                line[i] = MakeNode(i, new Vector3(i, 0, 0));
+                line[i].Node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = 1.5f;
+            }
+        }
+    }
+}

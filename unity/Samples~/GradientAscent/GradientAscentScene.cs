@@ -1,0 +1,143 @@
+using System.Collections.Generic;
+using Collektive.Unity;
+using UnityEngine;
+
+namespace Collektive.Samples.GradientAscent
+{
+    /// <summary>
+    /// A flat arena of 100 x 60 m. A swarm climbs towards a source; four obstacles stand across the straight way. Each node perceives
+    /// the intensity where it is and what is around it, and talks to the nodes within its range.
+    /// </summary>
+    [AddComponentMenu("Collektive/Samples/Gradient Ascent Scene")]
+    public sealed class GradientAscentScene : SceneBuilder
+    {
+        private const int IgnoreRaycastLayer = 2;
+        private const int SpawnAttempts = 10000;
+
+        private static readonly string[] Names = { "mean_distance", "p90_distance", "contacts" };
+        private static readonly float[] ObstaclePlaces = { -9, -3, 3, 9 };
+
+        /// <summary>How many nodes.</summary>
+        [Min(1)]
+        public int nodes = 500;
+
+        /// <summary>Range of the nodes' radios in metres.</summary>
+        [Min(0)]
+        public float range = 3;
+
+        /// <summary>Radius of a node's body in metres.</summary>
+        [Min(0.01f)]
+        public float bodyRadius = 0.25f;
+
+        /// <summary>Where the source stands.</summary>
+        public Vector3 source = new Vector3(25, 0, 0);
+
+        /// <summary>Whether the four obstacles stand in the way.</summary>
+        public bool obstacles = true;
+
+        private readonly List<ObstacleSensor> sensors = new List<ObstacleSensor>();
+        private readonly List<float> distances = new List<float>();
+        private IntensitySource intensity;
+        private PhysicsMaterial slippery;
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<string> MetricNames => Names;
+
+        /// <inheritdoc/>
+        public override string ShadeName => "intensity";
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => new[] { new KeyValuePair<string, Vector3>("source", source) };
+
+        /// <inheritdoc/>
+        public override float Shade(Node node) => intensity.IntensityAt(node.transform.position);
+
+        /// <summary>Mean and 90th percentile of the distance to the source in metres, and the number of contacts between bodies.</summary>
+        public override void Measure(double[] values)
+        {
+            distances.Clear();
+            var sum = 0.0;
+            var contacts = 0;
+            for (var i = 0; i < sensors.Count; i++)
+            {
+                var way = sensors[i].transform.position - source;
+                way.y = 0;
+                distances.Add(way.magnitude);
+                sum += way.magnitude;
+                contacts += sensors[i].Contacts;
+            }
+            distances.Sort();
+            values[0] = sum / sensors.Count;
+            values[1] = distances[(int)(0.9 * (sensors.Count - 1))];
+            values[2] = contacts;
+        }
+
+        /// <inheritdoc/>
+        protected override void Build(SimulationManager manager)
+        {
+            slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
+            intensity = new GameObject("Source").AddComponent<IntensitySource>();
+            intensity.transform.position = source;
+            MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(100, 1, 60)).layer = IgnoreRaycastLayer;
+            if (obstacles)
+            {
+                foreach (var place in ObstaclePlaces) MakeBox("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
+            }
+            var taken = new List<Vector3>();
+            for (var i = 0; i < nodes; i++) MakeNode(FreePlace(manager, taken));
+        }
+
+        /// <summary>A place in x -35..5, z -25..25 where a body overlaps no other.</summary>
+        private Vector3 FreePlace(SimulationManager manager, List<Vector3> taken)
+        {
+            for (var attempt = 0; attempt < SpawnAttempts; attempt++)
+            {
+                var place = new Vector3(manager.Random.Range(-35f, 5f), bodyRadius, manager.Random.Range(-25f, 25f));
+                if (!IsFree(place, taken)) continue;
+                taken.Add(place);
+                return place;
+            }
+            manager.Fail("there is no room for " + nodes + " bodies of radius " + bodyRadius + " m: use fewer or smaller ones");
+            return Vector3.zero;
+        }
+
+        private bool IsFree(Vector3 place, List<Vector3> taken)
+        {
+            foreach (var other in taken)
+            {
+                if ((other - place).sqrMagnitude < 4 * bodyRadius * bodyRadius) return false;
+            }
+            return true;
+        }
+
+        private GameObject MakeBox(string title, Vector3 centre, Vector3 size)
+        {
+            var box = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            box.name = title;
+            box.transform.position = centre;
+            box.transform.localScale = size;
+            box.GetComponent<BoxCollider>().sharedMaterial = slippery;
+            return box;
+        }
+
+        private void MakeNode(Vector3 place)
+        {
+            var node = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            node.name = "Node " + sensors.Count;
+            node.transform.position = place;
+            node.transform.localScale = 2 * bodyRadius * Vector3.one;
+            node.GetComponent<SphereCollider>().sharedMaterial = slippery;
+            var body = node.AddComponent<Rigidbody>();
+            body.mass = 1;
+            body.constraints = RigidbodyConstraints.FreezeRotation;
+            node.AddComponent<Node>();
+            node.AddComponent<RadiusNeighbourhood>().Radius = range;
+            node.AddComponent<PositionSensor>();
+            node.AddComponent<IntensitySensor>().Source = intensity;
+            var sensor = node.AddComponent<ObstacleSensor>();
+            sensor.BodyRadius = bodyRadius;
+            sensors.Add(sensor);
+            node.AddComponent<MoveActuator>();
+        }
+    }
+}
