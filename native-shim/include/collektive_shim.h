@@ -67,10 +67,10 @@ enum clk_error {
 };
 
 enum clk_jvm_state {
-    CLK_JVM_NONE = 0,    /* never started in this process */
-    CLK_JVM_RUNNING = 1,
-    CLK_JVM_LOST = 2,    /* exited, aborted or does not answer: every later call returns CLK_JVM_LOST */
-    CLK_JVM_STOPPED = 3  /* destroyed in order; cannot be started again in this process */
+    CLK_STATE_NONE = 0,    /* never started in this process */
+    CLK_STATE_RUNNING = 1,
+    CLK_STATE_LOST = 2,    /* exited, aborted or does not answer: every later call of the JVM returns CLK_JVM_LOST */
+    CLK_STATE_STOPPED = 3  /* destroyed in order; cannot be started again in this process */
 };
 
 /* ---- Version and errors ---------------------------------------------------------------------------------------------- */
@@ -101,7 +101,8 @@ typedef struct clk_jvm_config {
 } clk_jvm_config;
 
 /* Starts the JVM; CLK_OK too when one runs with an equal configuration, CLK_JVM_RUNNING when its configuration differs.
- * A start that fails before JNI_CreateJavaVM may be tried again; after it the state is CLK_JVM_LOST. */
+ * A start that fails before JNI_CreateJavaVM may be tried again; after it the state is CLK_STATE_LOST.
+ * Refused are options that endanger the process. JAVA_TOOL_OPTIONS, _JAVA_OPTIONS and JDK_JAVA_OPTIONS are ignored. */
 CLK_API int32_t clk_jvm_start(const clk_jvm_config *config);
 
 /* One of enum clk_jvm_state. Never waits. */

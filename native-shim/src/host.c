@@ -1,0 +1,320 @@
+#include "host.h"
+
+#include <stdatomic.h>
+#include <string.h>
+#include "engine.h"
+#include "error.h"
+#include "log.h"
+
+#define COUNT(array) ((jint)(sizeof(array) / sizeof(array)[0]))
+
+static struct {
+    JNIEnv *env; /* the engine thread's */
+    jclass host;
+    jmethodID start, open, step, close, stop;
+    jmethodID to_string, get_name;
+    jclass security_exception;
+    struct host_call *running;
+    bool error_given; /* Shim.error was called in this call */
+    _Atomic uint64_t wrapped;
+} java;
+
+uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_order_relaxed); }
+
+/* ---- Java text to UTF-8 ---------------------------------------------------------------------------------------------- */
+
+static int32_t encode(uint32_t character, char *bytes) {
+    if (character < 0x80) {
+        bytes[0] = (char)character;
+        return 1;
+    }
+    int32_t length = character < 0x800 ? 2 : character < 0x10000 ? 3 : 4;
+    static const uint8_t first[] = {0, 0, 0xC0, 0xE0, 0xF0};
+    for (int32_t i = length - 1; i > 0; i--) {
+        bytes[i] = (char)(0x80 | (character & 0x3F));
+        character >>= 6;
+    }
+    bytes[0] = (char)(first[length] | character);
+    return length;
+}
+
+/* Copies a string, cut to fit, without allocating on either side. JNI's own "UTF" is not UTF-8 beyond the basic plane. */
+static void string_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
+    jchar units[1024];
+    jsize count = (*env)->GetStringLength(env, string);
+    if (count > COUNT(units)) count = COUNT(units);
+    (*env)->GetStringRegion(env, string, 0, count, units);
+    int32_t used = 0;
+    for (jsize i = 0; i < count && used + 5 <= capacity; i++) {
+        uint32_t character = units[i];
+        if (character >= 0xD800 && character < 0xE000) {
+            bool pair = character < 0xDC00 && i + 1 < count && units[i + 1] >= 0xDC00 && units[i + 1] < 0xE000;
+            character = pair ? 0x10000 + ((character - 0xD800) << 10) + (units[++i] - 0xDC00u) : 0xFFFD;
+        }
+        used += encode(character, buffer + used);
+    }
+    buffer[used] = '\0';
+}
+
+/* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
+
+static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffer, int32_t capacity) {
+    jstring string = (*env)->CallObjectMethod(env, object, method);
+    bool good = !(*env)->ExceptionCheck(env) && string != NULL;
+    if (good) {
+        string_text(env, string, buffer, capacity);
+    } else {
+        (*env)->ExceptionClear(env);
+    }
+    (*env)->DeleteLocalRef(env, string);
+    return good;
+}
+
+/* Takes the pending exception away and tells its text: in the worst case, when the heap has no room for its own words, its
+ * class, or nothing. */
+static void take_exception(JNIEnv *env, char *buffer, int32_t capacity) {
+    jthrowable exception = (*env)->ExceptionOccurred(env);
+    (*env)->ExceptionClear(env);
+    if (!string_of(env, exception, java.to_string, buffer, capacity)) {
+        jclass class = (*env)->GetObjectClass(env, exception);
+        if (!string_of(env, class, java.get_name, buffer, capacity)) {
+            give_text("an exception that cannot tell its name (is the heap exhausted?)", buffer, capacity);
+        }
+        (*env)->DeleteLocalRef(env, class);
+    }
+    (*env)->DeleteLocalRef(env, exception);
+}
+
+static int32_t java_error(JNIEnv *env, int32_t code, const char *where) {
+    char text[2048];
+    take_exception(env, text, sizeof text);
+    return error_set(code, "%s threw %s", where, text);
+}
+
+static void throw_new(JNIEnv *env, const char *class_name, const char *message) {
+    jclass class = (*env)->FindClass(env, class_name);
+    if (class != NULL) (*env)->ThrowNew(env, class, message);
+}
+
+/* ---- Memory ---------------------------------------------------------------------------------------------------------- */
+
+/* Makes the block's ByteBuffer if it has none. False with a pending exception. */
+static bool wrap(JNIEnv *env, struct block *block) {
+    if (block->wrapper != NULL) return true;
+    jobject buffer = (*env)->NewDirectByteBuffer(env, block->address, block->capacity);
+    if (buffer == NULL) return false;
+    block->wrapper = (*env)->NewGlobalRef(env, buffer);
+    (*env)->DeleteLocalRef(env, buffer);
+    if (block->wrapper == NULL) {
+        if (!(*env)->ExceptionCheck(env)) throw_new(env, "java/lang/OutOfMemoryError", "no room for a global reference");
+        return false;
+    }
+    atomic_fetch_add_explicit(&java.wrapped, 1, memory_order_relaxed);
+    return true;
+}
+
+static void free_surplus(JNIEnv *env) {
+    for (struct block *block; (block = slots_take_surplus()) != NULL;) {
+        (*env)->DeleteGlobalRef(env, block->wrapper);
+        slots_free(block);
+    }
+}
+
+/* ---- Natives of Shim ------------------------------------------------------------------------------------------------- */
+
+static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint capacity) {
+    (void)class;
+    struct host_call *call = engine_is_current() ? java.running : NULL;
+    if (call == NULL || call->slot != (clk_slot)slot) {
+        throw_new(env, "java/lang/IllegalStateException", "only the answer slot of the running call can grow, on the engine thread");
+        return NULL;
+    }
+    if (capacity > call->answer->capacity) {
+        struct block *block = slots_exchange(call->slot, capacity);
+        if (block == NULL) {
+            throw_new(env, "java/lang/OutOfMemoryError", error_last());
+            return NULL;
+        }
+        call->answer->next = call->retired;
+        call->retired = call->answer;
+        call->answer = block;
+    }
+    return wrap(env, call->answer) ? call->answer->wrapper : NULL;
+}
+
+/* Copies the bytes, cut to fit. Nothing is locked meanwhile: JNI may wait for a safepoint here. */
+static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t capacity) {
+    jsize length = bytes != NULL ? (*env)->GetArrayLength(env, bytes) : 0;
+    if (length > capacity - 1) length = capacity - 1;
+    (*env)->GetByteArrayRegion(env, bytes, 0, length, (jbyte *)buffer);
+    buffer[length] = '\0';
+    return length;
+}
+
+static void JNICALL shim_error(JNIEnv *env, jclass class, jbyteArray utf8) {
+    (void)class;
+    char text[ERROR_CAPACITY + 4]; /* a text that is too long is cut at a character by error_set */
+    bytes_text(env, utf8, text, sizeof text);
+    error_set(CLK_OK, "%s", text);
+    if (engine_is_current()) java.error_given = true;
+}
+
+static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray utf8) {
+    (void)class;
+    char text[LOG_LINE_CAPACITY + 4];
+    int32_t length = bytes_text(env, utf8, text, sizeof text);
+    log_write(level < CLK_LOG_DEBUG ? CLK_LOG_DEBUG : level > CLK_LOG_ERROR ? CLK_LOG_ERROR : level, text, length);
+}
+
+/* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */
+
+static void refuse_exit(JNIEnv *env) {
+    (*env)->ThrowNew(env, java.security_exception, "a program inside another process must not end it");
+}
+
+static void JNICALL shutdown_before_halt(JNIEnv *env, jclass class) {
+    (void)class;
+    refuse_exit(env);
+}
+
+static void JNICALL shutdown_halt(JNIEnv *env, jclass class, jint status) {
+    (void)class;
+    (void)status;
+    refuse_exit(env);
+}
+
+/* ---- Binding --------------------------------------------------------------------------------------------------------- */
+
+/* JNI's structs want writable strings and object pointers for what are constants and functions. */
+#define NATIVE(function_name, type, function) \
+    { .name = (char[]){function_name}, .signature = (char[]){type}, .fnPtr = (void *)(uintptr_t)(function) }
+
+static jclass find_class(JNIEnv *env, const char *name) {
+    jclass local = (*env)->FindClass(env, name);
+    jclass global = local != NULL ? (*env)->NewGlobalRef(env, local) : NULL;
+    (*env)->DeleteLocalRef(env, local);
+    return global;
+}
+
+bool host_refuse_exit(JNIEnv *env) {
+    const JNINativeMethod natives[] = {NATIVE("beforeHalt", "()V", shutdown_before_halt), NATIVE("halt0", "(I)V", shutdown_halt)};
+    java.security_exception = find_class(env, "java/lang/SecurityException");
+    jclass shutdown = (*env)->FindClass(env, "java/lang/Shutdown");
+    bool registered = java.security_exception != NULL && shutdown != NULL &&
+                      (*env)->RegisterNatives(env, shutdown, natives, COUNT(natives)) == JNI_OK;
+    (*env)->ExceptionClear(env);
+    (*env)->DeleteLocalRef(env, shutdown);
+    return registered;
+}
+
+static int32_t does_not_fit(JNIEnv *env, const char *what) {
+    char text[2048];
+    give_text("no exception", text, sizeof text);
+    if ((*env)->ExceptionCheck(env)) take_exception(env, text, sizeof text);
+    return error_set(CLK_HOST, "%s: %s. Check that the class path has the host jar of the shim's own version.", what, text);
+}
+
+int32_t host_bind(JNIEnv *env) {
+    java.env = env;
+    jclass object = (*env)->FindClass(env, "java/lang/Object");
+    jclass class = (*env)->FindClass(env, "java/lang/Class");
+    java.to_string = (*env)->GetMethodID(env, object, "toString", "()Ljava/lang/String;");
+    java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
+    (*env)->DeleteLocalRef(env, object);
+    (*env)->DeleteLocalRef(env, class);
+
+    const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
+                                       NATIVE("log", "(I[B)V", shim_log)};
+    jclass shim = find_class(env, "org/collektive/host/Shim");
+    if (shim == NULL || (*env)->RegisterNatives(env, shim, natives, COUNT(natives)) != JNI_OK) {
+        return does_not_fit(env, "org.collektive.host.Shim cannot be bound");
+    }
+    java.host = find_class(env, "org/collektive/host/Host");
+    if (java.host == NULL) return does_not_fit(env, "org.collektive.host.Host cannot be loaded");
+
+#define CALL_TYPE "(JLjava/nio/ByteBuffer;IIJLjava/nio/ByteBuffer;I)J"
+    const struct {
+        jmethodID *id;
+        const char *name;
+        const char *type;
+    } entries[] = {{&java.start, "start", "()Ljava/lang/String;"},
+                   {&java.open, "open", CALL_TYPE},
+                   {&java.step, "step", CALL_TYPE},
+                   {&java.close, "close", "(J)V"},
+                   {&java.stop, "stop", "(I)V"}};
+    for (jint i = 0; i < COUNT(entries); i++) {
+        *entries[i].id = (*env)->GetStaticMethodID(env, java.host, entries[i].name, entries[i].type);
+        if (*entries[i].id == NULL) return does_not_fit(env, "org.collektive.host.Host lacks an entry");
+    }
+    return CLK_OK;
+}
+
+/* ---- Calls ----------------------------------------------------------------------------------------------------------- */
+
+int32_t host_start(char *version, int32_t capacity) {
+    JNIEnv *env = java.env;
+    jstring string = (*env)->CallStaticObjectMethod(env, java.host, java.start);
+    if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_HOST, "Host.start");
+    if (string == NULL) return error_set(CLK_HOST, "Host.start gave no version");
+    string_text(env, string, version, capacity);
+    (*env)->DeleteLocalRef(env, string);
+    return CLK_OK;
+}
+
+/* The codes that docs/boundary.md leaves to the host; the others speak of the shim itself. */
+static bool is_host_code(jlong code) {
+    switch (code) {
+        case CLK_ARGUMENT:
+        case CLK_MEMORY:
+        case CLK_HANDLE:
+        case CLK_HOST:
+        case CLK_FRAME:
+        case CLK_SCHEMA:
+        case CLK_PROGRAM:
+        case CLK_SESSION_FAILED:
+        case CLK_JAVA: return true;
+        default: return false;
+    }
+}
+
+int32_t host_run(struct host_call *call) {
+    JNIEnv *env = java.env;
+    const char *where = call->entry == HOST_OPEN ? "Host.open" : "Host.step";
+    free_surplus(env);
+    if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");
+    const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},
+                                {.i = call->length},         {.j = (jlong)call->slot},      {.l = call->answer->wrapper},
+                                {.i = call->limit_ms}};
+    java.error_given = false;
+    java.running = call;
+    jlong result = (*env)->CallStaticLongMethodA(env, java.host, call->entry == HOST_OPEN ? java.open : java.step, arguments);
+    java.running = NULL;
+    if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, where);
+    if (result < 0) {
+        if (!is_host_code(result)) return error_set(CLK_HOST, "%s returned %lld, which is no code of a host", where, (long long)result);
+        if (!java.error_given) error_set(CLK_OK, "%s: %s", where, clk_error_text((int32_t)result));
+        return (int32_t)result;
+    }
+    int64_t offset = result >> 32;
+    int64_t length = result & INT64_C(0xFFFFFFFF);
+    if (offset + length > call->answer->capacity) {
+        return error_set(CLK_HOST, "%s says that its answer is at %lld + %lld, but its slot has %d bytes", where, (long long)offset,
+                         (long long)length, call->answer->capacity);
+    }
+    call->answer_offset = (int32_t)offset;
+    call->answer_length = (int32_t)length;
+    return CLK_OK;
+}
+
+int32_t host_close(clk_session session) {
+    JNIEnv *env = java.env;
+    free_surplus(env);
+    (*env)->CallStaticVoidMethod(env, java.host, java.close, (jlong)session);
+    return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.close") : CLK_OK;
+}
+
+int32_t host_stop(int32_t limit_ms) {
+    JNIEnv *env = java.env;
+    (*env)->CallStaticVoidMethod(env, java.host, java.stop, (jint)limit_ms);
+    return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.stop") : CLK_OK;
+}

@@ -1,0 +1,340 @@
+/* Start and end of the JVM. */
+#include <jni.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "collektive_shim.h"
+#include "engine.h"
+#include "error.h"
+#include "host.h"
+#include "log.h"
+#include "options.h"
+#include "prim.h"
+#include "session.h"
+#include "signals.h"
+
+typedef jint(JNICALL create_function)(JavaVM **, void **, void *);
+typedef jint(JNICALL created_function)(JavaVM **, jsize, jsize *);
+
+/* By the turn, but for the atomics. What the JVM was given stays for ever. */
+static struct {
+    char *home;
+    char *configuration;   /* home, class path and options of the last start, to compare with */
+    char **options;        /* all words for the JVM */
+    int32_t option_count;
+    int32_t own_count;     /* how many of these are ours, at the begin */
+    JavaVM *vm;
+    char version[256];
+    int32_t stop_limit_ms;
+    atomic_bool began;     /* JNI_CreateJavaVM was called */
+    atomic_bool created;   /* and was successful */
+    _Atomic(char *) description;
+} jvm;
+
+/* ---- Configuration --------------------------------------------------------------------------------------------------- */
+
+static int32_t check_config(const clk_jvm_config *config) {
+    if (config == NULL) return error_set(CLK_ARGUMENT, "config is NULL");
+    if (config->size < sizeof *config) {
+        return error_set(CLK_ARGUMENT, "config->size is %u; set it to sizeof(clk_jvm_config)", config->size);
+    }
+    /* A newer caller's fields may be there as long as they say nothing. */
+    for (const uint8_t *at = (const uint8_t *)config + sizeof *config; at < (const uint8_t *)config + config->size; at++) {
+        if (*at != 0) return error_set(CLK_ARGUMENT, "the configuration has fields that this shim does not know; update the shim");
+    }
+    if (config->home == NULL || config->home[0] == '\0') return error_set(CLK_ARGUMENT, "home is empty; give the root of a JRE or JDK");
+    if (config->class_path == NULL || config->class_path[0] == '\0') {
+        return error_set(CLK_ARGUMENT, "class_path is empty; give the jars of the host");
+    }
+    if (config->option_count < 0 || (config->option_count > 0 && config->options == NULL)) {
+        return error_set(CLK_ARGUMENT, "option_count is %d and does not fit options", config->option_count);
+    }
+    for (int32_t i = 0; i < config->option_count; i++) {
+        if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL", i);
+    }
+    if (config->start_limit_ms < 1) {
+        return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it is 1 or greater", config->start_limit_ms);
+    }
+    return CLK_OK;
+}
+
+/* `first`, `second` and the words, each on a line of its own. NULL when there is no memory. */
+static char *join(const char *first, const char *second, const char *const *words, int32_t count) {
+    size_t size = strlen(first) + strlen(second) + 2;
+    for (int32_t i = 0; i < count; i++) size += strlen(words[i]) + 1;
+    char *text = malloc(size);
+    if (text == NULL) return NULL;
+    int used = snprintf(text, size, "%s\n%s", first, second);
+    for (int32_t i = 0; i < count; i++) used += snprintf(text + used, size - (size_t)used, "\n%s", words[i]);
+    return text;
+}
+
+static void forget_options(void) {
+    for (int32_t i = 0; i < jvm.option_count; i++) free(jvm.options[i]);
+    free(jvm.options);
+    free(jvm.configuration);
+    free(jvm.home);
+    jvm.options = NULL;
+    jvm.configuration = NULL;
+    jvm.home = NULL;
+    jvm.option_count = 0;
+}
+
+static char *copy(const char *prefix, const char *word) {
+    size_t size = strlen(prefix) + strlen(word) + 1;
+    char *text = malloc(size);
+    if (text != NULL) snprintf(text, size, "%s%s", prefix, word);
+    return text;
+}
+
+static bool add_option(const char *prefix, const char *word) {
+    char *option = copy(prefix, word);
+    if (option != NULL) jvm.options[jvm.option_count++] = option;
+    return option != NULL;
+}
+
+/* Ours come first: -Xrs leaves the host its signals, headless is a default that the user may change. */
+static int32_t prepare_options(const clk_jvm_config *config) {
+    forget_options();
+    jvm.home = copy("", config->home);
+    jvm.configuration = join(config->home, config->class_path, config->options, config->option_count);
+    jvm.options = malloc(((size_t)config->option_count + 3) * sizeof *jvm.options);
+    bool good = jvm.home != NULL && jvm.configuration != NULL && jvm.options != NULL && add_option("-Xrs", "") &&
+                add_option("-Djava.awt.headless=true", "") && add_option("-Djava.class.path=", config->class_path);
+    jvm.own_count = jvm.option_count;
+    for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(config->options[i], "");
+    if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
+    return CLK_OK;
+}
+
+/* ---- Checks before the start ----------------------------------------------------------------------------------------- */
+
+static int32_t check_home_file(const char *home, const char *file) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", home, file);
+    switch (prim_file_kind(path)) {
+        case PRIM_FILE: return CLK_OK;
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "%s cannot be read; check its permissions", path);
+        default:
+            return error_set(CLK_JVM_NOT_FOUND, "%s is missing; the JVM's home must be the root of a JRE or JDK of version 17 or newer",
+                             path);
+    }
+}
+
+/* A JVM without these files ends the process before any hook is known to it. */
+static int32_t check_home(const char *home) {
+    switch (prim_file_kind(home)) {
+        case PRIM_DIRECTORY: break;
+        case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; give the root of a JRE or JDK", home);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; check its permissions", home);
+        default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
+    }
+    int32_t result = check_home_file(home, PRIM_LIBJVM);
+    return result != CLK_OK ? result : check_home_file(home, "lib/modules");
+}
+
+static int32_t check_class_path(const char *class_path) {
+    char entry[4096];
+    for (const char *at = class_path; *at != '\0';) {
+        const char *end = strchr(at, PRIM_PATH_SEPARATOR);
+        size_t length = end != NULL ? (size_t)(end - at) : strlen(at);
+        if (length >= sizeof entry) return error_set(CLK_HOST, "an entry of the class path is longer than a path can be");
+        memcpy(entry, at, length);
+        entry[length] = '\0';
+        enum prim_file kind = length > 0 ? prim_file_kind(entry) : PRIM_DIRECTORY;
+        if (kind == PRIM_MISSING) {
+            return error_set(CLK_HOST, "%s of the host's class path does not exist; build or reinstall the host", entry);
+        }
+        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "%s of the host's class path cannot be read; check its permissions", entry);
+        at = end != NULL ? end + 1 : at + length;
+    }
+    return CLK_OK;
+}
+
+static int32_t check(const clk_jvm_config *config, int64_t deadline) {
+    int32_t result = check_home(config->home);
+    if (result == CLK_OK) result = check_class_path(config->class_path);
+    for (int32_t i = 0; result == CLK_OK && i < config->option_count; i++) result = options_check(config->options[i]);
+    if (result == CLK_OK) result = prepare_options(config);
+    if (result == CLK_OK && config->check_options != 0) result = options_try(jvm.home, jvm.options, jvm.option_count, deadline);
+    return result;
+}
+
+/* ---- Hooks of the JVM ------------------------------------------------------------------------------------------------ */
+
+static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file, const char *format, va_list arguments) {
+    return log_jvm_output(file == stderr ? CLK_LOG_WARNING : CLK_LOG_INFO, format, arguments);
+}
+
+/* The JVM is about to end the process, and must not come back from here: its thread stays. A JVM that did not come up leaves
+ * signal handlers behind that nobody answers for. One that crashed has put its crash handlers in place of its usual ones,
+ * and they would let every thread hang that only runs into a null reference of the host's own language. */
+static _Noreturn void lose(const char *what, int status) {
+    char last[1024];
+    log_jvm_last(last, sizeof last);
+    if (atomic_load(&jvm.created)) {
+        signals_repair();
+    } else {
+        signals_restore_host();
+    }
+    engine_lose("it %s (%d)%s%s", what, status, last[0] != '\0' ? "; its last words: " : "", last);
+    prim_park();
+}
+
+static void JNICALL hook_exit(jint code) { lose("ended itself with an exit code", code); }
+
+static void JNICALL hook_abort(void) { lose("aborted", 0); }
+
+/* ---- Start on the engine thread -------------------------------------------------------------------------------------- */
+
+static int32_t load(create_function **create) {
+    char path[4096];
+    char why[512];
+    snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, jvm.home);
+    void *library = prim_library_open(path, why, sizeof why);
+    if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s cannot be loaded: %s", path, why);
+    created_function *created;
+    *(void **)create = prim_library_symbol(library, "JNI_CreateJavaVM");
+    *(void **)&created = prim_library_symbol(library, "JNI_GetCreatedJavaVMs");
+    if (*create == NULL || created == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s is no library of a JVM", path);
+    /* Only asked before: after a second JNI_CreateJavaVM it would say 0. */
+    JavaVM *other;
+    jsize count = 0;
+    if (created(&other, 1, &count) == JNI_OK && count > 0) {
+        return error_set(CLK_JVM_START, "another library has started a JVM in this process, and there can be only one; remove that library");
+    }
+    return CLK_OK;
+}
+
+static int32_t create(create_function *create_vm, JNIEnv **env) {
+    enum { HOOKS = 3 };
+    jint count = jvm.option_count + HOOKS;
+    JavaVMOption *options = malloc((size_t)count * sizeof *options);
+    if (options == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+    options[0] = (JavaVMOption){(char[]){"vfprintf"}, (void *)(uintptr_t)hook_print};
+    options[1] = (JavaVMOption){(char[]){"exit"}, (void *)(uintptr_t)hook_exit};
+    options[2] = (JavaVMOption){(char[]){"abort"}, (void *)(uintptr_t)hook_abort};
+    for (int32_t i = 0; i < jvm.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.options[i], NULL};
+    JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
+    signals_save_host();
+    atomic_store(&jvm.began, true);
+    jint result = create_vm(&jvm.vm, (void **)env, &arguments);
+    free(options);
+    if (result != JNI_OK) {
+        char last[1024];
+        signals_restore_host();
+        log_jvm_last(last, sizeof last);
+        return error_set(CLK_JVM_START, "JNI_CreateJavaVM failed (%d): %s. Correct the JVM options and restart the process.", result,
+                         last[0] != '\0' ? last : "the JVM gave no reason");
+    }
+    atomic_store(&jvm.created, true);
+    signals_adopt_jvm();
+    return CLK_OK;
+}
+
+static int32_t work_start(void) {
+    create_function *create_vm;
+    JNIEnv *env;
+    int32_t result = load(&create_vm);
+    if (result == CLK_OK) result = create(create_vm, &env);
+    if (result != CLK_OK) return result;
+    if (!host_refuse_exit(env)) {
+        log_format(CLK_LOG_WARNING, "this JVM cannot refuse System.exit: a program that calls it will cost the JVM");
+    }
+    result = host_bind(env);
+    return result == CLK_OK ? host_start(jvm.version, sizeof jvm.version) : result;
+}
+
+/* ---- Start ----------------------------------------------------------------------------------------------------------- */
+
+/* Variables that bring options past every check. */
+static const char *const smuggling[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "JDK_JAVA_OPTIONS"};
+enum { SMUGGLING = sizeof smuggling / sizeof smuggling[0] };
+
+static void describe(void) {
+    const char *const *words = (const char *const *)(jvm.options + jvm.own_count);
+    atomic_store(&jvm.description, join(jvm.home, jvm.version, words, jvm.option_count - jvm.own_count));
+}
+
+/* Under the turn, no JVM was started before. */
+static int32_t start(const clk_jvm_config *config, int64_t deadline) {
+    int32_t result = check(config, deadline);
+    if (result != CLK_OK) return result;
+    result = engine_run(work_start, deadline);
+    if (result == CLK_TIMEOUT) {
+        engine_lose("it did not come up within %d ms", config->start_limit_ms);
+    } else if (result == CLK_JVM_LOST) {
+        result = error_set(CLK_JVM_START, "%s", error_last());
+    } else if (result != CLK_OK && atomic_load(&jvm.began)) {
+        engine_lose("its start failed: %s", error_last());
+    }
+    if (atomic_load(&jvm.began)) describe();
+    if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
+    return result;
+}
+
+static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
+    if (engine_state() != CLK_STATE_RUNNING && engine_state() != CLK_STATE_NONE) return engine_check_running();
+    if (engine_state() == CLK_STATE_RUNNING) {
+        char *configuration = join(config->home, config->class_path, config->options, config->option_count);
+        bool equal = configuration != NULL && strcmp(configuration, jvm.configuration) == 0;
+        free(configuration);
+        return equal ? CLK_OK
+                     : error_set(CLK_JVM_RUNNING, "a JVM runs already with another home, class path or options; restart the process "
+                                                       "to change them");
+    }
+    char *hidden[SMUGGLING] = {NULL};
+    for (int i = 0; i < SMUGGLING; i++) {
+        if (prim_environment_hide(smuggling[i], &hidden[i])) {
+            log_format(CLK_LOG_WARNING, "the environment variable %s is ignored; give JVM options in the settings", smuggling[i]);
+        }
+    }
+    int32_t result = start(config, deadline);
+    for (int i = SMUGGLING - 1; i >= 0; i--) {
+        if (hidden[i] != NULL) prim_environment_show(hidden[i]);
+    }
+    return result;
+}
+
+int32_t clk_jvm_start(const clk_jvm_config *config) {
+    if (check_config(config) != CLK_OK) return CLK_ARGUMENT;
+    int64_t deadline = prim_now() + config->start_limit_ms * PRIM_MILLI;
+    int32_t result = engine_enter(deadline);
+    if (result != CLK_OK) return result;
+    result = start_or_compare(config, deadline);
+    engine_leave();
+    return result;
+}
+
+int32_t clk_jvm_description(char *buffer, int32_t capacity) {
+    const char *description = atomic_load(&jvm.description);
+    if (description == NULL) return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
+    return give_text(description, buffer, capacity);
+}
+
+/* ---- Stop ------------------------------------------------------------------------------------------------------------ */
+
+static int32_t work_stop(void) {
+    if (host_stop(jvm.stop_limit_ms) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
+    session_forget_all();
+    (*jvm.vm)->DestroyJavaVM(jvm.vm); /* waits for threads of programs that are no daemons */
+    engine_set_state(CLK_STATE_STOPPED);
+    return CLK_OK;
+}
+
+int32_t clk_jvm_stop(int32_t limit_ms) {
+    if (limit_ms < 1) return error_set(CLK_ARGUMENT, "limit_ms is %d; it is 1 or greater", limit_ms);
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = engine_enter(deadline);
+    if (result != CLK_OK) return result;
+    if (engine_state() == CLK_STATE_RUNNING) {
+        jvm.stop_limit_ms = limit_ms;
+        result = engine_run(work_stop, deadline);
+    } else if (engine_state() == CLK_STATE_LOST) {
+        result = engine_check_running();
+    }
+    engine_leave();
+    return result;
+}

@@ -1,0 +1,112 @@
+#include "options.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "log.h"
+#include "prim.h"
+
+/* ---- By their text --------------------------------------------------------------------------------------------------- */
+
+/* A text that ends in '*' stands for all options that begin so. */
+struct rule {
+    const char *text;
+    const char *reason;
+};
+
+static const struct rule refused[] = {
+    {"-XX:+ExitOnOutOfMemoryError", "it ends the whole process when a program exhausts the heap"},
+    {"-XX:+CrashOnOutOfMemoryError", "it crashes the whole process when a program exhausts the heap"},
+    {"-XX:OnOutOfMemoryError=*", "it forks the whole process to run a command"},
+    {"-XX:OnError=*", "it forks the whole process to run a command"},
+    {"-XX:+AbortVMOn*", "it aborts the whole process"},
+    {"-XX:+ShowMessageBoxOnError", "it waits at the console of the process for ever"},
+    {"-XX:+AllowUserSignalHandlers", "the signal handlers of the host process and of the JVM would shut each other out"},
+    {"-XX:-UseSignalChaining", "the signal handlers of the host process would not be called any more"},
+    {"-XX:-ReduceSignalUsage", "the JVM would take over the signals that end the host process"},
+    {"-XX:Flags=*", "options in a file cannot be checked; give them one by one"},
+    {"-XX:VMOptionsFile=*", "options in a file cannot be checked; give them one by one"},
+    {"-Djava.class.path=*", "the class path is that of the host; programs load from the jars of a session"},
+    {"-X", "it is help of the java command"},
+    {"-Xinternalversion", "it prints the version and ends the process"},
+    {"-XshowSettings*", "only the java command knows it"},
+    {"-Xdiag*", "only the java command knows it"},
+};
+
+static const char *const known[] = {
+    "-X*", "-D*", "-verbose", "-verbose:*", "-ea", "-ea:*", "-da", "-da:*", "-esa", "-dsa", "-enableassertions",
+    "-enableassertions:*", "-disableassertions", "-disableassertions:*", "-enablesystemassertions", "-disablesystemassertions",
+    "-agentlib:*", "-agentpath:*", "-javaagent:*", "--add-exports=*", "--add-modules=*", "--add-opens=*", "--add-reads=*",
+    "--enable-final-field-mutation=*", "--enable-native-access=*", "--enable-preview", "--finalization=*",
+    "--illegal-access=*", "--illegal-final-field-mutation=*", "--illegal-native-access=*", "--limit-modules=*",
+    "--module-path=*", "--patch-module=*", "--sun-misc-unsafe-memory-access=*", "--upgrade-module-path=*",
+};
+
+static bool matches(const char *option, const char *text) {
+    size_t length = strlen(text);
+    return text[length - 1] == '*' ? strncmp(option, text, length - 1) == 0 : strcmp(option, text) == 0;
+}
+
+static int32_t refuse(const char *option, const char *reason) {
+    return error_set(CLK_JVM_OPTIONS, "the JVM option '%s' is refused: %s. Remove it from the JVM options.", option, reason);
+}
+
+int32_t options_check(const char *option) {
+    if (strchr(option, '\n') != NULL) return refuse(option, "it has a line break");
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        if (matches(option, refused[i].text)) return refuse(option, refused[i].reason);
+    }
+    /* The debugger's default is suspend=y. */
+    if (matches(option, "-agentlib:jdwp*") && strstr(option, "suspend=n") == NULL) {
+        return refuse(option, "the start would wait for a debugger; add suspend=n");
+    }
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (matches(option, known[i])) return CLK_OK;
+    }
+    return refuse(option, "it is none of a JVM inside another process (give each option as one word, with '=' before its value)");
+}
+
+/* ---- In a child process ---------------------------------------------------------------------------------------------- */
+
+/* Many lines to one. */
+static void join_lines(char *text) {
+    char *end = text + strlen(text);
+    while (end > text && (end[-1] == '\n' || end[-1] == ' ')) *--end = '\0';
+    for (char *at = text; (at = strchr(at, '\n')) != NULL;) *at = ' ';
+}
+
+int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
+    char java[4096];
+    char output[2048];
+    int status = 0;
+    static char version[] = "-version";
+    snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
+    if (!prim_executable(java)) {
+        log_format(CLK_LOG_INFO, "the JVM options are not tried before the start, as %s is missing or not executable", java);
+        return CLK_OK;
+    }
+    char **arguments = malloc(((size_t)count + 3) * sizeof *arguments);
+    if (arguments == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+    arguments[0] = java;
+    memcpy(arguments + 1, options, (size_t)count * sizeof *arguments);
+    arguments[count + 1] = version;
+    arguments[count + 2] = NULL;
+    enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);
+    free(arguments);
+    /* The words of the version tell that the JVM came up, and was not ended in order by an option before that. */
+    bool came_up = strstr(output, " version \"") != NULL;
+    join_lines(output);
+    switch (run) {
+        case PRIM_NOT_STARTED:
+            log_format(CLK_LOG_WARNING, "the JVM options are not tried before the start, as %s could not be run", java);
+            return CLK_OK;
+        case PRIM_TIMED_OUT:
+            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java, output);
+        default: break;
+    }
+    if (status == 0 && came_up) return CLK_OK;
+    return error_set(CLK_JVM_OPTIONS, "the JVM of %s refuses its options (exit code %d): %s. Correct the JVM options.", home, status,
+                     output[0] != '\0' ? output : "an option ends it before it is up");
+}

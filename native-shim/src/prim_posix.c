@@ -1,0 +1,241 @@
+#define _GNU_SOURCE /* sem_clockwait, pthread_setname_np */
+#include "prim.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* ---- Time ------------------------------------------------------------------------------------------------------------ */
+
+#define NANOS_PER_SECOND INT64_C(1000000000)
+
+int64_t prim_now(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * NANOS_PER_SECOND + now.tv_nsec;
+}
+
+/* ---- Locks and semaphores -------------------------------------------------------------------------------------------- */
+
+void prim_lock(prim_mutex *mutex) { pthread_mutex_lock(mutex); }
+
+void prim_unlock(prim_mutex *mutex) { pthread_mutex_unlock(mutex); }
+
+void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { sem_init(semaphore, 0, count); }
+
+void prim_semaphore_post(prim_semaphore *semaphore) { sem_post(semaphore); }
+
+void prim_semaphore_wait(prim_semaphore *semaphore) {
+    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* a signal handler ran: wait on */
+    }
+}
+
+bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline) {
+    struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
+    int result;
+    do {
+        result = sem_clockwait(semaphore, CLOCK_MONOTONIC, &until);
+    } while (result != 0 && errno == EINTR);
+    return result == 0;
+}
+
+void prim_run_once(prim_once *once, void (*init)(void)) { pthread_once(once, init); }
+
+/* ---- Threads --------------------------------------------------------------------------------------------------------- */
+
+struct thread_start {
+    void (*body)(void);
+    const char *name;
+};
+
+static void *thread_main(void *argument) {
+    struct thread_start start = *(struct thread_start *)argument;
+    free(argument);
+    pthread_setname_np(pthread_self(), start.name);
+    start.body();
+    return NULL;
+}
+
+bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes) {
+    struct thread_start *start = malloc(sizeof *start);
+    pthread_attr_t attributes;
+    pthread_t thread;
+    bool started = false;
+    if (start == NULL) return false;
+    *start = (struct thread_start){body, name};
+    if (pthread_attr_init(&attributes) == 0) {
+        started = pthread_attr_setstacksize(&attributes, stack_bytes) == 0 &&
+                  pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED) == 0 &&
+                  pthread_create(&thread, &attributes, thread_main, start) == 0;
+        pthread_attr_destroy(&attributes);
+    }
+    if (!started) free(start);
+    return started;
+}
+
+noreturn void prim_park(void) {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, NULL);
+    for (;;) pause();
+}
+
+void prim_at_fork(void (*child)(void)) { pthread_atfork(NULL, NULL, child); }
+
+/* ---- Memory ---------------------------------------------------------------------------------------------------------- */
+
+void *prim_allocate(size_t bytes) { return aligned_alloc(64, bytes); }
+
+void prim_free(void *memory) { free(memory); }
+
+/* ---- Files and libraries --------------------------------------------------------------------------------------------- */
+
+enum prim_file prim_file_kind(const char *path) {
+    struct stat status;
+    if (stat(path, &status) != 0) return errno == EACCES ? PRIM_UNREADABLE : PRIM_MISSING;
+    if (access(path, R_OK) != 0) return PRIM_UNREADABLE;
+    return S_ISDIR(status.st_mode) ? PRIM_DIRECTORY : PRIM_FILE;
+}
+
+bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE && access(path, X_OK) == 0; }
+
+void *prim_library_open(const char *path, char *why, size_t why_size) {
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (library == NULL) {
+        const char *reason = dlerror();
+        snprintf(why, why_size, "%s", reason != NULL ? reason : "no reason given");
+    }
+    return library;
+}
+
+void *prim_library_symbol(void *library, const char *name) { return dlsym(library, name); }
+
+/* ---- Environment and processes --------------------------------------------------------------------------------------- */
+
+/* Hiding swaps one pointer of environ. unsetenv and setenv would move or free the array under threads that read it. */
+static char hidden_entry[] = "COLLEKTIVE_HIDDEN=";
+
+static bool swap_environment(const char *from, size_t from_length, char *to, char **previous) {
+    for (char **entry = environ; entry != NULL && *entry != NULL; entry++) {
+        if (strncmp(*entry, from, from_length) == 0) {
+            *previous = *entry;
+            *entry = to;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool prim_environment_hide(const char *name, char **hidden) {
+    char prefix[64];
+    int length = snprintf(prefix, sizeof prefix, "%s=", name);
+    return swap_environment(prefix, (size_t)length, hidden_entry, hidden);
+}
+
+void prim_environment_show(char *hidden) {
+    char *placeholder;
+    swap_environment(hidden_entry, sizeof hidden_entry - 1, hidden, &placeholder);
+}
+
+/* Milliseconds until the deadline, rounded up, for poll. */
+static int poll_limit(int64_t deadline) {
+    int64_t left = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
+    return left < 0 ? 0 : left > INT32_MAX ? INT32_MAX : (int)left;
+}
+
+/* Reads until the writers close the pipe. False when the deadline passed first. */
+static bool read_all(int descriptor, int64_t deadline, char *output, size_t output_size) {
+    size_t used = 0;
+    char rest[512];
+    output[0] = '\0';
+    for (;;) {
+        struct pollfd wait = {.fd = descriptor, .events = POLLIN};
+        int ready = poll(&wait, 1, poll_limit(deadline));
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready <= 0) return false;
+        bool full = used + 1 >= output_size;
+        ssize_t count = full ? read(descriptor, rest, sizeof rest) : read(descriptor, output + used, output_size - 1 - used);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return true;
+        if (!full) {
+            used += (size_t)count;
+            output[used] = '\0';
+        }
+    }
+}
+
+/* A host that ignores SIGCHLD, or reaps every child itself, takes the status away: it then counts as 0, and the caller
+ * judges by the output. False when the deadline passed first. */
+static bool reap(pid_t child, int64_t deadline, int *status) {
+    for (;;) {
+        int state = 0;
+        pid_t reaped = waitpid(child, &state, WNOHANG);
+        if (reaped == child) {
+            *status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+            return true;
+        }
+        if (reaped < 0 && errno != EINTR) {
+            *status = 0;
+            return true;
+        }
+        if (prim_now() >= deadline) return false;
+        nanosleep(&(struct timespec){.tv_nsec = 500000}, NULL);
+    }
+}
+
+static bool spawn(char *const argv[], int output, pid_t *child) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, defaults;
+    if (posix_spawn_file_actions_init(&actions) != 0) return false;
+    if (posix_spawnattr_init(&attributes) != 0) {
+        posix_spawn_file_actions_destroy(&actions);
+        return false;
+    }
+    sigemptyset(&none);
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGCHLD);
+    /* A process group of its own, so that a kill reaches what it may have started. */
+    bool spawned = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
+                   posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 &&
+                   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
+                                                             POSIX_SPAWN_SETSIGDEF) == 0 &&
+                   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0) == 0 &&
+                   posix_spawn_file_actions_adddup2(&actions, output, 1) == 0 &&
+                   posix_spawn_file_actions_adddup2(&actions, output, 2) == 0 &&
+                   posix_spawn(child, argv[0], &actions, &attributes, argv, environ) == 0;
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return spawned;
+}
+
+enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
+    int ends[2];
+    pid_t child;
+    output[0] = '\0';
+    if (pipe2(ends, O_CLOEXEC) != 0) return PRIM_NOT_STARTED;
+    bool spawned = spawn(argv, ends[1], &child);
+    close(ends[1]);
+    bool done = spawned && read_all(ends[0], deadline, output, output_size) && reap(child, deadline, status);
+    close(ends[0]);
+    if (!spawned) return PRIM_NOT_STARTED;
+    if (!done) {
+        kill(-child, SIGKILL);
+        reap(child, prim_now() + NANOS_PER_SECOND, status);
+        return PRIM_TIMED_OUT;
+    }
+    return PRIM_EXITED;
+}

@@ -1,0 +1,226 @@
+#include "session.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include "collektive_shim.h"
+#include "engine.h"
+#include "error.h"
+#include "host.h"
+#include "log.h"
+#include "prim.h"
+#include "signals.h"
+#include "slots.h"
+
+#define MAX_SESSIONS 256
+#define FIRST_ANSWER_BYTES (64 * 1024)
+
+struct session {
+    uint32_t generation; /* 0 before the first use */
+    bool open;
+    clk_slot answer;
+};
+
+/* By the turn, but for the counters. */
+static struct {
+    struct session all[MAX_SESSIONS];
+    struct host_call call; /* what the engine thread works on */
+    atomic_int count;
+    _Atomic uint64_t steps;
+    _Atomic uint64_t signal_repairs;
+} sessions;
+
+int32_t session_count(void) { return atomic_load_explicit(&sessions.count, memory_order_relaxed); }
+
+uint64_t session_steps(void) { return atomic_load_explicit(&sessions.steps, memory_order_relaxed); }
+
+uint64_t session_signal_repairs(void) { return atomic_load_explicit(&sessions.signal_repairs, memory_order_relaxed); }
+
+/* ---- The table ------------------------------------------------------------------------------------------------------- */
+
+static clk_session session_handle(const struct session *session) {
+    return (uint64_t)session->generation << 32 | (uint64_t)(session - sessions.all);
+}
+
+static struct session *session_find(clk_session handle) {
+    uint32_t index = (uint32_t)handle;
+    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32) {
+        return &sessions.all[index];
+    }
+    error_set(CLK_HANDLE, "session 0x%llx is closed already or was never given out", (unsigned long long)handle);
+    return NULL;
+}
+
+/* Takes a free session with its own generation and slot. */
+static int32_t session_take(struct session **taken) {
+    clk_memory memory = {.size = sizeof memory};
+    for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
+        if (session->open) continue;
+        int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &session->answer, &memory);
+        if (result != CLK_OK) return result;
+        session->generation = session->generation == UINT32_MAX ? 1 : session->generation + 1;
+        session->open = true;
+        atomic_fetch_add(&sessions.count, 1);
+        *taken = session;
+        return CLK_OK;
+    }
+    return error_set(CLK_MEMORY, "%d sessions are open; close one first", MAX_SESSIONS);
+}
+
+static void session_give(struct session *session) {
+    clk_slot_release(session->answer);
+    session->open = false;
+    atomic_fetch_sub(&sessions.count, 1);
+}
+
+void session_forget_all(void) {
+    for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
+        if (session->open) session_give(session);
+    }
+}
+
+/* ---- Calls of the host ----------------------------------------------------------------------------------------------- */
+
+static int32_t check_limit(int32_t limit_ms) {
+    if (limit_ms >= 1) return CLK_OK;
+    return error_set(CLK_ARGUMENT, "limit_ms is %d; it is 1 or greater", limit_ms);
+}
+
+static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, const clk_answer *answer) {
+    if (answer == NULL) return error_set(CLK_ARGUMENT, "answer is NULL");
+    if (answer->size < sizeof *answer) {
+        return error_set(CLK_ARGUMENT, "answer->size is %u; set it to sizeof(clk_answer)", answer->size);
+    }
+    if (offset < 0 || length < 0) return error_set(CLK_ARGUMENT, "the range %d + %d is negative", offset, length);
+    return check_limit(limit_ms);
+}
+
+/* Takes the turn while a JVM runs. */
+static int32_t enter(int64_t deadline) {
+    int32_t result = engine_check_running(); /* before waiting for nothing */
+    if (result == CLK_OK) result = engine_enter(deadline);
+    /* One that lost its JVM while it waited is told so, even when its time ran out. */
+    int32_t running = engine_state() == CLK_STATE_RUNNING ? CLK_OK : engine_check_running();
+    if (running != CLK_OK && result == CLK_OK) engine_leave();
+    return running != CLK_OK ? running : result;
+}
+
+/* Runs work that the host should end by the deadline. When even the engine thread does not come back, the JVM is lost. */
+static int32_t run(engine_work *work, int64_t deadline) {
+    int32_t result = engine_run(work, deadline + SESSION_GRACE_MS * PRIM_MILLI);
+    if (result != CLK_TIMEOUT) return result;
+    engine_lose("the engine thread did not answer within the time limit and %d ms more", SESSION_GRACE_MS);
+    return engine_check_running();
+}
+
+static int32_t work_call(void) {
+    if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
+    return host_run(&sessions.call);
+}
+
+static void unpin_all(struct host_call *call) {
+    slots_unpin(call->request);
+    slots_unpin(call->answer);
+    for (struct block *block = call->retired, *next; block != NULL; block = next) {
+        next = block->next;
+        slots_unpin(block);
+    }
+}
+
+/* Under the turn. */
+static int32_t call_host(enum host_entry entry, const struct session *session, clk_slot slot, int32_t offset, int32_t length,
+                         int64_t deadline, clk_answer *answer) {
+    struct host_call *call = &sessions.call;
+    struct block *request = slots_pin(slot);
+    if (request == NULL) return CLK_HANDLE;
+    if ((int64_t)offset + length > request->capacity) {
+        int32_t result = error_set(CLK_ARGUMENT, "the range %d + %d is outside of the slot's %d bytes", offset, length,
+                                   request->capacity);
+        slots_unpin(request);
+        return result;
+    }
+    struct block *own = slots_pin(session->answer);
+    if (own == NULL) {
+        slots_unpin(request);
+        return CLK_HANDLE;
+    }
+    int64_t left_ms = (deadline - prim_now()) / PRIM_MILLI;
+    *call = (struct host_call){.entry = entry,
+                               .session = session_handle(session),
+                               .request = request,
+                               .offset = offset,
+                               .length = length,
+                               .slot = session->answer,
+                               .answer = own,
+                               .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms};
+    int32_t result = run(work_call, deadline);
+    if (result == CLK_JVM_LOST) return result; /* the blocks stay pinned: Java may still write to them */
+    if (result == CLK_OK) {
+        answer->offset = call->answer_offset;
+        answer->length = call->answer_length;
+        answer->capacity = call->answer->capacity;
+        answer->address = call->answer->address;
+    }
+    unpin_all(call);
+    return result;
+}
+
+/* ---- The header's functions ------------------------------------------------------------------------------------------ */
+
+static void repair_signals(void) {
+    int32_t repaired = signals_repair();
+    if (repaired == 0) return;
+    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
+    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
+}
+
+int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
+                         clk_answer *answer) {
+    if (session == NULL) return error_set(CLK_ARGUMENT, "session is NULL");
+    if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = enter(deadline);
+    if (result != CLK_OK) return result;
+    repair_signals();
+    struct session *taken = NULL;
+    result = session_take(&taken);
+    if (result == CLK_OK) {
+        result = call_host(HOST_OPEN, taken, slot, offset, length, deadline, answer);
+        if (result == CLK_OK) {
+            *session = session_handle(taken);
+        } else if (result != CLK_JVM_LOST) {
+            session_give(taken);
+        }
+    }
+    engine_leave();
+    return result;
+}
+
+int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer) {
+    if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = enter(deadline);
+    if (result != CLK_OK) return result;
+    const struct session *found = session_find(session);
+    result = found != NULL ? call_host(HOST_STEP, found, slot, offset, length, deadline, answer) : CLK_HANDLE;
+    engine_leave();
+    return result;
+}
+
+static int32_t work_close(void) { return host_close(sessions.call.session); }
+
+int32_t clk_session_close(clk_session session, int32_t limit_ms) {
+    if (check_limit(limit_ms) != CLK_OK) return CLK_ARGUMENT;
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = enter(deadline);
+    if (result != CLK_OK) return result;
+    struct session *found = session_find(session);
+    if (found == NULL) {
+        result = CLK_HANDLE;
+    } else {
+        sessions.call.session = session;
+        result = run(work_close, deadline);
+        if (result != CLK_JVM_LOST) session_give(found);
+    }
+    engine_leave();
+    return result;
+}

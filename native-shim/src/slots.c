@@ -1,0 +1,258 @@
+#include "slots.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "prim.h"
+
+#define MAX_CAPACITY (1 << 30)
+#define MIN_CLASS 12 /* blocks are 2^12 .. 2^30 bytes */
+#define MAX_CLASS 30
+
+/* Unused memory that the pool keeps. What goes beyond is given back to the system. */
+#define KEPT_BYTES ((uint64_t)64 << 20)
+
+struct slot {
+    uint32_t generation;
+    uint32_t next_free; /* index + 1 of the next free slot, 0 at the end */
+    struct block *block; /* NULL while free */
+};
+
+static struct {
+    prim_mutex mutex;
+    struct slot *slots;
+    uint32_t length;
+    uint32_t capacity;
+    uint32_t first_free;
+    int32_t taken;
+    uint64_t bytes;
+    uint64_t unused_bytes;
+    struct block *unused[MAX_CLASS + 1]; /* by class */
+    struct block *surplus;
+} pool = {.mutex = PRIM_MUTEX_INIT};
+
+/* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
+
+static int class_of(int32_t capacity) {
+    int class = MIN_CLASS;
+    while ((1 << class) < capacity) class++;
+    return class;
+}
+
+static struct block *block_take(int32_t capacity) {
+    int class = class_of(capacity);
+    struct block *block = pool.unused[class];
+    if (block != NULL) {
+        pool.unused[class] = block->next;
+        pool.unused_bytes -= (uint64_t)block->capacity;
+    } else {
+        block = malloc(sizeof *block);
+        uint8_t *address = prim_allocate((size_t)1 << class);
+        if (block == NULL || address == NULL) {
+            free(block);
+            prim_free(address);
+            error_set(CLK_MEMORY, "no native memory for a slot of %d bytes", 1 << class);
+            return NULL;
+        }
+        *block = (struct block){.address = address, .capacity = 1 << class};
+        pool.bytes += (uint64_t)block->capacity;
+    }
+    block->next = NULL;
+    return block;
+}
+
+static void block_free(struct block *block) {
+    prim_free(block->address);
+    free(block);
+}
+
+static void block_give(struct block *block) {
+    block->abandoned = false;
+    if (pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES) {
+        int class = class_of(block->capacity);
+        block->next = pool.unused[class];
+        pool.unused[class] = block;
+        pool.unused_bytes += (uint64_t)block->capacity;
+        return;
+    }
+    pool.bytes -= (uint64_t)block->capacity;
+    if (block->wrapper == NULL) {
+        block_free(block);
+    } else {
+        block->next = pool.surplus;
+        pool.surplus = block;
+    }
+}
+
+/* The slot lets go of its block; calls that use it now keep it for as long as they need it. */
+static void block_abandon(struct block *block) {
+    if (block->pins == 0) {
+        block_give(block);
+    } else {
+        block->abandoned = true;
+    }
+}
+
+/* ---- Slots (under the mutex) ----------------------------------------------------------------------------------------- */
+
+static struct slot *slot_find(clk_slot handle) {
+    uint32_t index = (uint32_t)handle;
+    if (index >= pool.length || pool.slots[index].block == NULL || pool.slots[index].generation != handle >> 32) {
+        error_set(CLK_HANDLE, "slot 0x%llx is released already or was never given out", (unsigned long long)handle);
+        return NULL;
+    }
+    return &pool.slots[index];
+}
+
+/* Index of a free slot, or -1. */
+static int64_t slot_take(void) {
+    if (pool.first_free != 0) {
+        uint32_t index = pool.first_free - 1;
+        pool.first_free = pool.slots[index].next_free;
+        return index;
+    }
+    if (pool.length == pool.capacity) {
+        uint32_t capacity = pool.capacity == 0 ? 64 : pool.capacity * 2;
+        struct slot *slots = realloc(pool.slots, capacity * sizeof *slots);
+        if (slots == NULL) return -1;
+        pool.slots = slots;
+        pool.capacity = capacity;
+    }
+    pool.slots[pool.length] = (struct slot){.generation = 1};
+    return pool.length++;
+}
+
+static void slot_give(struct slot *slot) {
+    slot->block = NULL;
+    slot->generation = slot->generation == UINT32_MAX ? 1 : slot->generation + 1; /* 0 would allow a handle 0 */
+    slot->next_free = pool.first_free;
+    pool.first_free = (uint32_t)(slot - pool.slots) + 1;
+}
+
+/* ---- The header's functions ------------------------------------------------------------------------------------------ */
+
+static int32_t check_capacity(int32_t capacity) {
+    if (capacity >= 1 && capacity <= MAX_CAPACITY) return CLK_OK;
+    return error_set(CLK_ARGUMENT, "capacity is %d; a slot has 1 to %d bytes", capacity, MAX_CAPACITY);
+}
+
+static int32_t check_memory(const clk_memory *memory) {
+    if (memory == NULL) return error_set(CLK_ARGUMENT, "memory is NULL");
+    if (memory->size >= sizeof *memory) return CLK_OK;
+    return error_set(CLK_ARGUMENT, "memory->size is %u; set it to sizeof(clk_memory)", memory->size);
+}
+
+static void fill_memory(const struct block *block, clk_memory *memory) {
+    memory->capacity = block->capacity;
+    memory->address = block->address;
+}
+
+int32_t clk_slot_acquire(int32_t capacity, clk_slot *slot, clk_memory *memory) {
+    if (slot == NULL) return error_set(CLK_ARGUMENT, "slot is NULL");
+    if (check_memory(memory) != CLK_OK || check_capacity(capacity) != CLK_OK) return CLK_ARGUMENT;
+    prim_lock(&pool.mutex);
+    int32_t result = CLK_MEMORY;
+    struct block *block = block_take(capacity);
+    if (block != NULL) {
+        int64_t index = slot_take();
+        if (index < 0) {
+            block_give(block);
+            error_set(CLK_MEMORY, "no native memory for more than %u slots", pool.length);
+        } else {
+            pool.slots[index].block = block;
+            pool.taken++;
+            *slot = (uint64_t)pool.slots[index].generation << 32 | (uint32_t)index;
+            fill_memory(block, memory);
+            result = CLK_OK;
+        }
+    }
+    prim_unlock(&pool.mutex);
+    return result;
+}
+
+static int32_t grow(clk_slot handle, int32_t capacity, int32_t keep, clk_memory *memory) {
+    struct slot *slot = slot_find(handle);
+    if (slot == NULL) return CLK_HANDLE;
+    struct block *old = slot->block;
+    if (keep < 0 || keep > old->capacity) {
+        return error_set(CLK_ARGUMENT, "keep is %d; the slot has %d bytes", keep, old->capacity);
+    }
+    if (old->pins > 0) return error_set(CLK_ARGUMENT, "the slot is in use by a running call; grow it before or after");
+    if (capacity > old->capacity) {
+        struct block *block = block_take(capacity);
+        if (block == NULL) return CLK_MEMORY;
+        memcpy(block->address + block->capacity - keep, old->address + old->capacity - keep, (size_t)keep);
+        slot->block = block;
+        block_abandon(old);
+    }
+    fill_memory(slot->block, memory);
+    return CLK_OK;
+}
+
+int32_t clk_slot_grow(clk_slot slot, int32_t capacity, int32_t keep, clk_memory *memory) {
+    if (check_memory(memory) != CLK_OK || check_capacity(capacity) != CLK_OK) return CLK_ARGUMENT;
+    prim_lock(&pool.mutex);
+    int32_t result = grow(slot, capacity, keep, memory);
+    prim_unlock(&pool.mutex);
+    return result;
+}
+
+int32_t clk_slot_release(clk_slot handle) {
+    prim_lock(&pool.mutex);
+    struct slot *slot = slot_find(handle);
+    if (slot != NULL) {
+        block_abandon(slot->block);
+        slot_give(slot);
+        pool.taken--;
+    }
+    prim_unlock(&pool.mutex);
+    return slot != NULL ? CLK_OK : CLK_HANDLE;
+}
+
+/* ---- For calls into the JVM ------------------------------------------------------------------------------------------ */
+
+struct block *slots_pin(clk_slot handle) {
+    prim_lock(&pool.mutex);
+    struct slot *slot = slot_find(handle);
+    struct block *block = slot != NULL ? slot->block : NULL;
+    if (block != NULL) block->pins++;
+    prim_unlock(&pool.mutex);
+    return block;
+}
+
+void slots_unpin(struct block *block) {
+    prim_lock(&pool.mutex);
+    if (--block->pins == 0 && block->abandoned) block_give(block);
+    prim_unlock(&pool.mutex);
+}
+
+struct block *slots_exchange(clk_slot handle, int32_t capacity) {
+    if (check_capacity(capacity) != CLK_OK) return NULL;
+    prim_lock(&pool.mutex);
+    struct slot *slot = slot_find(handle);
+    struct block *block = slot != NULL ? block_take(capacity) : NULL;
+    if (block != NULL) {
+        block->pins++;
+        block_abandon(slot->block);
+        slot->block = block;
+    }
+    prim_unlock(&pool.mutex);
+    return block;
+}
+
+struct block *slots_take_surplus(void) {
+    prim_lock(&pool.mutex);
+    struct block *block = pool.surplus;
+    if (block != NULL) pool.surplus = block->next;
+    prim_unlock(&pool.mutex);
+    return block;
+}
+
+void slots_free(struct block *block) { block_free(block); }
+
+void slots_count(int32_t *taken, uint64_t *bytes) {
+    prim_lock(&pool.mutex);
+    *taken = pool.taken;
+    *bytes = pool.bytes;
+    prim_unlock(&pool.mutex);
+}

@@ -1,0 +1,75 @@
+/* A case is a process of its own: `shim_test <case>`. Its name is the specification, a failed CHECK ends it. */
+#ifndef COLLEKTIVE_TEST_H
+#define COLLEKTIVE_TEST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "collektive_shim.h"
+
+#define CHECK(condition) \
+    do { \
+        if (!(condition)) fail(__FILE__, __LINE__, #condition); \
+    } while (0)
+
+/* That the call gives the code and its error text names the thing; NULL for no text. */
+#define CHECK_CODE(code, mention, call) check_code(__FILE__, __LINE__, #call, code, mention, call)
+#define CHECK_OK(call) CHECK_CODE(CLK_OK, NULL, call)
+
+_Noreturn void fail(const char *file, int line, const char *what);
+void check_code(const char *file, int line, const char *call, int32_t expected, const char *mention, int32_t got);
+
+/* Places: the JVM under test, the classes of the test host, and the others. */
+const char *java_home(void);
+bool java_is_17(void);
+extern const char *const host_classes;
+extern const char *const misfit_classes;
+
+/* A fresh folder below the current one. Static storage, one at a time. */
+const char *scratch_folder(void);
+
+/* Starts the JVM of java_home() with the test host and these options, ended by NULL, the file checks and the child check. */
+int32_t start(const char *const *options);
+int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
+void start_plain(void);
+
+/* Commands of the test host. */
+enum command {
+    EMPTY, ECHO, GROW, THROW, FAIL, FAIL_SILENTLY, EXIT, HALT, SLEEP, OVERFLOW, EXHAUST, LOG, HANG, CRASH, OUTSIDE, GROW_FOREIGN,
+    STAY, EXIT_ELSEWHERE, IMPLICIT_NULL, GROW_TOO_LARGE
+};
+
+/* A request slot of this process, and the calls with it. */
+extern clk_slot request;
+extern clk_memory request_memory;
+extern clk_answer answer;
+int32_t open_session(clk_session *session);
+int32_t step(clk_session session, enum command command, int32_t argument, int32_t limit_ms);
+
+uint64_t random_next(void); /* per thread, from its seed */
+void random_seed(uint64_t seed);
+int64_t now_ns(void);
+clk_stats stats(void);
+bool log_mentions(const char *text); /* reads the log until a line has the text */
+
+#define CASES(X) \
+    X(version_and_sizes) X(errors_have_names) X(last_error_is_cut_at_a_character) \
+    X(slot_arguments) X(slot_handles) X(slot_growth_keeps_the_tail) X(slots_are_reused) X(slots_agree_with_a_model) \
+    X(structs_of_other_sizes) \
+    X(home_missing) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) X(home_with_a_broken_libjvm) \
+    X(home_without_java_command) X(class_path_missing) X(class_path_without_host) X(class_path_with_misfit) \
+    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(option_that_ends_the_jvm) \
+    X(refused_start_may_be_repeated) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
+    X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \
+    X(environment_is_ignored) X(second_start) X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \
+    X(echo_of_random_data) X(answers_grow) X(session_handles) X(many_sessions_one_after_the_other) X(too_many_sessions) \
+    X(call_arguments) X(host_errors) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
+    X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
+    X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
+    X(stop_ends_all) X(stop_without_start) X(stop_times_out) X(logs_are_bounded) X(signal_handlers_are_repaired) \
+    X(implicit_null_checks_and_host_faults)
+
+#define CASE_DECLARE(name) void name(void);
+CASES(CASE_DECLARE)
+#undef CASE_DECLARE
+
+#endif

@@ -1,0 +1,313 @@
+#define _POSIX_C_SOURCE 200809L
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include "test.h"
+
+static void sleep_ms(long ms) { nanosleep(&(struct timespec){.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1000000}, NULL); }
+
+/* ---- Answers --------------------------------------------------------------------------------------------------------- */
+
+/* Writes a command with random bytes to a random place of the slot, growing it when need be, and checks that they come back. */
+static void check_echo(clk_session session, clk_slot slot, clk_memory *memory, clk_answer *given) {
+    int32_t words[] = {ECHO, 0};
+    int32_t length = (int32_t)sizeof words + (int32_t)(random_next() % ((uint64_t)1 << (1 + random_next() % 18)));
+    CHECK_OK(clk_slot_grow(slot, length, 0, memory));
+    int32_t offset = (int32_t)(random_next() % (uint64_t)(memory->capacity - length + 1));
+    uint8_t *bytes = memory->address + offset;
+    memcpy(bytes, words, sizeof words);
+    for (int32_t i = sizeof words; i < length; i++) bytes[i] = (uint8_t)random_next();
+    CHECK_OK(clk_step(session, slot, offset, length, 60000, given));
+    CHECK(given->length == length - (int32_t)sizeof words && given->offset + given->length <= given->capacity);
+    CHECK(memcmp(given->address + given->offset, bytes + sizeof words, (size_t)given->length) == 0);
+}
+
+void echo_of_random_data(void) {
+    clk_session session;
+    clk_slot slot;
+    clk_memory memory = {.size = sizeof memory};
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_OK(clk_slot_acquire(1, &slot, &memory));
+    for (int i = 0; i < 3000; i++) check_echo(session, slot, &memory, &answer);
+    CHECK(stats().steps == 3000);
+    CHECK_OK(clk_session_close(session, 60000));
+}
+
+void answers_grow(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    for (int32_t size = 1; size <= 1 << 24; size *= 16) {
+        CHECK_OK(step(session, GROW, size, 60000));
+        CHECK(answer.length == size && answer.offset == 0 && answer.capacity >= size);
+        for (int32_t i = 0; i < size; i++) CHECK(answer.address[i] == (uint8_t)i);
+    }
+    int32_t grown = answer.capacity;
+    CHECK_OK(step(session, EMPTY, 0, 60000));
+    CHECK(answer.capacity == grown && answer.length == 0); /* the session keeps what it has */
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK(stats().slots == 1);
+}
+
+void one_wrapper_for_each_memory(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK(stats().wrapped == 2);
+    for (int i = 0; i < 1000; i++) CHECK_OK(step(session, EMPTY, 0, 60000));
+    CHECK(stats().wrapped == 2 && stats().steps == 1000);
+    /* The wrapper of memory that the pool gives back to the system goes with the next call. */
+    clk_slot large;
+    clk_memory memory = {.size = sizeof memory};
+    for (int i = 0; i < 3; i++) {
+        CHECK_OK(clk_slot_acquire(1 << 27, &large, &memory));
+        memset(memory.address, 0, 8);
+        CHECK_OK(clk_step(session, large, 0, 8, 60000, &answer));
+        CHECK_OK(clk_slot_release(large));
+        CHECK_OK(step(session, EMPTY, 0, 60000));
+    }
+    CHECK(stats().wrapped == 5 && stats().slot_bytes < 1 << 27);
+}
+
+/* ---- Sessions -------------------------------------------------------------------------------------------------------- */
+
+void session_handles(void) {
+    clk_session first, second;
+    start_plain();
+    CHECK_OK(open_session(&first));
+    CHECK_CODE(CLK_HANDLE, "session 0x0", step(0, EMPTY, 0, 1000));
+    CHECK_CODE(CLK_HANDLE, NULL, step(first + 1, EMPTY, 0, 1000));
+    CHECK_CODE(CLK_HANDLE, NULL, step(first + ((uint64_t)1 << 32), EMPTY, 0, 1000));
+    CHECK_CODE(CLK_HANDLE, NULL, clk_session_close(UINT64_MAX, 1000));
+    CHECK_CODE(CLK_HANDLE, "slot 0x0", clk_step(first, 0, 0, 8, 1000, &answer));
+    CHECK_OK(clk_session_close(first, 1000));
+    CHECK_CODE(CLK_HANDLE, "closed already", clk_session_close(first, 1000));
+    CHECK_CODE(CLK_HANDLE, "closed already", step(first, EMPTY, 0, 1000));
+    CHECK_OK(open_session(&second));
+    CHECK(second != first);
+    CHECK_CODE(CLK_HANDLE, NULL, step(first, EMPTY, 0, 1000));
+    CHECK_OK(step(second, EMPTY, 0, 1000));
+    CHECK(stats().steps == 1 && stats().sessions == 1);
+}
+
+void many_sessions_one_after_the_other(void) {
+    start_plain();
+    for (int i = 0; i < 3000; i++) {
+        clk_session session;
+        CHECK_OK(open_session(&session));
+        CHECK_OK(step(session, EMPTY, 0, 60000));
+        CHECK_OK(clk_session_close(session, 60000));
+    }
+    CHECK(stats().sessions == 0 && stats().slots == 1 && stats().wrapped == 2 && stats().signal_repairs == 0);
+}
+
+void too_many_sessions(void) {
+    clk_session sessions[256], another;
+    start_plain();
+    for (int i = 0; i < 256; i++) CHECK_OK(open_session(&sessions[i]));
+    CHECK_CODE(CLK_MEMORY, "close one", open_session(&another));
+    CHECK_OK(clk_session_close(sessions[100], 60000));
+    CHECK_OK(open_session(&another));
+    CHECK_OK(step(another, EMPTY, 0, 60000));
+}
+
+void call_arguments(void) {
+    clk_session session;
+    start_plain();
+    CHECK_CODE(CLK_ARGUMENT, "session is NULL", clk_session_open(request, 0, 8, 1000, NULL, &answer));
+    CHECK_OK(open_session(&session));
+    CHECK_CODE(CLK_ARGUMENT, "answer is NULL", clk_step(session, request, 0, 8, 1000, NULL));
+    CHECK_CODE(CLK_ARGUMENT, "answer->size", clk_step(session, request, 0, 8, 1000, &(clk_answer){.size = 4}));
+    CHECK_CODE(CLK_ARGUMENT, "limit_ms is 0", clk_step(session, request, 0, 8, 0, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "negative", clk_step(session, request, -1, 8, 1000, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "negative", clk_step(session, request, 0, -8, 1000, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "outside", clk_step(session, request, 0, request_memory.capacity + 1, 1000, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "outside", clk_step(session, request, INT32_MAX, INT32_MAX, 1000, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "limit_ms is -1", clk_session_close(session, -1));
+    CHECK_CODE(CLK_ARGUMENT, "limit_ms is 0", clk_jvm_stop(0));
+    CHECK(stats().steps == 0);
+    CHECK_OK(step(session, EMPTY, 0, 1000));
+    CHECK_OK(clk_step(session, request, 0, 8, INT32_MAX, &answer));
+}
+
+/* ---- Errors of the host ---------------------------------------------------------------------------------------------- */
+
+void host_errors(void) {
+    clk_session session, refused;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_CODE(CLK_FRAME, "the host says no: \xC3\xA4\xE2\x82\xAC\xF0\x9F\x9A\x80", step(session, FAIL, CLK_FRAME, 1000));
+    CHECK_CODE(CLK_SCHEMA, "different schemas", step(session, FAIL_SILENTLY, CLK_SCHEMA, 1000));
+    CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* speaks of the shim, not of the host */
+    CHECK_CODE(CLK_HOST, "-99", step(session, FAIL, -99, 1000));
+    CHECK_CODE(CLK_HOST, "-2147483648", step(session, FAIL, INT32_MIN, 1000));
+    CHECK_CODE(CLK_JAVA, "IllegalStateException", step(session, GROW_FOREIGN, 0, 1000));
+    CHECK_CODE(CLK_JAVA, "OutOfMemoryError", step(session, GROW_TOO_LARGE, 0, 1000));
+    CHECK_OK(step(session, EMPTY, 0, 1000));
+
+    int32_t words[] = {FAIL, CLK_PROGRAM};
+    memcpy(request_memory.address, words, sizeof words);
+    CHECK_CODE(CLK_PROGRAM, "the host says no", clk_session_open(request, 0, 8, 1000, &refused, &answer));
+    CHECK(stats().sessions == 1 && stats().slots == 2);
+}
+
+void exceptions(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    for (int i = 0; i < 1000; i++) {
+        CHECK_CODE(CLK_JAVA, NULL, step(session, THROW, 0, 1000));
+        CHECK_OK(step(session, EMPTY, 0, 1000));
+    }
+    CHECK_CODE(CLK_JAVA, "java.lang.IllegalStateException: thrown in the host: \xC3\xA4\xE2\x82\xAC\xF0\x9F\x9A\x80",
+               step(session, THROW, 0, 1000));
+}
+
+void stack_overflow(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    for (int i = 0; i < 20; i++) CHECK_CODE(CLK_JAVA, "StackOverflowError", step(session, OVERFLOW, 0, 60000));
+    CHECK_OK(step(session, EMPTY, 0, 1000));
+}
+
+void heap_exhausted(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    for (int i = 0; i < 3; i++) CHECK_CODE(CLK_JAVA, "", step(session, EXHAUST, 0, 60000));
+    CHECK_OK(step(session, EMPTY, 0, 60000));
+    CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
+}
+
+void exit_is_refused(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    for (int i = 0; i < 3; i++) {
+        enum command commands[] = {EXIT, HALT, EXIT_ELSEWHERE};
+        CHECK_OK(step(session, commands[i], 0, 60000));
+        CHECK(answer.length == 1 && answer.address[0] == 1);
+    }
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK_OK(clk_jvm_stop(60000));
+}
+
+void answer_outside_of_slot(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_CODE(CLK_HOST, "65536 + 1", step(session, OUTSIDE, 0, 1000));
+    CHECK_OK(step(session, EMPTY, 0, 1000));
+}
+
+/* ---- Several callers ------------------------------------------------------------------------------------------------- */
+
+static clk_session shared_session;
+
+struct sleeper {
+    pthread_t thread;
+    int32_t ms;
+    int32_t result;
+};
+
+static void *sleep_in_host(void *argument) {
+    struct sleeper *sleeper = argument;
+    clk_answer own = {.size = sizeof own};
+    int32_t words[] = {SLEEP, sleeper->ms};
+    memcpy(request_memory.address, words, sizeof words);
+    sleeper->result = clk_step(shared_session, request, 0, 8, 60000, &own);
+    return NULL;
+}
+
+static void begin_sleep(struct sleeper *sleeper, int32_t ms) {
+    sleeper->ms = ms;
+    CHECK(pthread_create(&sleeper->thread, NULL, sleep_in_host, sleeper) == 0);
+    sleep_ms(150);
+}
+
+static void end_sleep(struct sleeper *sleeper) {
+    CHECK(pthread_join(sleeper->thread, NULL) == 0);
+    CHECK(sleeper->result == CLK_OK);
+}
+
+void released_request_stays_valid(void) {
+    struct sleeper sleeper;
+    clk_slot other;
+    clk_memory memory = {.size = sizeof memory};
+    start_plain();
+    CHECK_OK(open_session(&shared_session));
+    begin_sleep(&sleeper, 600);
+    CHECK_CODE(CLK_ARGUMENT, "in use by a running call", clk_slot_grow(request, 1 << 21, 0, &memory));
+    CHECK_OK(clk_slot_release(request));
+    CHECK_CODE(CLK_HANDLE, NULL, clk_slot_release(request));
+    CHECK_OK(clk_slot_acquire(1 << 20, &other, &memory));
+    CHECK(memory.address != request_memory.address);
+    end_sleep(&sleeper);
+    CHECK_OK(clk_slot_acquire(1 << 20, &other, &memory));
+    CHECK(memory.address == request_memory.address);
+}
+
+static void *echo_thread(void *seed) {
+    clk_session session;
+    clk_slot slot;
+    clk_memory memory = {.size = sizeof memory};
+    clk_answer own = {.size = sizeof own};
+    random_seed((uint64_t)(uintptr_t)seed);
+    CHECK_OK(clk_slot_acquire(8, &slot, &memory));
+    memset(memory.address, 0, 8);
+    CHECK_OK(clk_session_open(slot, 0, 8, 60000, &session, &own));
+    for (int i = 0; i < 500; i++) check_echo(session, slot, &memory, &own);
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK_OK(clk_slot_release(slot));
+    return NULL;
+}
+
+void callers_take_turns(void) {
+    pthread_t threads[4];
+    start_plain();
+    for (uintptr_t i = 0; i < 4; i++) CHECK(pthread_create(&threads[i], NULL, echo_thread, (void *)(i + 1)) == 0);
+    for (int i = 0; i < 4; i++) CHECK(pthread_join(threads[i], NULL) == 0);
+    CHECK(stats().steps == 2000 && stats().sessions == 0 && stats().slots == 1);
+}
+
+void own_turn_times_out(void) {
+    struct sleeper sleeper;
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&shared_session));
+    begin_sleep(&sleeper, 1000);
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_TIMEOUT, "nothing was done", clk_session_open(request, 0, 8, 200, &session, &answer));
+    CHECK(now_ns() - begin >= 200000000 && now_ns() - begin < 600000000);
+    end_sleep(&sleeper);
+    CHECK_OK(open_session(&session));
+    CHECK(stats().steps == 1 && clk_jvm_state() == CLK_STATE_RUNNING);
+}
+
+/* ---- Logs ------------------------------------------------------------------------------------------------------------ */
+
+void logs_are_bounded(void) {
+    enum { LINES = 50000 };
+    clk_session session;
+    char line[100], expected[100];
+    int32_t level, read = 0;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    while (clk_log_read(&level, line, sizeof line) >= 0) {
+    }
+    CHECK_OK(step(session, LOG, LINES, 60000));
+    while (clk_log_read(&level, line, sizeof line) >= 0) {
+        snprintf(expected, sizeof expected, "line %d", read);
+        CHECK(strcmp(line, expected) == 0 && level == read % 4);
+        read++;
+    }
+    CHECK(read > 1000 && read < LINES && stats().logs_dropped == (uint64_t)(LINES - read));
+    for (int round = 0; round < 50; round++) { /* the ring goes round */
+        CHECK_OK(step(session, LOG, 500, 60000));
+        for (read = 0; clk_log_read(&level, line, 8) >= 0; read++) CHECK(strlen(line) <= 7);
+        CHECK(read == 500);
+    }
+}

@@ -1,0 +1,168 @@
+#define _XOPEN_SOURCE 700
+#include <pthread.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#include "test.h"
+
+static clk_session session;
+
+static void start_with_session(void) {
+    start_plain();
+    CHECK_OK(open_session(&session));
+}
+
+static void check_all_lost(const char *reason) {
+    clk_session other;
+    clk_memory memory = {.size = sizeof memory};
+    CHECK(clk_jvm_state() == CLK_STATE_LOST);
+    CHECK_CODE(CLK_JVM_LOST, reason, open_session(&other));
+    CHECK_CODE(CLK_JVM_LOST, reason, step(session, EMPTY, 0, 1000));
+    CHECK_CODE(CLK_JVM_LOST, reason, clk_session_close(session, 1000));
+    CHECK_CODE(CLK_JVM_LOST, reason, clk_jvm_stop(1000));
+    CHECK_CODE(CLK_JVM_LOST, reason, start(NULL));
+    char description[1024];
+    CHECK(clk_jvm_description(description, sizeof description) > 0);
+    CHECK_OK(clk_slot_release(request)); /* memory is no matter of the JVM */
+    CHECK_OK(clk_slot_acquire(100, &request, &memory));
+}
+
+void hang_loses_the_jvm(void) {
+    start_with_session();
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, HANG, 0, 300));
+    CHECK(now_ns() - begin >= 2300000000 && now_ns() - begin < 3000000000);
+    CHECK(log_mentions("the JVM is lost"));
+    check_all_lost("did not answer");
+}
+
+static void *wait_for_turn(void *result) {
+    clk_answer own = {.size = sizeof own};
+    *(int32_t *)result = clk_step(session, request, 0, 8, 60000, &own);
+    return NULL;
+}
+
+static void *hang(void *result) {
+    *(int32_t *)result = step(session, HANG, 0, 300);
+    return NULL;
+}
+
+void waiting_callers_learn_of_the_loss(void) {
+    pthread_t threads[4];
+    int32_t results[4];
+    start_with_session();
+    int64_t begin = now_ns();
+    for (int i = 0; i < 4; i++) {
+        CHECK(pthread_create(&threads[i], NULL, i == 0 ? hang : wait_for_turn, &results[i]) == 0);
+        nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+    }
+    for (int i = 0; i < 4; i++) CHECK(pthread_join(threads[i], NULL) == 0 && results[i] == CLK_JVM_LOST);
+    CHECK(now_ns() - begin < 4000000000);
+}
+
+/* ---- Faults: the host process has handlers of its own ---------------------------------------------------------------- */
+
+static sigjmp_buf recover;
+
+static void on_fault(int signal, siginfo_t *info, void *context) {
+    (void)signal;
+    (void)info;
+    (void)context;
+    siglongjmp(recover, 1);
+}
+
+static void catch_faults(void) {
+    CHECK(sigaction(SIGSEGV, &(struct sigaction){.sa_sigaction = on_fault, .sa_flags = SA_SIGINFO}, NULL) == 0);
+}
+
+__attribute__((no_sanitize("address", "undefined"))) static void fault(void) {
+    static int *volatile nowhere = NULL;
+    if (sigsetjmp(recover, 1) == 0) {
+        *(volatile int *)nowhere = 1;
+        fail(__FILE__, __LINE__, "the fault was not noticed");
+    }
+}
+
+void implicit_null_checks_and_host_faults(void) {
+    catch_faults();
+    start_with_session();
+    for (int i = 0; i < 20; i++) {
+        int32_t caught;
+        fault();
+        CHECK_OK(step(session, IMPLICIT_NULL, 1000000, 60000));
+        memcpy(&caught, answer.address, sizeof caught);
+        CHECK(caught == 20);
+    }
+}
+
+void crash_loses_the_jvm(void) {
+    catch_faults();
+    start_with_session();
+    CHECK_CODE(CLK_JVM_LOST, "it aborted", step(session, CRASH, 0, 60000));
+    for (int i = 0; i < 5; i++) fault();
+    check_all_lost("it aborted");
+}
+
+void signal_handlers_are_repaired(void) {
+    struct sigaction before, now;
+    clk_session other;
+    start_with_session();
+    CHECK(sigaction(SIGSEGV, NULL, &before) == 0 && (before.sa_flags & SA_ONSTACK) != 0);
+    CHECK(sigaction(SIGFPE, NULL, &now) == 0 && (now.sa_flags & SA_ONSTACK) == 0); /* as it was before */
+    catch_faults();
+    CHECK_OK(open_session(&other));
+    CHECK(sigaction(SIGSEGV, NULL, &now) == 0 && now.sa_sigaction == before.sa_sigaction && (now.sa_flags & SA_ONSTACK) != 0);
+    CHECK(stats().signal_repairs == 1 && log_mentions("put back"));
+    CHECK_OK(open_session(&other));
+    CHECK(stats().signal_repairs == 1);
+}
+
+void fork_loses_the_jvm(void) {
+    start_with_session();
+    pid_t child = fork();
+    CHECK(child >= 0);
+    if (child == 0) {
+        CHECK_CODE(CLK_JVM_LOST, "forked", step(session, EMPTY, 0, 60000));
+        _exit(7);
+    }
+    int status;
+    CHECK(waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 7);
+    CHECK_OK(step(session, EMPTY, 0, 60000));
+}
+
+/* ---- The end in order ------------------------------------------------------------------------------------------------ */
+
+void stop_ends_all(void) {
+    clk_session other;
+    start_with_session();
+    CHECK_OK(open_session(&other));
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK(clk_jvm_state() == CLK_STATE_STOPPED);
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", open_session(&other));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 1000));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", clk_session_close(session, 1000));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", start(NULL));
+    CHECK_OK(clk_jvm_stop(1000));
+    CHECK(stats().sessions == 0 && stats().slots == 1);
+    CHECK_OK(clk_slot_release(request));
+}
+
+void stop_without_start(void) {
+    CHECK_OK(clk_jvm_stop(1000));
+    CHECK(clk_jvm_state() == CLK_STATE_NONE);
+}
+
+void stop_times_out(void) {
+    start_with_session();
+    CHECK_OK(step(session, STAY, 0, 60000));
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_TIMEOUT, NULL, clk_jvm_stop(400));
+    CHECK(now_ns() - begin < 1000000000);
+    CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
+    CHECK_CODE(CLK_TIMEOUT, NULL, step(session, EMPTY, 0, 200));
+    CHECK_CODE(CLK_TIMEOUT, NULL, clk_jvm_stop(200));
+}

@@ -1,0 +1,262 @@
+#define _XOPEN_SOURCE 700
+#include <dlfcn.h>
+#include <jni.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "test.h"
+
+#define OPTIONS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
+/* ---- Files ----------------------------------------------------------------------------------------------------------- */
+
+static void write_file(const char *folder, const char *name, const char *text, mode_t mode) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, mode) == 0);
+}
+
+static void make_folder(const char *folder, const char *name) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    CHECK(mkdir(path, 0755) == 0);
+}
+
+/* A home whose lib is that of the real one. */
+static const char *make_home_with_lib(void) {
+    const char *home = scratch_folder();
+    char target[4096], link[4096];
+    snprintf(target, sizeof target, "%s/lib", java_home());
+    snprintf(link, sizeof link, "%s/lib", home);
+    CHECK(symlink(target, link) == 0);
+    return home;
+}
+
+static int32_t start_home(const char *home) { return start_at(home, host_classes, NULL, true, 60000); }
+
+/* A refused start is no loss: the right one works afterwards. */
+static void check_start_still_works(void) {
+    CHECK(clk_jvm_state() == CLK_STATE_NONE);
+    CHECK_OK(start(NULL));
+    CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
+}
+
+void home_missing(void) {
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "/no/such/jvm does not exist", start_home("/no/such/jvm"));
+    check_start_still_works();
+}
+
+void home_is_a_file(void) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/release", java_home());
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "is no folder", start_home(path));
+    check_start_still_works();
+}
+
+void home_without_libjvm(void) {
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "lib/server/libjvm.so is missing", start_home(scratch_folder()));
+    check_start_still_works();
+}
+
+static const char *make_broken_home(void) {
+    const char *home = scratch_folder();
+    make_folder(home, "lib");
+    make_folder(home, "lib/server");
+    write_file(home, "lib/server/libjvm.so", "no library", 0644);
+    return home;
+}
+
+void home_without_modules(void) {
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "lib/modules is missing", start_home(make_broken_home()));
+    check_start_still_works();
+}
+
+void home_with_a_broken_libjvm(void) {
+    const char *home = make_broken_home();
+    write_file(home, "lib/modules", "", 0644);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "cannot be loaded", start_home(home));
+    check_start_still_works();
+}
+
+void home_without_java_command(void) {
+    CHECK_OK(start_home(make_home_with_lib()));
+    CHECK(log_mentions("not tried before the start"));
+}
+
+void class_path_missing(void) {
+    char path[8192];
+    snprintf(path, sizeof path, "%s:/no/such/host.jar", host_classes);
+    CHECK_CODE(CLK_HOST, "/no/such/host.jar", start_at(java_home(), path, NULL, true, 60000));
+    check_start_still_works();
+}
+
+static void check_lost(void) {
+    clk_session session;
+    CHECK(clk_jvm_state() == CLK_STATE_LOST);
+    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", clk_session_open(1, 0, 8, 1000, &session, &answer));
+    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", start(NULL));
+    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", clk_jvm_stop(1000));
+}
+
+void class_path_without_host(void) {
+    CHECK_CODE(CLK_HOST, "org/collektive/host/Shim", start_at(java_home(), scratch_folder(), NULL, true, 60000));
+    check_lost();
+}
+
+void class_path_with_misfit(void) {
+    CHECK_CODE(CLK_HOST, "lacks an entry", start_at(java_home(), misfit_classes, NULL, true, 60000));
+    check_lost();
+}
+
+/* ---- Options --------------------------------------------------------------------------------------------------------- */
+
+void start_arguments(void) {
+    CHECK_CODE(CLK_ARGUMENT, "config is NULL", clk_jvm_start(NULL));
+    CHECK_CODE(CLK_ARGUMENT, "home is empty", start_at("", "x", NULL, true, 1000));
+    CHECK_CODE(CLK_ARGUMENT, "home is empty", start_at(NULL, "x", NULL, true, 1000));
+    CHECK_CODE(CLK_ARGUMENT, "class_path is empty", start_at(java_home(), "", NULL, true, 1000));
+    CHECK_CODE(CLK_ARGUMENT, "start_limit_ms is 0", start_at(java_home(), host_classes, NULL, true, 0));
+    clk_jvm_config config = {.size = sizeof config, .home = "/", .class_path = "x", .start_limit_ms = 1, .option_count = 1};
+    CHECK_CODE(CLK_ARGUMENT, "option_count is 1", clk_jvm_start(&config));
+    config.options = (const char *const[]){NULL};
+    CHECK_CODE(CLK_ARGUMENT, "option 0 is NULL", clk_jvm_start(&config));
+    config.option_count = -1;
+    CHECK_CODE(CLK_ARGUMENT, "option_count is -1", clk_jvm_start(&config));
+}
+
+void options_refused_by_text(void) {
+    static const char *const refused[] = {
+        "-XX:+ExitOnOutOfMemoryError", "-XX:+CrashOnOutOfMemoryError", "-XX:OnOutOfMemoryError=ls", "-XX:OnError=gdb",
+        "-XX:+AllowUserSignalHandlers", "-XX:-UseSignalChaining", "-XX:-ReduceSignalUsage", "-XX:Flags=x", "-XX:VMOptionsFile=x",
+        "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
+        "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint"};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        CHECK_CODE(CLK_JVM_OPTIONS, refused[i], start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
+    }
+    check_start_still_works();
+}
+
+void options_refused_by_child(void) {
+    CHECK_CODE(CLK_JVM_OPTIONS, "NoSuchOption", start(OPTIONS("-XX:+NoSuchOption")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "heap size", start(OPTIONS("-Xms128m", "-Xmx64m")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "ollector", start(OPTIONS("-XX:+UseSerialGC", "-XX:+UseParallelGC")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "heap", start(OPTIONS("-Xms200000g", "-Xmx200000g")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "-Xmx64q", start(OPTIONS("-Xmx64q")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "no.such.module", start(OPTIONS("--add-modules=no.such.module")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "no_such_agent", start(OPTIONS("-agentlib:no_such_agent")));
+    check_start_still_works();
+}
+
+void option_that_ends_the_jvm(void) {
+    CHECK_CODE(CLK_JVM_OPTIONS, "refuses its options", start(OPTIONS("-Xlog:help")));
+    check_start_still_works();
+}
+
+void refused_start_may_be_repeated(void) {
+    for (int i = 0; i < 3; i++) CHECK_CODE(CLK_JVM_OPTIONS, NULL, start(OPTIONS("-Xmx64q")));
+    CHECK_OK(start(OPTIONS("-Xmx64m", "-XX:+UseSerialGC")));
+}
+
+static void check_unchecked(const char *const *options, const char *mention) {
+    CHECK_CODE(CLK_JVM_START, mention, start_at(java_home(), host_classes, options, false, 60000));
+    check_lost();
+}
+
+void options_unchecked_heap_order(void) { check_unchecked(OPTIONS("-Xms128m", "-Xmx64m"), "heap size"); }
+
+void options_unchecked_two_collectors(void) { check_unchecked(OPTIONS("-XX:+UseSerialGC", "-XX:+UseParallelGC"), "ollector"); }
+
+void options_unchecked_heap_too_large(void) { check_unchecked(OPTIONS("-Xms200000g", "-Xmx200000g"), "heap"); }
+
+void options_unchecked_unknown(void) { check_unchecked(OPTIONS("-XX:+NoSuchOption"), "NoSuchOption"); }
+
+static void on_fault(int signal, siginfo_t *info, void *context) {
+    (void)signal;
+    (void)info;
+    (void)context;
+}
+
+void failed_start_restores_signal_handlers(void) {
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+    struct sigaction mine = {.sa_sigaction = on_fault, .sa_flags = SA_SIGINFO | SA_ONSTACK};
+    for (int i = 0; i < 4; i++) CHECK(sigaction(faults[i], &mine, NULL) == 0);
+    check_unchecked(OPTIONS("--add-modules=no.such.module"), "no.such.module");
+    for (int i = 0; i < 4; i++) {
+        struct sigaction now;
+        CHECK(sigaction(faults[i], NULL, &now) == 0 && now.sa_sigaction == on_fault);
+    }
+}
+
+void environment_is_ignored(void) {
+    CHECK(setenv("JAVA_TOOL_OPTIONS", "-XX:+NoSuchOption", 1) == 0 && setenv("JDK_JAVA_OPTIONS", "-version", 1) == 0 &&
+          setenv("_JAVA_OPTIONS", "-XX:+NoSuchOption", 1) == 0);
+    CHECK_OK(start(NULL));
+    CHECK(log_mentions("JAVA_TOOL_OPTIONS is ignored") && log_mentions("_JAVA_OPTIONS is ignored"));
+    CHECK(strcmp(getenv("JAVA_TOOL_OPTIONS"), "-XX:+NoSuchOption") == 0 && strcmp(getenv("JDK_JAVA_OPTIONS"), "-version") == 0);
+}
+
+/* ---- Which start counts ---------------------------------------------------------------------------------------------- */
+
+void second_start(void) {
+    char text[4096];
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, NULL, clk_jvm_description(text, sizeof text));
+    CHECK_OK(start(OPTIONS("-Xmx64m", "-Xss2m")));
+    CHECK_OK(start(OPTIONS("-Xmx64m", "-Xss2m")));
+    CHECK_CODE(CLK_JVM_RUNNING, "restart the process", start(OPTIONS("-Xmx65m", "-Xss2m")));
+    CHECK_CODE(CLK_JVM_RUNNING, NULL, start(OPTIONS("-Xmx64m")));
+    CHECK_CODE(CLK_JVM_RUNNING, NULL, start_at(java_home(), misfit_classes, OPTIONS("-Xmx64m", "-Xss2m"), true, 60000));
+    CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
+
+    char expected[4096];
+    snprintf(expected, sizeof expected, "%s\ntest host on %s \xF0\x9F\x9A\x80\n-Xmx64m\n-Xss2m", java_home(), java_is_17() ? "17" : "25");
+    CHECK(clk_jvm_description(text, sizeof text) == (int32_t)strlen(expected));
+    if (java_is_17() || strstr(text, " 25 ") != NULL) CHECK(strcmp(text, expected) == 0);
+}
+
+static void *start_thread(void *result) {
+    *(int32_t *)result = start(NULL);
+    return NULL;
+}
+
+void start_from_two_threads(void) {
+    int32_t results[2] = {1, 1};
+    pthread_t threads[2];
+    for (int i = 0; i < 2; i++) CHECK(pthread_create(&threads[i], NULL, start_thread, &results[i]) == 0);
+    for (int i = 0; i < 2; i++) CHECK(pthread_join(threads[i], NULL) == 0 && results[i] == CLK_OK);
+}
+
+void start_limit(void) {
+    const char *home = make_home_with_lib();
+    make_folder(home, "bin");
+    write_file(home, "bin/java", "#!/bin/sh\necho still at it\nsleep 30\n", 0755);
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_TIMEOUT, "still at it", start_at(home, host_classes, NULL, true, 300));
+    CHECK(now_ns() - begin < 2000000000);
+    check_start_still_works();
+}
+
+void foreign_jvm(void) {
+    char path[4096];
+    JavaVM *vm;
+    void *env;
+    jint(JNICALL *create)(JavaVM **, void **, void *);
+    snprintf(path, sizeof path, "%s/lib/server/libjvm.so", java_home());
+    *(void **)&create = dlsym(dlopen(path, RTLD_NOW), "JNI_CreateJavaVM");
+    JavaVMInitArgs arguments = {.version = JNI_VERSION_10};
+    CHECK(create(&vm, &env, &arguments) == JNI_OK);
+    CHECK_CODE(CLK_JVM_START, "another library", start(NULL));
+    CHECK(clk_jvm_state() == CLK_STATE_NONE);
+}
+
+void nothing_runs_without_a_jvm(void) {
+    clk_session session;
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "clk_jvm_start", clk_session_open(1, 0, 8, 1000, &session, &answer));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "clk_jvm_start", clk_step(1, 1, 0, 8, 1000, &answer));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "clk_jvm_start", clk_session_close(1, 1000));
+    CHECK(clk_log_read(NULL, NULL, 0) == -1);
+}
