@@ -1,0 +1,47 @@
+package org.collektive.host
+
+import org.collektive.host.FrameVerifier.Companion.inline
+import org.collektive.host.FrameVerifier.Companion.opaque
+import org.collektive.host.FrameVerifier.Companion.string
+import org.collektive.host.FrameVerifier.Companion.strings
+import org.collektive.host.FrameVerifier.Companion.tables
+import org.collektive.host.FrameVerifier.Companion.vector
+import org.collektive.host.FrameVerifier.Shape
+
+/** The requests of `frame.fbs`, field by field. */
+internal object FrameShapes {
+    const val SENSORS = 8
+    const val GLOBALS = 9
+
+    private val typeFingerprint = Shape("types", string("name", isRequired = true), inline("hash", 8))
+
+    val openRequest = Shape(
+        "OpenRequest",
+        inline("protocol", 4),
+        inline("seed", 8),
+        inline("threads", 4),
+        inline("schedule", 1),
+        strings("jars"),
+        string("schema", isRequired = true),
+        tables("types", typeFingerprint, isRequired = true),
+        string("program"),
+    )
+
+    private val parameter = Shape("parameters", string("name", isRequired = true), string("value", isRequired = true))
+
+    private val nodeAdded = Shape("nodes_added", inline("id", 4), string("program"), tables("parameters", parameter))
+
+    val stepRequest = Shape(
+        "StepRequest",
+        inline("tick", 8),
+        inline("time", 8),
+        inline("delta_time", 8),
+        vector("nodes_removed", 4),
+        tables("nodes_added", nodeAdded),
+        vector("links_removed", 8),
+        vector("links", 16),
+        vector("due", 4),
+        opaque("sensors"),
+        opaque("globals"),
+    )
+}

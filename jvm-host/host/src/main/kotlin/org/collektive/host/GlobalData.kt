@@ -1,0 +1,42 @@
+package org.collektive.host
+
+import org.collektive.api.schema.DataSchema
+import org.collektive.api.schema.GlobalReader
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+
+/**
+ * Keeps the last `GlobalData` readable after its frame is gone.
+ *
+ * Two copies take turns, so that a frame refused later leaves the one in use alone.
+ */
+internal class GlobalData(private val schema: DataSchema) {
+    private val copies = Array(2) { Copy() }
+    private var inUse = 0
+
+    /** Checks and copies the `GlobalData` at [position] of [frame] and returns its view; in use after [accept]. */
+    fun read(frame: ByteBuffer, position: Int): Any = copies[1 - inUse].read(frame, position)
+
+    /** The tick with the data last read was accepted. */
+    fun accept() {
+        inUse = 1 - inUse
+    }
+
+    private inner class Copy {
+        private val reader: GlobalReader = schema.globalReader()
+            ?: throw HostException(HostError.FRAME, "the frame has global data, but schema ${schema.name} defines no GlobalData")
+        private var bytes = ByteBuffer.allocate(0)
+
+        fun read(frame: ByteBuffer, position: Int): Any {
+            reader.attach(frame, position)
+            reader.check()
+            val length = frame.remaining()
+            if (bytes.capacity() < length) bytes = ByteBuffer.allocate(2 * length).order(ByteOrder.LITTLE_ENDIAN)
+            bytes.clear()
+            for (index in 0 until length) bytes.put(index, frame.get(frame.position() + index))
+            bytes.limit(length)
+            reader.attach(bytes, position - frame.position())
+            return reader.data
+        }
+    }
+}

@@ -1,0 +1,108 @@
+package org.collektive.host
+
+import java.nio.ByteBuffer
+import java.util.concurrent.TimeUnit
+
+/**
+ * What the shim calls, always on its engine thread.
+ *
+ * [open] and [step] return `offset << 32 | length` of the answer in the slot, or a negative code of `CLK_ERRORS` after
+ * [Shim.error]. Times are milliseconds.
+ */
+public object Host {
+    /** Number of the contract in `schema/frame.fbs` and of these entries. */
+    internal const val PROTOCOL = 1
+
+    internal var shim: ShimCalls = NativeShim
+    private val sessions = HashMap<Long, Session>()
+
+    /** Takes over standard output and `java.util.logging`. Once; returns one line about this host and its JVM. */
+    @JvmStatic
+    public fun start(): String {
+        HostLog.install(shim)
+        return "Collektive host, protocol $PROTOCOL, Java ${Runtime.version()} (${System.getProperty("java.vm.name")}, " +
+            "${System.getProperty("java.vendor")})"
+    }
+
+    /** Opens the session of the `OpenRequest` in [request]. */
+    @JvmStatic
+    public fun open(
+        session: Long,
+        request: ByteBuffer,
+        offset: Int,
+        length: Int,
+        slot: Long,
+        answer: ByteBuffer,
+        limitMillis: Int,
+    ): Long = answering {
+        requireLimit(limitMillis)
+        if (session in sessions) throw HostException(HostError.ARGUMENT, "session $session is open already")
+        val frame = FrameVerifier.frame(request, offset, length)
+        val opened = Session.open(frame, shim)
+        sessions[session] = opened
+        opened.answerOpen(slot, answer)
+    }
+
+    /** Runs the tick of the `StepRequest` in [request]. */
+    @JvmStatic
+    public fun step(
+        session: Long,
+        request: ByteBuffer,
+        offset: Int,
+        length: Int,
+        slot: Long,
+        answer: ByteBuffer,
+        limitMillis: Int,
+    ): Long = answering {
+        val begin = System.nanoTime()
+        requireLimit(limitMillis)
+        val running = sessions[session] ?: throw HostException(HostError.HANDLE, "there is no session $session")
+        running.step(FrameVerifier.frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
+    }
+
+    /** Closes [session]; an unknown one is ignored. */
+    @JvmStatic
+    public fun close(session: Long) {
+        sessions.remove(session)?.close()
+    }
+
+    /** Closes all sessions and asks the programs' own threads to end, since the JVM waits for them. */
+    @JvmStatic
+    public fun stop(limitMillis: Int) {
+        sessions.values.forEach(Session::close)
+        sessions.clear()
+        val deadline = System.nanoTime() + millis(limitMillis)
+        val left = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
+        left.forEach(Thread::interrupt)
+        for (thread in left) {
+            val wait = TimeUnit.NANOSECONDS.toMillis(deadline - System.nanoTime())
+            if (wait > 0) thread.join(wait)
+            if (thread.isAlive) shim.log(LogLevel.WARNING, "thread \"${thread.name}\" of a program does not end; the JVM may wait for it")
+        }
+    }
+
+    private fun millis(limit: Int) = TimeUnit.MILLISECONDS.toNanos(limit.toLong())
+
+    private fun requireLimit(limitMillis: Int) {
+        if (limitMillis < 1) throw HostException(HostError.ARGUMENT, "the limit is $limitMillis ms; it must be 1 or greater")
+    }
+
+    private inline fun answering(work: () -> Long): Long {
+        val failure = try {
+            return work()
+        } catch (e: HostException) {
+            e
+        } catch (e: Throwable) {
+            // The last line of defence: whatever it is, the shim gets a code and a text.
+            HostException(HostError.JAVA, "unexpected: ${describeSafely(e)}", e)
+        }
+        shim.error(failure.message.orEmpty())
+        return failure.error.code.toLong()
+    }
+
+    private fun describeSafely(e: Throwable): String = try {
+        e.stackTraceToString()
+    } catch (_: Throwable) {
+        e.javaClass.name
+    }
+}

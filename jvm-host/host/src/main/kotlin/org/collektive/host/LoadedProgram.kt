@@ -1,0 +1,85 @@
+package org.collektive.host
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.api.Program
+import org.collektive.engine.NodeProgram
+import org.collektive.engine.UnusableAnswer
+
+/** A program of a user's jar, ready to be called. */
+internal class LoadedProgram(private val info: Program, private val body: ProgramBody) : NodeProgram {
+    override val name: String get() = info.name
+
+    /** Name, default and description of each parameter. */
+    val parameters get() = info.parameters.asList()
+
+    private val defaults = Parameters(parameters.associate { it.name to it.default })
+
+    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = body.run(aggregate, sensors, device)
+
+    override fun describe(failure: Throwable): String = RoundFailure.describe(failure)
+
+    /** The parameters of a node that sets [values]. */
+    fun parameters(node: Int, values: Map<String, String>): Parameters {
+        if (values.isEmpty()) return defaults
+        val all = LinkedHashMap<String, String>()
+        for (parameter in parameters) all[parameter.name] = parameter.default
+        for ((name, value) in values) {
+            if (name !in all) {
+                throw HostException(
+                    HostError.PROGRAM,
+                    "node $node sets the parameter '$name', which program '${this.name}' does not declare; it declares ${all.keys}",
+                )
+            }
+            all[name] = value
+        }
+        return Parameters(all)
+    }
+}
+
+/** The function of a program, with the type of its data erased. */
+public fun interface ProgramBody {
+    /** Runs one round. */
+    public fun run(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any?
+}
+
+/** [ProgramBody] of a function that takes no `Device`. */
+public fun interface PlainProgramBody {
+    /** Runs one round. */
+    public fun run(aggregate: Aggregate<Int>, sensors: Any?): Any?
+}
+
+/** Why a round failed, for its author: one line, then the stack in the user's code. */
+internal object RoundFailure {
+    private const val MAX_MESSAGE = 2000
+    private const val MAX_FRAMES = 20
+
+    fun describe(failure: Throwable): String = buildString {
+        append(line(failure))
+        frames(failure)
+        var cause = failure.cause
+        var depth = 0
+        while (cause != null && depth++ < MAX_CAUSES) {
+            append("\ncaused by ").append(line(cause))
+            frames(cause)
+            cause = cause.cause
+        }
+    }
+
+    private fun line(failure: Throwable): String {
+        val text = if (failure is UnusableAnswer) failure.message.orEmpty() else failure.toString()
+        return text.take(MAX_MESSAGE).replace('\n', ' ').replace('\r', ' ')
+    }
+
+    private fun StringBuilder.frames(failure: Throwable) {
+        val own = failure.stackTrace.filter { it.classLoaderName == ProgramLoader.NAME }
+        for (frame in own.take(MAX_FRAMES)) {
+            append("\n    at ").append(frame.className).append('.').append(frame.methodName)
+            append('(').append(frame.fileName).append(':').append(frame.lineNumber).append(')')
+        }
+        if (own.size > MAX_FRAMES) append("\n    ... ").append(own.size - MAX_FRAMES).append(" more")
+    }
+
+    private const val MAX_CAUSES = 4
+}

@@ -1,0 +1,35 @@
+package org.collektive.host
+
+import org.collektive.api.schema.DataSchema
+import java.util.ServiceConfigurationError
+import java.util.ServiceLoader
+
+/** Finds the generated code of the schema that the other side was generated from. */
+internal object SchemaFinder {
+    /** The schema [name] of [loader], whose types are those of [types]. */
+    fun find(name: String, types: Map<String, Long>, loader: ClassLoader, jars: List<ProgramJar>): DataSchema {
+        val all = try {
+            ServiceLoader.load(DataSchema::class.java, loader).toList()
+        } catch (e: ServiceConfigurationError) {
+            throw HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
+        }
+        val schema = all.find { it.name == name } ?: throw HostException(
+            HostError.SCHEMA,
+            "there is no schema $name in ${paths(jars)}, only ${all.map(DataSchema::name)}; $ADVICE",
+        )
+        for (type in (types.keys + schema.types.keys).sorted()) {
+            if (types[type] == schema.types[type]) continue
+            val how = when (type) {
+                !in types -> "C# does not know it"
+                !in schema.types -> "the programs' jar does not know it"
+                else -> "its fields differ"
+            }
+            throw HostException(HostError.SCHEMA, "type $type of schema $name is not the same on both sides ($how); $ADVICE")
+        }
+        return schema
+    }
+
+    private fun paths(jars: List<ProgramJar>) = jars.joinToString { it.path }
+
+    private const val ADVICE = "run ./collektive generate on the schema, then build the programs and the C# code again"
+}

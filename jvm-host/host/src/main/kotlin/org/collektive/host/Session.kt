@@ -1,0 +1,234 @@
+package org.collektive.host
+
+import org.collektive.api.schema.DataSchema
+import org.collektive.api.schema.MalformedDataException
+import org.collektive.engine.Engine
+import org.collektive.engine.EngineSettings
+import org.collektive.engine.RoundData
+import org.collektive.engine.RoundDigest
+import org.collektive.engine.RoundsNotFinished
+import org.collektive.engine.Schedule
+import org.collektive.engine.TickRefused
+import org.collektive.engine.TickResult
+import org.collektive.frame.OpenRequest
+import org.collektive.frame.OpenResponse
+import org.collektive.frame.ParameterInfo
+import org.collektive.frame.ProgramInfo
+import org.collektive.frame.RoundError
+import org.collektive.frame.StepResponse
+import org.collektive.runtime.AggregateRuntimes
+import java.nio.ByteBuffer
+
+/** One simulation: its programs, its engine, and the way from its frames to its answers. */
+internal class Session private constructor(
+    private val schema: DataSchema,
+    private val programs: Map<String, LoadedProgram>,
+    defaultProgram: LoadedProgram?,
+    settings: EngineSettings,
+    private val shim: ShimCalls,
+) : AutoCloseable {
+    private val frame = StepFrame(programs, defaultProgram)
+    private val data = UserData(schema, settings.threads)
+    private val globals = if (schema.globalReader() == null) null else GlobalData(schema)
+    private val writer = schema.actuatorWriter()
+    private val digest = RoundDigest()
+    private val buffer = AnswerBuffer(shim)
+    private val engine = Engine(settings, AggregateRuntimes(ViewRule))
+    private var failure: String? = null
+
+    // What the writer takes: the answers without gaps, and where their bytes went.
+    private var answers = arrayOfNulls<Any?>(0)
+    private var ranges = IntArray(0)
+
+    /** Writes the `OpenResponse`. */
+    fun answerOpen(slot: Long, answer: ByteBuffer): Long {
+        buffer.begin(slot, answer)
+        val builder = buffer.builder
+        val infos = programs.values.map { program ->
+            val parameters = program.parameters.map {
+                ParameterInfo.createParameterInfo(
+                    builder,
+                    builder.createString(it.name),
+                    builder.createString(it.default),
+                    builder.createString(it.description),
+                )
+            }
+            val name = builder.createString(program.name)
+            ProgramInfo.createProgramInfo(builder, name, ProgramInfo.createParametersVector(builder, parameters.toIntArray()))
+        }
+        val vector = OpenResponse.createProgramsVector(builder, infos.toIntArray())
+        return buffer.finish(OpenResponse.createOpenResponse(builder, vector))
+    }
+
+    /**
+     * Runs the tick of [request] and writes the `StepResponse`.
+     *
+     * @param begin when the call came, [deadline] when its limit passes, both in terms of `System.nanoTime()`.
+     */
+    fun step(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
+        failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
+        frame.read(request)
+        readUserData(request)
+        val result = try {
+            engine.step(frame.tick, data, deadline)
+        } catch (e: TickRefused) {
+            throw HostException(HostError.FRAME, e.message.orEmpty(), e)
+        } catch (e: RoundsNotFinished) {
+            HostLog.lines(shim, LogLevel.ERROR, "${e.message}; the threads:\n${e.threads}")
+            throw fail("${e.message}; the log shows what each thread was doing. Mend the program, then open a new session", e)
+        } catch (e: Throwable) {
+            throw fail("tick ${frame.tick.number} failed inside the engine: $e", e)
+        }
+        if (frame.globals != 0) globals?.accept()
+        return try {
+            write(result, slot, answer, begin)
+        } catch (e: Throwable) {
+            throw fail("the answer of tick ${frame.tick.number} could not be written: $e", e)
+        }
+    }
+
+    override fun close() {
+        engine.close()
+    }
+
+    private fun fail(why: String, cause: Throwable): HostException {
+        failure = why
+        engine.close()
+        return HostException(HostError.SESSION_FAILED, why, cause)
+    }
+
+    private fun readUserData(request: ByteBuffer) {
+        val tick = frame.tick
+        try {
+            data.attach(request, frame.sensors, tick.due.size)
+            if (frame.globals != 0) {
+                val holder = globals
+                    ?: throw HostException(HostError.FRAME, "the frame has global data, but schema ${schema.name} defines none")
+                tick.globals = holder.read(request, frame.globals)
+            }
+        } catch (e: MalformedDataException) {
+            throw HostException(HostError.FRAME, "the frame of tick ${tick.number} is damaged: ${e.message}", e)
+        }
+    }
+
+    private fun write(result: TickResult, slot: Long, answer: ByteBuffer, begin: Long): Long {
+        buffer.begin(slot, answer)
+        val builder = buffer.builder
+        val count = gather(result)
+        val actuators = writer.write(builder, answers, count, ranges)
+        chain(result)
+        val errors = if (result.failureCount == 0) 0 else writeErrors(result)
+        StepResponse.startNodesVector(builder, count)
+        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.addInt(result.id(index))
+        val nodes = builder.endVector()
+        StepResponse.startStepResponse(builder)
+        StepResponse.addTick(builder, frame.tick.number)
+        StepResponse.addDigest(builder, digest.value)
+        StepResponse.addNodes(builder, nodes)
+        StepResponse.addActuators(builder, actuators)
+        if (errors != 0) StepResponse.addErrors(builder, errors)
+        StepResponse.addNodeCount(builder, engine.nodeCount)
+        StepResponse.addLinkCount(builder, engine.linkCount)
+        StepResponse.addRoundMicros(builder, micros(result.roundNanos))
+        StepResponse.addHostMicros(builder, micros(System.nanoTime() - begin))
+        return buffer.finish(StepResponse.endStepResponse(builder))
+    }
+
+    /** Puts the answers side by side and returns how many there are. */
+    private fun gather(result: TickResult): Int {
+        if (answers.size < result.size) {
+            answers = arrayOfNulls(maxOf(result.size, answers.size + (answers.size shr 1)))
+            ranges = IntArray(2 * answers.size)
+        }
+        var count = 0
+        for (index in 0 until result.size) {
+            if (result.failure(index) == null) answers[count++] = result.answer(index)
+        }
+        answers.fill(null, count)
+        return count
+    }
+
+    private fun chain(result: TickResult) {
+        digest.begin(frame.tick.number)
+        var answered = 0
+        for (index in 0 until result.size) {
+            val id = result.id(index)
+            if (result.failure(index) != null) {
+                digest.failure(id)
+            } else {
+                digest.answer(id, buffer.memory, buffer.position(ranges[2 * answered]), ranges[2 * answered + 1])
+                answered++
+            }
+        }
+        digest.end()
+    }
+
+    private fun writeErrors(result: TickResult): Int {
+        val builder = buffer.builder
+        val errors = (0 until result.size).mapNotNull { index ->
+            result.failure(index)?.let { message ->
+                val text = builder.createString(message)
+                RoundError.createRoundError(builder, result.id(index), builder.createString(result.program(index).name), text)
+            }
+        }
+        return StepResponse.createErrorsVector(builder, errors.toIntArray())
+    }
+
+    private fun micros(nanos: Long) = (nanos / 1000).coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
+
+    /** The tick's sensors, each thread with readers and writers of its own. */
+    private class UserData(schema: DataSchema, threads: Int) : RoundData {
+        private val readers = Array(threads) { schema.sensorReader() }
+        private val checkers = Array(threads) { schema.actuatorWriter() }
+
+        fun attach(request: ByteBuffer, position: Int, due: Int) {
+            if (position == 0) {
+                if (due == 0) return
+                throw HostException(HostError.FRAME, "the frame has no sensor data, but $due nodes are due")
+            }
+            for (reader in readers) reader.attach(request, position)
+            val first = readers[0]
+            first.check()
+            if (first.size != due) {
+                throw HostException(HostError.FRAME, "the frame has sensor data of ${first.size} nodes, but $due are due")
+            }
+        }
+
+        override fun sensors(worker: Int, index: Int): Any = readers[worker][index]
+
+        override fun fault(worker: Int, answer: Any): String? = checkers[worker].findFault(answer)
+    }
+
+    companion object {
+        /** Loads what the `OpenRequest` in [frame] asks for. */
+        fun open(frame: ByteBuffer, shim: ShimCalls): Session {
+            val root = FrameVerifier().verify(frame, FrameShapes.openRequest)
+            val request = OpenRequest().__assign(root, frame)
+            if (request.protocol() != Host.PROTOCOL.toLong()) {
+                throw HostException(
+                    HostError.HOST,
+                    "C# speaks protocol ${request.protocol()}, this host ${Host.PROTOCOL}; use the host jar that came with the package",
+                )
+            }
+            val settings = settings(request)
+            val jars = (0 until request.jarsLength()).map { ProgramJar.read(request.jars(it)) }
+            val loader = ProgramLoader(jars)
+            val types = (0 until request.typesLength()).associate { request.types(it).let { type -> type.name() to type.hash() } }
+            val schema = SchemaFinder.find(request.schema(), types, loader, jars)
+            val programs = ProgramFinder(jars, loader, schema).find()
+            val name = request.program().orEmpty()
+            val program = if (name.isEmpty()) null else programs[name] ?: throw StepFrame.noSuchProgram("the session", name, programs.keys)
+            return Session(schema, programs, program, settings, shim)
+        }
+
+        private fun settings(request: OpenRequest): EngineSettings {
+            val schedule = Schedule.entries.getOrNull(request.schedule())
+                ?: throw HostException(HostError.FRAME, "there is no schedule ${request.schedule()}")
+            return try {
+                EngineSettings(request.seed(), request.threads(), schedule)
+            } catch (e: IllegalArgumentException) {
+                throw HostException(HostError.FRAME, e.message.orEmpty(), e)
+            }
+        }
+    }
+}
