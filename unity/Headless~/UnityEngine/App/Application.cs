@@ -1,0 +1,71 @@
+using System;
+using System.IO;
+
+namespace UnityEngine
+{
+    public class Application
+    {
+        public delegate void LogCallback(string condition, string stackTrace, LogType type);
+
+        public static event LogCallback logMessageReceived;
+        public static event LogCallback logMessageReceivedThreaded;
+        public static event Func<bool> wantsToQuit;
+        public static event Action quitting;
+
+        public static bool isPlaying => true;
+        public static bool isEditor => false;
+        public static bool isBatchMode => true;
+        public static bool runInBackground { get; set; } = true;
+        public static int targetFrameRate { get; set; } = -1;
+        public static string dataPath => AppDomain.CurrentDomain.BaseDirectory;
+        public static string streamingAssetsPath => Path.Combine(dataPath, "StreamingAssets");
+        public static string persistentDataPath => Path.Combine(Environment.GetFolderPath(Environment.SpecialFolder.LocalApplicationData), productName);
+        public static string temporaryCachePath => Path.GetTempPath();
+        public static string unityVersion => "6000.0.0f1";
+        public static string version => "1.0";
+        public static string productName => "collektive-headless";
+        public static RuntimePlatform platform => RuntimePlatform.LinuxPlayer;
+
+        public static void Quit() => Quit(0);
+
+        /// Ends the player after the current frame, unless a `wantsToQuit` handler refuses.
+        public static void Quit(int exitCode)
+        {
+            if (wantsToQuit != null)
+                foreach (Func<bool> allows in wantsToQuit.GetInvocationList())
+                    if (!allows()) return;
+            Headless.Loop.RequestQuit(exitCode);
+        }
+
+        internal static void RaiseLog(string message, string stackTrace, LogType type)
+        {
+            logMessageReceived?.Invoke(message, stackTrace, type);
+            logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
+        }
+
+        internal static void RaiseQuitting() => quitting?.Invoke();
+
+        internal static void ResetState()
+        {
+            logMessageReceived = logMessageReceivedThreaded = null;
+            wantsToQuit = null;
+            quitting = null;
+        }
+    }
+
+    public enum RuntimePlatform
+    {
+        OSXEditor = 0,
+        OSXPlayer = 1,
+        WindowsPlayer = 2,
+        WindowsEditor = 7,
+        LinuxPlayer = 13,
+        LinuxEditor = 16,
+        LinuxHeadlessSimulation = 35,
+        EmbeddedLinuxArm64 = 39,
+        EmbeddedLinuxX64 = 41,
+        LinuxServer = 43,
+        WindowsServer = 44,
+        OSXServer = 45,
+    }
+}

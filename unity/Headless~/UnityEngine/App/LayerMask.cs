@@ -1,0 +1,29 @@
+using System;
+
+namespace UnityEngine
+{
+    public struct LayerMask
+    {
+        // Unity's built-in layers; others have no name in the headless player.
+        static readonly string[] Names = { "Default", "TransparentFX", "Ignore Raycast", "", "Water", "UI" };
+
+        public int value { get; set; }
+
+        public static implicit operator int(LayerMask mask) => mask.value;
+        public static implicit operator LayerMask(int intVal) => new LayerMask { value = intVal };
+
+        public static string LayerToName(int layer) => layer >= 0 && layer < Names.Length ? Names[layer] : "";
+        public static int NameToLayer(string layerName) => string.IsNullOrEmpty(layerName) ? -1 : Array.IndexOf(Names, layerName);
+
+        public static int GetMask(params string[] layerNames)
+        {
+            var mask = 0;
+            foreach (var name in layerNames)
+            {
+                var layer = NameToLayer(name);
+                if (layer >= 0) mask |= 1 << layer;
+            }
+            return mask;
+        }
+    }
+}

@@ -1,0 +1,65 @@
+using System.Diagnostics;
+
+namespace UnityEngine
+{
+    /// Seconds. Inside a fixed step `time` and `deltaTime` are those of the fixed clock, as in Unity.
+    public class Time
+    {
+        static readonly Stopwatch Clock = Stopwatch.StartNew();
+        static double frameTime, fixedClock, unscaledClock, startOffset;
+        static float frameDelta;
+
+        static Time() => ResetState();
+
+        public static float time => (float)timeAsDouble;
+        public static double timeAsDouble => inFixedTimeStep ? fixedClock : frameTime;
+        public static float timeSinceLevelLoad => time;
+        public static double timeSinceLevelLoadAsDouble => timeAsDouble;
+        public static float deltaTime => inFixedTimeStep ? fixedDeltaTime : frameDelta;
+        public static float fixedTime => (float)fixedClock;
+        public static double fixedTimeAsDouble => fixedClock;
+        public static float unscaledTime => (float)unscaledClock;
+        public static double unscaledTimeAsDouble => unscaledClock;
+        public static float unscaledDeltaTime { get; private set; }
+        public static float fixedDeltaTime { get; set; }
+        public static float maximumDeltaTime { get; set; }
+        public static float timeScale { get; set; }
+        public static int frameCount { get; private set; }
+        public static int renderedFrameCount => frameCount;
+        public static float realtimeSinceStartup => (float)realtimeSinceStartupAsDouble;
+        public static double realtimeSinceStartupAsDouble => Clock.Elapsed.TotalSeconds - startOffset;
+        public static bool inFixedTimeStep { get; private set; }
+
+        internal static void ResetState()
+        {
+            frameTime = fixedClock = unscaledClock = 0;
+            frameDelta = unscaledDeltaTime = 0f;
+            frameCount = 0;
+            fixedDeltaTime = 0.02f;
+            maximumDeltaTime = 1f / 3f;
+            timeScale = 1f;
+            inFixedTimeStep = false;
+            startOffset = Clock.Elapsed.TotalSeconds;
+        }
+
+        internal static void BeginFrame(float seconds)
+        {
+            frameCount++;
+            unscaledDeltaTime = seconds;
+            unscaledClock += seconds;
+            frameDelta = Mathf.Min(seconds, maximumDeltaTime) * timeScale;
+            frameTime += frameDelta;
+        }
+
+        /// True, with the fixed clock advanced, while it is a whole step behind the frame's time.
+        internal static bool BeginFixedStep()
+        {
+            const double rounding = 1e-6;
+            if (fixedClock + fixedDeltaTime > frameTime + rounding) return false;
+            fixedClock += fixedDeltaTime;
+            return inFixedTimeStep = true;
+        }
+
+        internal static void EndFixedStep() => inFixedTimeStep = false;
+    }
+}

@@ -1,0 +1,79 @@
+using System;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    /// Scripts in the order (execution order, enabling). What is enabled during a pass joins the next one; what is disabled drops out at once.
+    sealed class BehaviourList
+    {
+        readonly struct Entry
+        {
+            public readonly MonoBehaviour Script;
+            readonly int enabling;
+
+            public Entry(MonoBehaviour script)
+            {
+                Script = script;
+                enabling = script.enabling;
+            }
+
+            public bool IsCurrent => Script.enabling == enabling;
+
+            public static int Compare(Entry a, Entry b)
+            {
+                var byOrder = a.Script.messages.Order.CompareTo(b.Script.messages.Order);
+                return byOrder != 0 ? byOrder : a.enabling.CompareTo(b.enabling);
+            }
+        }
+
+        static readonly Comparison<Entry> InOrder = Entry.Compare;
+        static readonly Predicate<Entry> Stale = entry => !entry.IsCurrent;
+
+        readonly List<Entry> entries = new List<Entry>();
+        readonly List<Entry> added = new List<Entry>();
+        bool sawStale;
+
+        public bool HasNew => added.Count > 0;
+
+        public void Add(MonoBehaviour script) => added.Add(new Entry(script));
+
+        /// Starts a pass; passes of one list do not nest.
+        public int Begin()
+        {
+            if (sawStale) entries.RemoveAll(Stale);
+            sawStale = false;
+            if (added.Count > 0)
+            {
+                added.RemoveAll(Stale);
+                entries.AddRange(added);
+                added.Clear();
+                entries.Sort(InOrder);
+            }
+            return 0;
+        }
+
+        public bool Next(ref int cursor, out MonoBehaviour script)
+        {
+            while (cursor < entries.Count)
+            {
+                var entry = entries[cursor++];
+                if (entry.IsCurrent)
+                {
+                    script = entry.Script;
+                    return true;
+                }
+                sawStale = true;
+            }
+            script = null;
+            return false;
+        }
+
+        public void ClearOld() => entries.Clear();
+
+        public void Clear()
+        {
+            entries.Clear();
+            added.Clear();
+        }
+    }
+}

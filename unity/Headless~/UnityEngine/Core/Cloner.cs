@@ -1,0 +1,111 @@
+using System;
+using System.Collections;
+using System.Collections.Generic;
+using System.Reflection;
+
+namespace UnityEngine
+{
+    /// `Instantiate`: a copy of what Unity would serialise. References into the copied hierarchy point into the copy, all others stay.
+    sealed class Cloner
+    {
+        readonly Dictionary<Object, Object> copies = new Dictionary<Object, Object>();
+
+        public static Object Clone(Object original, Transform parent, (Vector3 position, Quaternion rotation)? pose, bool worldPositionStays = false)
+        {
+            if (!original) throw new ArgumentException("The Object you want to instantiate is null.");
+            var cloner = new Cloner();
+            switch (original)
+            {
+                case GameObject gameObject:
+                    return cloner.CloneHierarchy(gameObject, parent, pose, worldPositionStays);
+                case Component component:
+                    cloner.CloneHierarchy(component.gameObject, parent, pose, worldPositionStays);
+                    return cloner.copies[component];
+                case ScriptableObject script:
+                    var copy = (ScriptableObject)Activator.CreateInstance(script.GetType(), true);
+                    copy.name = script.name + "(Clone)";
+                    cloner.CopyFields(script, copy, typeof(ScriptableObject));
+                    return copy;
+                case Material material:
+                    return new Material(material) { name = material.name + "(Clone)" };
+                default:
+                    throw new NotSupportedException($"The headless player cannot instantiate a {original.GetType().Name}.");
+            }
+        }
+
+        GameObject CloneHierarchy(GameObject original, Transform parent, (Vector3 position, Quaternion rotation)? pose, bool worldPositionStays)
+        {
+            var copy = CopyObjects(original);
+            var transform = copy.transform;
+            copy.name = original.name + "(Clone)";
+            if (pose.HasValue) transform.Place(pose.Value.position, pose.Value.rotation);
+            transform.SetParent(parent, worldPositionStays || pose.HasValue);
+            foreach (var pair in copies)
+                if (pair.Key is MonoBehaviour script) CopyFields(script, pair.Value, typeof(MonoBehaviour));
+            copy.SetActive(original.activeSelf);
+            return copy;
+        }
+
+        /// Objects and components, all still inactive, so that no message comes before the fields are there.
+        GameObject CopyObjects(GameObject original)
+        {
+            var copy = new GameObject(original.name, false) { layer = original.layer, tag = original.tag, isStatic = original.isStatic };
+            copies.Add(original, copy);
+            foreach (var component in original.components)
+            {
+                Component added;
+                if (component is Transform) added = copy.transform;
+                else copy.Own(added = (Component)Activator.CreateInstance(component.GetType(), true));
+                added.hideFlags = component.hideFlags;
+                if (component is Behaviour behaviour) ((Behaviour)added).ownEnabled = behaviour.ownEnabled;
+                added.CopyFrom(component);
+                copies.Add(component, added);
+            }
+            foreach (var child in original.transform.children)
+            {
+                var copiedChild = CopyObjects(child.owner);
+                copiedChild.transform.SetParent(copy.transform, false);
+                copiedChild.SetActive(child.owner.activeSelf);
+            }
+            return copy;
+        }
+
+        void CopyFields(object original, object copy, Type stopAt)
+        {
+            for (var level = original.GetType(); level != stopAt && level != typeof(object); level = level.BaseType)
+                foreach (var field in level.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
+                    if (IsSerialized(field)) field.SetValue(copy, CopyValue(field.GetValue(original), field.IsDefined(typeof(SerializeReference))));
+        }
+
+        static bool IsSerialized(FieldInfo field) =>
+            !field.IsInitOnly && !field.IsNotSerialized
+            && (field.IsPublic || field.IsDefined(typeof(SerializeField)) || field.IsDefined(typeof(SerializeReference)))
+            && !typeof(Delegate).IsAssignableFrom(field.FieldType) && !typeof(IDictionary).IsAssignableFrom(field.FieldType);
+
+        object CopyValue(object value, bool byReference)
+        {
+            switch (value)
+            {
+                case null:
+                case string _:
+                    return value;
+                case Object reference:
+                    return copies.TryGetValue(reference, out var copied) ? copied : reference;
+                case Array array:
+                    var elements = Array.CreateInstance(array.GetType().GetElementType(), array.Length);
+                    for (var index = 0; index < array.Length; index++) elements.SetValue(CopyValue(array.GetValue(index), byReference), index);
+                    return elements;
+                case IList list when value.GetType().IsGenericType:
+                    var items = (IList)Activator.CreateInstance(value.GetType());
+                    foreach (var item in list) items.Add(CopyValue(item, byReference));
+                    return items;
+            }
+            var type = value.GetType();
+            if (type.IsPrimitive || type.IsEnum) return value;
+            if (!type.IsSerializable && !byReference) return value;
+            var copy = type.IsValueType ? value : Activator.CreateInstance(type, true);
+            CopyFields(value, copy, typeof(object));
+            return copy;
+        }
+    }
+}

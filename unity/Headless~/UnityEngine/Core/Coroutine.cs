@@ -1,0 +1,140 @@
+using System;
+using System.Collections;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    public sealed class Coroutine : YieldInstruction
+    {
+        internal readonly MonoBehaviour Owner;
+        internal readonly IEnumerator Routine;
+        readonly Stack<IEnumerator> nested = new Stack<IEnumerator>();
+        CoroutinePhase phase;
+        int yieldedAtFrame;
+        double due;
+        Coroutine awaited;
+
+        internal Coroutine(MonoBehaviour owner, IEnumerator routine)
+        {
+            Owner = owner;
+            Routine = routine;
+            nested.Push(routine);
+        }
+
+        internal bool IsDone { get; private set; }
+
+        internal void Stop() => IsDone = true;
+
+        internal void ResumeIfDue(CoroutinePhase now)
+        {
+            if (IsDone || now != phase) return;
+            if (now == CoroutinePhase.Update && (Time.frameCount == yieldedAtFrame || Time.timeAsDouble < due)) return;
+            if (awaited != null && !awaited.IsDone) return;
+            Advance();
+        }
+
+        /// Runs to the next yield. A nested routine begins at once and its end goes straight on in the outer one.
+        internal void Advance()
+        {
+            awaited = null;
+            due = 0;
+            phase = CoroutinePhase.Update;
+            while (!IsDone)
+            {
+                var current = nested.Peek();
+                bool more;
+                try
+                {
+                    more = current.MoveNext();
+                }
+                catch (Exception exception)
+                {
+                    Debug.LogException(exception, Owner);
+                    IsDone = true;
+                    return;
+                }
+                if (!more)
+                {
+                    nested.Pop();
+                    if (nested.Count == 0) IsDone = true;
+                    continue;
+                }
+                if (!(current is CustomYieldInstruction) && current.Current is IEnumerator inner)
+                {
+                    nested.Push(inner);
+                    continue;
+                }
+                Wait(current.Current);
+                return;
+            }
+        }
+
+        void Wait(object instruction)
+        {
+            yieldedAtFrame = Time.frameCount;
+            switch (instruction)
+            {
+                case WaitForSeconds wait: due = Time.timeAsDouble + wait.seconds; break;
+                case WaitForFixedUpdate _: phase = CoroutinePhase.FixedUpdate; break;
+                case WaitForEndOfFrame _: phase = CoroutinePhase.EndOfFrame; break;
+                case Coroutine other: awaited = other; break;
+            }
+        }
+    }
+
+    enum CoroutinePhase
+    {
+        FixedUpdate,
+        Update,
+        EndOfFrame,
+    }
+
+    /// All running coroutines, in the order in which they were started.
+    static class CoroutineScheduler
+    {
+        static readonly List<Coroutine> Running = new List<Coroutine>();
+        static readonly Predicate<Coroutine> Done = coroutine => coroutine.IsDone;
+
+        public static Coroutine Start(MonoBehaviour owner, IEnumerator routine)
+        {
+            if (routine == null) throw new NullReferenceException("routine is null");
+            if (!owner || !owner.owner.activeInHierarchy)
+            {
+                Debug.LogError($"Coroutine could not be started because the game object '{owner.NameImpl}' is inactive.", owner);
+                return null;
+            }
+            var coroutine = new Coroutine(owner, routine);
+            coroutine.Advance();
+            if (!coroutine.IsDone) Running.Add(coroutine);
+            return coroutine;
+        }
+
+        public static void Stop(MonoBehaviour owner, IEnumerator routine)
+        {
+            foreach (var coroutine in Running)
+                if (ReferenceEquals(coroutine.Owner, owner) && coroutine.Routine == routine) coroutine.Stop();
+        }
+
+        public static void Stop(MonoBehaviour owner, Coroutine routine)
+        {
+            if (routine == null) throw new NullReferenceException("routine is null");
+            routine.Stop();
+        }
+
+        public static void StopAll(MonoBehaviour owner)
+        {
+            foreach (var coroutine in Running)
+                if (ReferenceEquals(coroutine.Owner, owner)) coroutine.Stop();
+        }
+
+        public static void Run(CoroutinePhase phase)
+        {
+            if (Running.Count == 0) return;
+            var count = Running.Count;
+            for (var index = 0; index < count; index++) Running[index].ResumeIfDue(phase);
+            Running.RemoveAll(Done);
+        }
+
+        public static void ResetState() => Running.Clear();
+    }
+}

@@ -1,0 +1,106 @@
+using System.Collections.Generic;
+using UnityEngine.SceneManagement;
+
+namespace UnityEngine
+{
+    /// What `Destroy` asked for, done at the end of the frame in which it is due.
+    static class Destruction
+    {
+        readonly struct Request
+        {
+            public readonly Object Target;
+            public readonly double Due;
+
+            public Request(Object target, double due)
+            {
+                Target = target;
+                Due = due;
+            }
+        }
+
+        static readonly List<Request> Requests = new List<Request>();
+
+        public static void Schedule(Object target, float delay) => Requests.Add(new Request(target, Time.timeAsDouble + delay));
+
+        /// Also what the messages of this very pass ask for.
+        public static void RunDue()
+        {
+            if (Requests.Count == 0) return;
+            var kept = 0;
+            for (var index = 0; index < Requests.Count; index++)
+            {
+                var request = Requests[index];
+                if (request.Target.destroyed) continue;
+                if (request.Due <= Time.timeAsDouble) Destroy(request.Target);
+                else Requests[kept++] = request;
+            }
+            Requests.RemoveRange(kept, Requests.Count - kept);
+        }
+
+        public static void Destroy(Object target)
+        {
+            switch (target)
+            {
+                case Transform _:
+                    Debug.LogError("A Transform cannot be destroyed; destroy its GameObject.", target);
+                    break;
+                case GameObject gameObject:
+                    Destroy(gameObject);
+                    break;
+                case Component component:
+                    Destroy(component);
+                    break;
+                case ScriptableObject script:
+                    var messages = Messages.Of(script.GetType());
+                    Messages.Send(messages.OnDisable, script);
+                    Messages.Send(messages.OnDestroy, script);
+                    script.destroyed = true;
+                    break;
+                default:
+                    target.destroyed = true;
+                    break;
+            }
+        }
+
+        static void Destroy(Component component)
+        {
+            if (component.owner.activeInHierarchy) component.Deactivate();
+            SendOnDestroy(component);
+            component.owner.components.Remove(component);
+            component.destroyed = true;
+        }
+
+        static void Destroy(GameObject gameObject)
+        {
+            gameObject.SetActive(false); // OnDisable of all, before any OnDestroy
+            var condemned = new List<GameObject>();
+            Collect(gameObject, condemned);
+            foreach (var one in condemned)
+                for (var index = 0; index < one.components.Count; index++) SendOnDestroy(one.components[index]);
+            gameObject.TransformUnchecked.Detach();
+            foreach (var one in condemned)
+            {
+                foreach (var component in one.components) component.destroyed = true;
+                one.destroyed = true;
+            }
+        }
+
+        static void SendOnDestroy(Component component)
+        {
+            if (component is MonoBehaviour script && script.didAwake && !script.destroyed) Messages.Send(script.messages.OnDestroy, script);
+        }
+
+        static void Collect(GameObject gameObject, List<GameObject> into)
+        {
+            into.Add(gameObject);
+            foreach (var child in gameObject.TransformUnchecked.children) Collect(child.owner, into);
+        }
+
+        /// All objects of the scene, in the order of their roots.
+        public static void DestroyScene()
+        {
+            while (Scene.Roots.Count > 0) Destroy(Scene.Roots[0]);
+            Requests.Clear();
+        }
+    }
+}

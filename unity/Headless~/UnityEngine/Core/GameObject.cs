@@ -1,0 +1,350 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine.SceneManagement;
+
+namespace UnityEngine
+{
+    public sealed class GameObject : Object
+    {
+        internal readonly List<Component> components = new List<Component>();
+        /// The active body, first, and colliders; null until there was one.
+        internal List<Component> physicsParts;
+        /// Some script here has ever answered to such messages.
+        internal bool hearsTriggers, hearsCollisions;
+
+        readonly Transform ownTransform;
+        int ownLayer;
+
+        public GameObject() : this("New Game Object") { }
+
+        public GameObject(string name) : this(name, true) { }
+
+        public GameObject(string name, params Type[] components) : this(name, true)
+        {
+            foreach (var type in components) AddComponent(type);
+        }
+
+        internal GameObject(string name, bool active)
+        {
+            NameImpl = name;
+            tag = "Untagged";
+            activeSelf = activeInHierarchy = active;
+            ownTransform = new Transform();
+            Own(ownTransform);
+            Scene.Roots.Add(this);
+        }
+
+        public GameObject gameObject => this;
+        public Scene scene => Scene.Active;
+        public string tag { get; set; }
+        public bool CompareTag(string tag) => this.tag == tag;
+        public bool isStatic { get; set; }
+        public bool activeSelf { get; private set; }
+        public bool activeInHierarchy { get; private set; }
+
+        public int layer
+        {
+            get => ownLayer;
+            set
+            {
+                if (value < 0 || value > 31) throw new ArgumentOutOfRangeException(nameof(layer), value, "A layer is 0 to 31.");
+                ownLayer = value;
+            }
+        }
+
+        public Transform transform
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return ownTransform;
+            }
+        }
+
+        /// The transform also while the object is being destroyed.
+        internal Transform TransformUnchecked => ownTransform;
+
+        // ---- Components ---------------------------------------------------------------------------------------------
+
+        public T AddComponent<T>() where T : Component => (T)AddComponent(typeof(T));
+
+        public Component AddComponent(Type componentType)
+        {
+            ThrowIfDestroyed();
+            if (componentType == null || componentType.IsAbstract || !typeof(Component).IsAssignableFrom(componentType) || typeof(Transform).IsAssignableFrom(componentType))
+            {
+                Debug.LogError($"'{componentType}' is not a component that can be added to '{NameImpl}'.", this);
+                return null;
+            }
+            if (Messages.SingleBase(componentType) is Type single && FindComponent(single) != null)
+            {
+                Debug.LogError($"'{NameImpl}' already has a {single.Name} and may have only one ([DisallowMultipleComponent]).", this);
+                return null;
+            }
+            foreach (RequireComponent required in componentType.GetCustomAttributes(typeof(RequireComponent), true))
+            {
+                Require(required.m_Type0);
+                Require(required.m_Type1);
+                Require(required.m_Type2);
+            }
+            var component = (Component)Activator.CreateInstance(componentType, true);
+            Own(component);
+            if (activeInHierarchy) component.Activate();
+            return component;
+        }
+
+        void Require(Type type)
+        {
+            if (type != null && !type.IsAbstract && FindComponent(type) is null) AddComponent(type);
+        }
+
+        internal void Own(Component component)
+        {
+            component.owner = this;
+            components.Add(component);
+            if (!(component is MonoBehaviour script)) return;
+            hearsTriggers |= script.messages.HearsTriggers;
+            hearsCollisions |= script.messages.HearsCollisions;
+        }
+
+        internal void AddPhysics(Component part)
+        {
+            if (physicsParts == null) physicsParts = new List<Component>();
+            physicsParts.Insert(part is Rigidbody ? 0 : physicsParts.Count, part);
+        }
+
+        internal void RemovePhysics(Component part) => physicsParts.Remove(part);
+
+        Component FindComponent(Type type)
+        {
+            foreach (var component in components)
+                if (type.IsInstanceOfType(component)) return component;
+            return null;
+        }
+
+        public T GetComponent<T>()
+        {
+            ThrowIfDestroyed();
+            var count = components.Count;
+            for (var index = 0; index < count; index++)
+                if (components[index] is T component) return component;
+            return default;
+        }
+
+        public Component GetComponent(Type type)
+        {
+            ThrowIfDestroyed();
+            return FindComponent(type);
+        }
+
+        public bool TryGetComponent<T>(out T component)
+        {
+            component = GetComponent<T>();
+            return component != null;
+        }
+
+        public bool TryGetComponent(Type type, out Component component)
+        {
+            component = GetComponent(type);
+            return !(component is null);
+        }
+
+        public T[] GetComponents<T>()
+        {
+            var results = new List<T>();
+            GetComponents(results);
+            return results.ToArray();
+        }
+
+        public Component[] GetComponents(Type type)
+        {
+            var results = new List<Component>();
+            GetComponents(type, results);
+            return results.ToArray();
+        }
+
+        public void GetComponents<T>(List<T> results)
+        {
+            ThrowIfDestroyed();
+            results.Clear();
+            Collect(results);
+        }
+
+        public void GetComponents(Type type, List<Component> results)
+        {
+            ThrowIfDestroyed();
+            results.Clear();
+            foreach (var component in components)
+                if (type.IsInstanceOfType(component)) results.Add(component);
+        }
+
+        void Collect<T>(List<T> results)
+        {
+            for (var index = 0; index < components.Count; index++)
+                if (components[index] is T component) results.Add(component);
+        }
+
+        public T GetComponentInChildren<T>() => GetComponentInChildren<T>(false);
+        public T GetComponentInChildren<T>(bool includeInactive) => FindInChildren(typeof(T), includeInactive) is T found ? found : default;
+        public Component GetComponentInChildren(Type type) => GetComponentInChildren(type, false);
+        public Component GetComponentInChildren(Type type, bool includeInactive) => FindInChildren(type, includeInactive);
+
+        internal Component FindInChildren(Type type, bool includeInactive)
+        {
+            if (activeInHierarchy || includeInactive)
+            {
+                var own = FindComponent(type);
+                if (!(own is null)) return own;
+            }
+            foreach (var child in ownTransform.children)
+            {
+                var found = child.owner.FindInChildren(type, includeInactive);
+                if (!(found is null)) return found;
+            }
+            return null;
+        }
+
+        public T[] GetComponentsInChildren<T>() => GetComponentsInChildren<T>(false);
+
+        public T[] GetComponentsInChildren<T>(bool includeInactive)
+        {
+            var results = new List<T>();
+            GetComponentsInChildren(includeInactive, results);
+            return results.ToArray();
+        }
+
+        public void GetComponentsInChildren<T>(List<T> results) => GetComponentsInChildren(false, results);
+
+        public void GetComponentsInChildren<T>(bool includeInactive, List<T> results)
+        {
+            ThrowIfDestroyed();
+            results.Clear();
+            CollectInChildren(includeInactive, results);
+        }
+
+        void CollectInChildren<T>(bool includeInactive, List<T> results)
+        {
+            if (activeInHierarchy || includeInactive) Collect(results);
+            foreach (var child in ownTransform.children) child.owner.CollectInChildren(includeInactive, results);
+        }
+
+        public T GetComponentInParent<T>() => GetComponentInParent<T>(false);
+
+        public T GetComponentInParent<T>(bool includeInactive)
+        {
+            for (var level = transform; !(level is null); level = level.parentOrNull)
+                if ((level.owner.activeInHierarchy || includeInactive) && level.owner.GetComponent<T>() is T found) return found;
+            return default;
+        }
+
+        public Component GetComponentInParent(Type type) => GetComponentInParent(type, false);
+
+        public Component GetComponentInParent(Type type, bool includeInactive)
+        {
+            for (var level = transform; !(level is null); level = level.parentOrNull)
+                if ((level.owner.activeInHierarchy || includeInactive) && level.owner.FindComponent(type) is Component found) return found;
+            return null;
+        }
+
+        public T[] GetComponentsInParent<T>() => GetComponentsInParent<T>(false);
+
+        public T[] GetComponentsInParent<T>(bool includeInactive)
+        {
+            var results = new List<T>();
+            GetComponentsInParent(includeInactive, results);
+            return results.ToArray();
+        }
+
+        public void GetComponentsInParent<T>(bool includeInactive, List<T> results)
+        {
+            results.Clear();
+            for (var level = transform; !(level is null); level = level.parentOrNull)
+                if (level.owner.activeInHierarchy || includeInactive) level.owner.Collect(results);
+        }
+
+        // ---- Activity -----------------------------------------------------------------------------------------------
+
+        public void SetActive(bool value)
+        {
+            ThrowIfDestroyed();
+            if (activeSelf == value) return;
+            activeSelf = value;
+            RefreshActivity();
+        }
+
+        /// Brings `activeInHierarchy` of this object and all below in line, then tells their components.
+        internal void RefreshActivity()
+        {
+            var parent = ownTransform.parentOrNull;
+            var active = activeSelf && (parent is null || parent.owner.activeInHierarchy);
+            if (active == activeInHierarchy) return;
+            var affected = new List<Component>();
+            MarkActivity(active, affected);
+            Lifecycle.ActivityChanged(affected, active);
+        }
+
+        void MarkActivity(bool active, List<Component> affected)
+        {
+            activeInHierarchy = active;
+            affected.AddRange(components);
+            foreach (var child in ownTransform.children)
+                if (child.owner.activeSelf) child.owner.MarkActivity(active, affected);
+        }
+
+        // ---- Search and primitives ----------------------------------------------------------------------------------
+
+        public static GameObject Find(string name)
+        {
+            foreach (var root in Scene.Roots)
+                if (FindActive(root, name) is GameObject found) return found;
+            return null;
+        }
+
+        static GameObject FindActive(GameObject start, string name)
+        {
+            if (!start.activeInHierarchy) return null;
+            if (start.NameImpl == name) return start;
+            foreach (var child in start.ownTransform.children)
+                if (FindActive(child.owner, name) is GameObject found) return found;
+            return null;
+        }
+
+        /// The collider fits Unity's mesh of that primitive; a plane is a box 10 x 10 m without height.
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            var primitive = new GameObject(type.ToString());
+            primitive.AddComponent<MeshFilter>().sharedMesh = Mesh.Primitive(type);
+            primitive.AddComponent<MeshRenderer>().sharedMaterial = Material.Default;
+            switch (type)
+            {
+                case PrimitiveType.Sphere:
+                    primitive.AddComponent<SphereCollider>();
+                    break;
+                case PrimitiveType.Capsule:
+                case PrimitiveType.Cylinder:
+                    primitive.AddComponent<CapsuleCollider>().height = 2f;
+                    break;
+                case PrimitiveType.Cube:
+                    primitive.AddComponent<BoxCollider>();
+                    break;
+                case PrimitiveType.Plane:
+                    primitive.AddComponent<BoxCollider>().size = new Vector3(10f, 0f, 10f);
+                    break;
+                case PrimitiveType.Quad:
+                    primitive.AddComponent<BoxCollider>().size = new Vector3(1f, 1f, 0f);
+                    break;
+            }
+            return primitive;
+        }
+    }
+
+    public enum PrimitiveType
+    {
+        Sphere = 0,
+        Capsule = 1,
+        Cylinder = 2,
+        Cube = 3,
+        Plane = 4,
+        Quad = 5,
+    }
+}

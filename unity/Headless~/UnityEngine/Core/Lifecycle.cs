@@ -1,0 +1,92 @@
+using System;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    /// Who is due for which message, in execution order.
+    static class Lifecycle
+    {
+        static readonly BehaviourList Starting = new BehaviourList();
+        static readonly BehaviourList FixedUpdating = new BehaviourList();
+        static readonly BehaviourList Updating = new BehaviourList();
+        static readonly BehaviourList LateUpdating = new BehaviourList();
+        static readonly Comparison<Component> ByOrder = (a, b) => OrderOf(a).CompareTo(OrderOf(b));
+        static int enablings;
+
+        public static void Enabled(MonoBehaviour script)
+        {
+            script.enabling = ++enablings;
+            if (!script.didStart) Starting.Add(script);
+            if (script.messages.FixedUpdate != null) FixedUpdating.Add(script);
+            if (script.messages.Update != null) Updating.Add(script);
+            if (script.messages.LateUpdate != null) LateUpdating.Add(script);
+        }
+
+        /// Components of objects that became active together: the engine's own first, then scripts in execution order, Awake and OnEnable of each.
+        public static void ActivityChanged(List<Component> components, bool active)
+        {
+            StableSort(components);
+            foreach (var component in components)
+            {
+                if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by an earlier one's message
+                if (active) component.Activate();
+                else component.Deactivate();
+            }
+        }
+
+        static int OrderOf(Component component) => component is MonoBehaviour script ? script.messages.Order : int.MinValue;
+
+        static void StableSort(List<Component> components)
+        {
+            for (var next = 1; next < components.Count; next++)
+            {
+                var component = components[next];
+                var place = next;
+                for (; place > 0 && ByOrder(components[place - 1], component) > 0; place--) components[place] = components[place - 1];
+                components[place] = component;
+            }
+        }
+
+        public static void RunFixedUpdates()
+        {
+            RunStarts();
+            for (var cursor = FixedUpdating.Begin(); FixedUpdating.Next(ref cursor, out var script);) Messages.Send(script.messages.FixedUpdate, script);
+        }
+
+        public static void RunUpdates()
+        {
+            RunStarts();
+            for (var cursor = Updating.Begin(); Updating.Next(ref cursor, out var script);) Messages.Send(script.messages.Update, script);
+        }
+
+        public static void RunLateUpdates()
+        {
+            RunStarts();
+            for (var cursor = LateUpdating.Begin(); LateUpdating.Next(ref cursor, out var script);) Messages.Send(script.messages.LateUpdate, script);
+        }
+
+        /// Start of everything enabled since, those that a Start enables included.
+        public static void RunStarts()
+        {
+            while (Starting.HasNew)
+            {
+                for (var cursor = Starting.Begin(); Starting.Next(ref cursor, out var script);)
+                {
+                    if (script.didStart) continue;
+                    script.didStart = true;
+                    Messages.Send(script.messages.Start, script);
+                }
+                Starting.ClearOld();
+            }
+        }
+
+        public static void ResetState()
+        {
+            Starting.Clear();
+            FixedUpdating.Clear();
+            Updating.Clear();
+            LateUpdating.Clear();
+            enablings = 0;
+        }
+    }
+}

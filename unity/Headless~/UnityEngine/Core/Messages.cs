@@ -1,0 +1,130 @@
+using System;
+using System.Collections;
+using System.Collections.Generic;
+using System.Reflection;
+using System.Reflection.Emit;
+
+namespace UnityEngine
+{
+    /// The messages that a script type answers to, found by name once and compiled to direct calls; null where it has no such method.
+    sealed class Messages
+    {
+        static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
+
+        public readonly int Order;
+        public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit;
+        public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
+        public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
+
+        public bool HearsTriggers => OnTriggerEnter != null || OnTriggerStay != null || OnTriggerExit != null;
+        public bool HearsCollisions => OnCollisionEnter != null || OnCollisionStay != null || OnCollisionExit != null;
+
+        Messages(Type type)
+        {
+            Order = type.GetCustomAttribute<DefaultExecutionOrder>(true)?.order ?? 0;
+            Awake = Compile(type, nameof(Awake));
+            OnEnable = Compile(type, nameof(OnEnable));
+            Start = Compile(type, nameof(Start));
+            FixedUpdate = Compile(type, nameof(FixedUpdate));
+            Update = Compile(type, nameof(Update));
+            LateUpdate = Compile(type, nameof(LateUpdate));
+            OnDisable = Compile(type, nameof(OnDisable));
+            OnDestroy = Compile(type, nameof(OnDestroy));
+            OnApplicationQuit = Compile(type, nameof(OnApplicationQuit));
+            OnTriggerEnter = Compile<Collider>(type, nameof(OnTriggerEnter));
+            OnTriggerStay = Compile<Collider>(type, nameof(OnTriggerStay));
+            OnTriggerExit = Compile<Collider>(type, nameof(OnTriggerExit));
+            OnCollisionEnter = Compile<Collision>(type, nameof(OnCollisionEnter));
+            OnCollisionStay = Compile<Collision>(type, nameof(OnCollisionStay));
+            OnCollisionExit = Compile<Collision>(type, nameof(OnCollisionExit));
+        }
+
+        public static Messages Of(Type type)
+        {
+            if (!Tables.TryGetValue(type, out var table)) Tables.Add(type, table = new Messages(type));
+            return table;
+        }
+
+        /// The type of which an object may have one component only: the nearest base with [DisallowMultipleComponent], else null.
+        public static Type SingleBase(Type type)
+        {
+            for (var level = type; level != typeof(Component); level = level.BaseType)
+                if (level.IsDefined(typeof(DisallowMultipleComponent), false)) return level;
+            return null;
+        }
+
+        /// False when the message threw; the exception is logged and goes no further.
+        public static bool Send(Action<Object> message, Object target)
+        {
+            if (message == null) return true;
+            try
+            {
+                message(target);
+                return true;
+            }
+            catch (Exception exception)
+            {
+                Debug.LogException(exception, target);
+                return false;
+            }
+        }
+
+        public static void Send<T>(Action<Object, T> message, Object target, T argument)
+        {
+            if (message == null) return;
+            try
+            {
+                message(target, argument);
+            }
+            catch (Exception exception)
+            {
+                Debug.LogException(exception, target);
+            }
+        }
+
+        static Action<Object> Compile(Type type, string name)
+        {
+            var method = Find(type, name, null);
+            return method == null ? null : (Action<Object>)Emit(method, typeof(Action<Object>), typeof(Object));
+        }
+
+        static Action<Object, T> Compile<T>(Type type, string name)
+        {
+            var method = Find(type, name, typeof(T));
+            return method == null ? null : (Action<Object, T>)Emit(method, typeof(Action<Object, T>), typeof(Object), typeof(T));
+        }
+
+        /// The method of the most derived class that has one of that name, private or not, with the argument or without.
+        static MethodInfo Find(Type type, string name, Type argument)
+        {
+            for (var level = type; level != typeof(MonoBehaviour) && level != typeof(ScriptableObject) && level != null; level = level.BaseType)
+                foreach (var method in level.GetMethods(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
+                {
+                    if (method.Name != name || method.IsGenericMethodDefinition) continue;
+                    var parameters = method.GetParameters();
+                    if (parameters.Length == 0 || parameters.Length == 1 && parameters[0].ParameterType == argument) return method;
+                }
+            return null;
+        }
+
+        static Delegate Emit(MethodInfo method, Type signature, params Type[] parameters)
+        {
+            var call = new DynamicMethod(method.Name, typeof(void), parameters, method.DeclaringType, true);
+            var code = call.GetILGenerator();
+            var runsAsCoroutine = method.ReturnType == typeof(IEnumerator);
+            if (runsAsCoroutine) code.Emit(OpCodes.Ldarg_0);
+            code.Emit(OpCodes.Ldarg_0);
+            code.Emit(OpCodes.Castclass, method.DeclaringType);
+            if (method.GetParameters().Length == 1) code.Emit(OpCodes.Ldarg_1);
+            code.Emit(OpCodes.Callvirt, method);
+            if (runsAsCoroutine)
+            {
+                code.Emit(OpCodes.Call, typeof(MonoBehaviour).GetMethod(nameof(MonoBehaviour.StartCoroutine), new[] { typeof(IEnumerator) }));
+                code.Emit(OpCodes.Pop);
+            }
+            else if (method.ReturnType != typeof(void)) code.Emit(OpCodes.Pop);
+            code.Emit(OpCodes.Ret);
+            return call.CreateDelegate(signature);
+        }
+    }
+}

@@ -1,0 +1,61 @@
+using System.Collections;
+
+namespace UnityEngine
+{
+    public class MonoBehaviour : Behaviour
+    {
+        internal readonly Messages messages;
+
+        /// Number of the latest OnEnable, counted over all components; 0 while not enabled. Orders updates and tells stale list entries.
+        internal int enabling;
+
+        public MonoBehaviour() => messages = Messages.Of(GetType());
+
+        public bool didAwake { get; private set; }
+        public bool didStart { get; internal set; }
+
+        public static void print(object message) => Debug.Log(message);
+
+        public Coroutine StartCoroutine(IEnumerator routine) => CoroutineScheduler.Start(this, routine);
+        public void StopCoroutine(IEnumerator routine) => CoroutineScheduler.Stop(this, routine);
+        public void StopCoroutine(Coroutine routine) => CoroutineScheduler.Stop(this, routine);
+        public void StopAllCoroutines() => CoroutineScheduler.StopAll(this);
+
+        internal override void Activate()
+        {
+            if (!didAwake)
+            {
+                didAwake = true;
+                if (!Messages.Send(messages.Awake, this)) ownEnabled = false; // as Unity does: a script whose Awake failed stays off
+            }
+            Enable();
+        }
+
+        internal override void Deactivate()
+        {
+            Disable();
+            CoroutineScheduler.StopAll(this);
+        }
+
+        internal override void EnabledChanged()
+        {
+            if (!didAwake) return;
+            if (ownEnabled) Enable();
+            else Disable();
+        }
+
+        void Enable()
+        {
+            if (enabling != 0 || !isActiveAndEnabled) return;
+            Lifecycle.Enabled(this);
+            Messages.Send(messages.OnEnable, this);
+        }
+
+        void Disable()
+        {
+            if (enabling == 0) return;
+            enabling = 0;
+            Messages.Send(messages.OnDisable, this);
+        }
+    }
+}

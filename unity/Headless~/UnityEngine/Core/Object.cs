@@ -1,0 +1,121 @@
+using System;
+
+namespace UnityEngine
+{
+    [Flags]
+    public enum HideFlags
+    {
+        None = 0,
+        HideInHierarchy = 1,
+        HideInInspector = 2,
+        DontSaveInEditor = 4,
+        NotEditable = 8,
+        DontSaveInBuild = 16,
+        DontUnloadUnusedAsset = 32,
+        DontSave = DontSaveInEditor | DontSaveInBuild | DontUnloadUnusedAsset,
+        HideAndDontSave = HideInHierarchy | DontSaveInEditor | NotEditable | DontSaveInBuild | DontUnloadUnusedAsset,
+    }
+
+    public enum FindObjectsInactive
+    {
+        Exclude = 0,
+        Include = 1,
+    }
+
+    /// A destroyed object is still there for C#, but compares equal to null and refuses to be used.
+    public class Object
+    {
+        static int created;
+
+        internal readonly int id = ++created;
+        internal bool destroyed;
+        string ownName = "";
+
+        public HideFlags hideFlags { get; set; }
+
+        public string name
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return NameImpl;
+            }
+            set
+            {
+                ThrowIfDestroyed();
+                NameImpl = value;
+            }
+        }
+
+        internal virtual string NameImpl { get => ownName; set => ownName = value; }
+
+        internal void ThrowIfDestroyed()
+        {
+            if (destroyed)
+                throw new MissingReferenceException($"The object of type '{GetType().Name}' has been destroyed but you are still trying to access it.");
+        }
+
+        public override int GetHashCode() => id;
+        public override bool Equals(object other) => other is null ? this == null : other is Object o && this == o;
+        public override string ToString() => destroyed ? "null" : $"{NameImpl} ({GetType().FullName})";
+
+        public static implicit operator bool(Object exists) => !(exists is null) && !exists.destroyed;
+
+        public static bool operator ==(Object x, Object y)
+        {
+            bool xIsNull = x is null || x.destroyed, yIsNull = y is null || y.destroyed;
+            return xIsNull || yIsNull ? xIsNull && yIsNull : ReferenceEquals(x, y);
+        }
+
+        public static bool operator !=(Object x, Object y) => !(x == y);
+
+        public static Object Instantiate(Object original) => Cloner.Clone(original, null, null);
+        public static Object Instantiate(Object original, Transform parent) => Instantiate(original, parent, false);
+        public static Object Instantiate(Object original, Transform parent, bool instantiateInWorldSpace) =>
+            Cloner.Clone(original, parent, null, instantiateInWorldSpace);
+        public static Object Instantiate(Object original, Vector3 position, Quaternion rotation) => Instantiate(original, position, rotation, null);
+        public static Object Instantiate(Object original, Vector3 position, Quaternion rotation, Transform parent) =>
+            Cloner.Clone(original, parent, (position, rotation));
+        public static T Instantiate<T>(T original) where T : Object => (T)Instantiate((Object)original);
+        public static T Instantiate<T>(T original, Transform parent) where T : Object => (T)Instantiate((Object)original, parent);
+        public static T Instantiate<T>(T original, Transform parent, bool worldPositionStays) where T : Object =>
+            (T)Instantiate((Object)original, parent, worldPositionStays);
+        public static T Instantiate<T>(T original, Vector3 position, Quaternion rotation) where T : Object =>
+            (T)Instantiate((Object)original, position, rotation);
+        public static T Instantiate<T>(T original, Vector3 position, Quaternion rotation, Transform parent) where T : Object =>
+            (T)Instantiate((Object)original, position, rotation, parent);
+
+        public static void Destroy(Object obj) => Destroy(obj, 0f);
+
+        public static void Destroy(Object obj, float t)
+        {
+            if (obj) Destruction.Schedule(obj, t);
+        }
+
+        public static void DestroyImmediate(Object obj) => DestroyImmediate(obj, false);
+
+        public static void DestroyImmediate(Object obj, bool allowDestroyingAssets)
+        {
+            if (obj) Destruction.Destroy(obj);
+        }
+
+        public static void DontDestroyOnLoad(Object target) { } // the one scene is never replaced
+
+        public static T FindAnyObjectByType<T>() where T : Object => FindAnyObjectByType<T>(FindObjectsInactive.Exclude);
+        public static T FindAnyObjectByType<T>(FindObjectsInactive findObjectsInactive) where T : Object =>
+            (T)FindAnyObjectByType(typeof(T), findObjectsInactive);
+        public static Object FindAnyObjectByType(Type type) => FindAnyObjectByType(type, FindObjectsInactive.Exclude);
+
+        public static Object FindAnyObjectByType(Type type, FindObjectsInactive findObjectsInactive)
+        {
+            var inactiveToo = findObjectsInactive == FindObjectsInactive.Include;
+            foreach (var root in SceneManagement.Scene.Roots)
+            {
+                if (type == typeof(GameObject) && (inactiveToo || root.activeInHierarchy)) return root;
+                var found = root.FindInChildren(type, inactiveToo);
+                if (!(found is null)) return found;
+            }
+            return null;
+        }
+    }
+}

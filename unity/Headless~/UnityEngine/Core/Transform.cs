@@ -1,0 +1,308 @@
+using System;
+using System.Collections;
+using System.Collections.Generic;
+using UnityEngine.SceneManagement;
+
+namespace UnityEngine
+{
+    public enum Space
+    {
+        World = 0,
+        Self = 1,
+    }
+
+    /// Position, rotation and scale relative to the parent; world values are computed when asked for.
+    public class Transform : Component, IEnumerable
+    {
+        internal readonly List<Transform> children = new List<Transform>();
+        internal Transform parentOrNull;
+
+        /// Already in the list of transforms that physics has not seen at their new place.
+        internal bool awaitsSync;
+
+        Vector3 ownPosition = Vector3.zero;
+        Quaternion ownRotation = Quaternion.identity;
+        Vector3 ownScale = Vector3.one;
+
+        protected internal Transform() { }
+
+        public bool hasChanged { get; set; } = true;
+
+        void Changed()
+        {
+            ThrowIfDestroyed();
+            hasChanged = true;
+            PhysicsWorld.TransformChanged(this);
+        }
+
+        // ---- Local ----------------------------------------------------------------------------------------------------
+
+        public Vector3 localPosition
+        {
+            get => ownPosition;
+            set
+            {
+                ownPosition = value;
+                Changed();
+            }
+        }
+
+        public Quaternion localRotation
+        {
+            get => ownRotation;
+            set
+            {
+                ownRotation = value.normalized;
+                Changed();
+            }
+        }
+
+        public Vector3 localScale
+        {
+            get => ownScale;
+            set
+            {
+                ownScale = value;
+                Changed();
+            }
+        }
+
+        public Vector3 localEulerAngles { get => ownRotation.eulerAngles; set => localRotation = Quaternion.Euler(value); }
+
+        public void SetLocalPositionAndRotation(Vector3 localPosition, Quaternion localRotation)
+        {
+            ownPosition = localPosition;
+            this.localRotation = localRotation;
+        }
+
+        public void GetLocalPositionAndRotation(out Vector3 localPosition, out Quaternion localRotation)
+        {
+            localPosition = ownPosition;
+            localRotation = ownRotation;
+        }
+
+        // ---- World ----------------------------------------------------------------------------------------------------
+
+        public Vector3 position
+        {
+            get => parentOrNull is null ? ownPosition : parentOrNull.TransformPoint(ownPosition);
+            set => localPosition = parentOrNull is null ? value : parentOrNull.InverseTransformPoint(value);
+        }
+
+        public Quaternion rotation
+        {
+            get => parentOrNull is null ? ownRotation : parentOrNull.rotation * ownRotation;
+            set => localRotation = parentOrNull is null ? value : Quaternion.Inverse(parentOrNull.rotation) * value;
+        }
+
+        public Vector3 eulerAngles { get => rotation.eulerAngles; set => rotation = Quaternion.Euler(value); }
+        public Vector3 right { get => rotation * Vector3.right; set => rotation = Quaternion.FromToRotation(Vector3.right, value); }
+        public Vector3 up { get => rotation * Vector3.up; set => rotation = Quaternion.FromToRotation(Vector3.up, value); }
+        public Vector3 forward { get => rotation * Vector3.forward; set => rotation = Quaternion.LookRotation(value); }
+
+        public void SetPositionAndRotation(Vector3 position, Quaternion rotation)
+        {
+            Place(position, rotation);
+            Changed();
+        }
+
+        public void GetPositionAndRotation(out Vector3 position, out Quaternion rotation)
+        {
+            position = this.position;
+            rotation = this.rotation;
+        }
+
+        /// Sets the pose without telling physics: for the results of its own step.
+        internal void Place(Vector3 position, Quaternion rotation)
+        {
+            hasChanged = true;
+            ownPosition = parentOrNull is null ? position : parentOrNull.InverseTransformPoint(position);
+            ownRotation = (parentOrNull is null ? rotation : Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
+        }
+
+        /// The scale along the own axes, sheared parts left out.
+        public Vector3 lossyScale
+        {
+            get
+            {
+                if (parentOrNull is null) return ownScale;
+                var unturn = Quaternion.Inverse(rotation);
+                return new Vector3(
+                    (unturn * TransformVector(Vector3.right)).x,
+                    (unturn * TransformVector(Vector3.up)).y,
+                    (unturn * TransformVector(Vector3.forward)).z);
+            }
+        }
+
+        public Matrix4x4 localToWorldMatrix
+        {
+            get
+            {
+                var local = Matrix4x4.TRS(ownPosition, ownRotation, ownScale);
+                return parentOrNull is null ? local : parentOrNull.localToWorldMatrix * local;
+            }
+        }
+
+        public Matrix4x4 worldToLocalMatrix => localToWorldMatrix.inverse;
+
+        // ---- Conversions ----------------------------------------------------------------------------------------------
+
+        public Vector3 TransformPoint(Vector3 position)
+        {
+            for (var level = this; !(level is null); level = level.parentOrNull)
+                position = level.ownPosition + level.ownRotation * Vector3.Scale(level.ownScale, position);
+            return position;
+        }
+
+        public Vector3 TransformVector(Vector3 vector)
+        {
+            for (var level = this; !(level is null); level = level.parentOrNull)
+                vector = level.ownRotation * Vector3.Scale(level.ownScale, vector);
+            return vector;
+        }
+
+        public Vector3 InverseTransformPoint(Vector3 position)
+        {
+            if (!(parentOrNull is null)) position = parentOrNull.InverseTransformPoint(position);
+            return Unscale(Quaternion.Inverse(ownRotation) * (position - ownPosition));
+        }
+
+        public Vector3 InverseTransformVector(Vector3 vector)
+        {
+            if (!(parentOrNull is null)) vector = parentOrNull.InverseTransformVector(vector);
+            return Unscale(Quaternion.Inverse(ownRotation) * vector);
+        }
+
+        Vector3 Unscale(Vector3 vector) => new Vector3(vector.x / ownScale.x, vector.y / ownScale.y, vector.z / ownScale.z);
+
+        public Vector3 TransformPoint(float x, float y, float z) => TransformPoint(new Vector3(x, y, z));
+        public Vector3 TransformVector(float x, float y, float z) => TransformVector(new Vector3(x, y, z));
+        public Vector3 InverseTransformPoint(float x, float y, float z) => InverseTransformPoint(new Vector3(x, y, z));
+        public Vector3 InverseTransformVector(float x, float y, float z) => InverseTransformVector(new Vector3(x, y, z));
+        public Vector3 TransformDirection(Vector3 direction) => rotation * direction;
+        public Vector3 TransformDirection(float x, float y, float z) => TransformDirection(new Vector3(x, y, z));
+        public Vector3 InverseTransformDirection(Vector3 direction) => Quaternion.Inverse(rotation) * direction;
+        public Vector3 InverseTransformDirection(float x, float y, float z) => InverseTransformDirection(new Vector3(x, y, z));
+
+        // ---- Movement -------------------------------------------------------------------------------------------------
+
+        public void Translate(Vector3 translation) => Translate(translation, Space.Self);
+        public void Translate(Vector3 translation, Space relativeTo) =>
+            position += relativeTo == Space.World ? translation : TransformDirection(translation);
+        public void Translate(float x, float y, float z) => Translate(new Vector3(x, y, z));
+        public void Translate(float x, float y, float z, Space relativeTo) => Translate(new Vector3(x, y, z), relativeTo);
+
+        public void Rotate(Vector3 eulers) => Rotate(eulers, Space.Self);
+        public void Rotate(float xAngle, float yAngle, float zAngle) => Rotate(new Vector3(xAngle, yAngle, zAngle));
+        public void Rotate(float xAngle, float yAngle, float zAngle, Space relativeTo) => Rotate(new Vector3(xAngle, yAngle, zAngle), relativeTo);
+        public void Rotate(Vector3 axis, float angle) => Rotate(axis, angle, Space.Self);
+        public void Rotate(Vector3 axis, float angle, Space relativeTo) => Turn(Quaternion.AngleAxis(angle, axis), relativeTo);
+        public void Rotate(Vector3 eulers, Space relativeTo) => Turn(Quaternion.Euler(eulers), relativeTo);
+
+        void Turn(Quaternion turn, Space relativeTo)
+        {
+            if (relativeTo == Space.Self) localRotation = ownRotation * turn;
+            else rotation = turn * rotation;
+        }
+
+        public void RotateAround(Vector3 point, Vector3 axis, float angle)
+        {
+            var turn = Quaternion.AngleAxis(angle, axis);
+            SetPositionAndRotation(point + turn * (position - point), turn * rotation);
+        }
+
+        public void LookAt(Transform target) => LookAt(target, Vector3.up);
+        public void LookAt(Transform target, Vector3 worldUp) => LookAt(target.position, worldUp);
+        public void LookAt(Vector3 worldPosition) => LookAt(worldPosition, Vector3.up);
+        public void LookAt(Vector3 worldPosition, Vector3 worldUp) => rotation = Quaternion.LookRotation(worldPosition - position, worldUp);
+
+        // ---- Hierarchy ------------------------------------------------------------------------------------------------
+
+        public Transform parent { get => parentOrNull; set => SetParent(value); }
+        public void SetParent(Transform p) => SetParent(p, true);
+
+        public void SetParent(Transform parent, bool worldPositionStays)
+        {
+            ThrowIfDestroyed();
+            if (!parent) parent = null;
+            if (ReferenceEquals(parent, parentOrNull)) return;
+            if (!(parent is null) && parent.IsChildOf(this))
+            {
+                Debug.LogError($"'{parent.name}' cannot become the parent of '{name}': it lies below it.", this);
+                return;
+            }
+            Vector3 worldPosition = position, worldScale = lossyScale;
+            var worldRotation = rotation;
+            Detach();
+            parentOrNull = parent;
+            Attach(int.MaxValue);
+            if (worldPositionStays)
+            {
+                Place(worldPosition, worldRotation);
+                var above = parent is null ? Vector3.one : parent.lossyScale;
+                ownScale = new Vector3(worldScale.x / above.x, worldScale.y / above.y, worldScale.z / above.z);
+            }
+            owner.RefreshActivity();
+            PhysicsWorld.HierarchyChanged(this);
+            Changed();
+        }
+
+        /// Takes the object out of the list that holds it: its parent's children, or the scene's roots.
+        internal void Detach()
+        {
+            if (parentOrNull is null) Scene.Roots.Remove(owner);
+            else parentOrNull.children.Remove(this);
+        }
+
+        void Attach(int index)
+        {
+            if (parentOrNull is null) Scene.Roots.Insert(Math.Min(index, Scene.Roots.Count), owner);
+            else parentOrNull.children.Insert(Math.Min(index, parentOrNull.children.Count), this);
+        }
+
+        public Transform root => parentOrNull is null ? this : parentOrNull.root;
+        public int childCount => children.Count;
+        public Transform GetChild(int index) => children[index];
+
+        public Transform Find(string n)
+        {
+            var slash = n.IndexOf('/');
+            var first = slash < 0 ? n : n.Substring(0, slash);
+            foreach (var child in children)
+                if (child.NameImpl == first) return slash < 0 ? child : child.Find(n.Substring(slash + 1));
+            return null;
+        }
+
+        public bool IsChildOf(Transform parent)
+        {
+            for (var level = this; !(level is null); level = level.parentOrNull)
+                if (ReferenceEquals(level, parent)) return true;
+            return false;
+        }
+
+        public void DetachChildren()
+        {
+            while (children.Count > 0) children[0].SetParent(null);
+        }
+
+        public int GetSiblingIndex() => parentOrNull is null ? Scene.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
+        public void SetAsFirstSibling() => SetSiblingIndex(0);
+        public void SetAsLastSibling() => SetSiblingIndex(int.MaxValue);
+
+        public void SetSiblingIndex(int index)
+        {
+            Detach();
+            Attach(index);
+        }
+
+        public IEnumerator GetEnumerator() => children.GetEnumerator();
+
+        internal override void CopyFrom(Component original)
+        {
+            var other = (Transform)original;
+            ownPosition = other.ownPosition;
+            ownRotation = other.ownRotation;
+            ownScale = other.ownScale;
+        }
+    }
+}

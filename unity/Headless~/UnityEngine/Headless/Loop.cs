@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+
+namespace UnityEngine.Headless
+{
+    /// The player: drives the one scene frame by frame, on the calling thread, with the phases of Unity's loop.
+    public static class Loop
+    {
+        static readonly RuntimeInitializeLoadType[] BeforeScene =
+        {
+            RuntimeInitializeLoadType.SubsystemRegistration, RuntimeInitializeLoadType.AfterAssembliesLoaded,
+            RuntimeInitializeLoadType.BeforeSplashScreen, RuntimeInitializeLoadType.BeforeSceneLoad,
+        };
+
+        static bool started;
+
+        /// Set by `Application.Quit`: the caller leaves its frame loop and calls `Quit`.
+        public static bool QuitRequested { get; private set; }
+        public static int ExitCode { get; private set; }
+
+        /// Enters play mode: seeds `Random` and physics, runs the [RuntimeInitializeOnLoadMethod]s of all loaded assemblies, and calls `buildScene`
+        /// where Unity loads the first scene. Objects made before belong to the scene too.
+        public static void Start(int seed, Action buildScene = null)
+        {
+            if (started) throw new InvalidOperationException("The player runs already: call Loop.Quit or Loop.Reset first.");
+            started = true;
+            Random.InitState(seed);
+            PhysicsWorld.Seed = seed;
+            var methods = InitializeMethods();
+            foreach (var type in BeforeScene) Initialize(methods, type);
+            buildScene?.Invoke();
+            SceneManagement.SceneManager.RaiseLoaded();
+            Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
+        }
+
+        /// One frame of `deltaTime` seconds: fixed steps as they fall due, Update, coroutines, LateUpdate, destruction.
+        public static void Frame(float deltaTime)
+        {
+            if (!started) throw new InvalidOperationException("The player does not run: call Loop.Start first.");
+            DrawLog.Clear();
+            Time.BeginFrame(deltaTime);
+            Lifecycle.RunStarts();
+            while (Time.BeginFixedStep())
+            {
+                Lifecycle.RunFixedUpdates();
+                if (Physics.simulationMode == SimulationMode.FixedUpdate) PhysicsWorld.Step(Time.fixedDeltaTime);
+                CoroutineScheduler.Run(CoroutinePhase.FixedUpdate);
+                Time.EndFixedStep();
+            }
+            Lifecycle.RunUpdates();
+            if (Physics.simulationMode == SimulationMode.Update && Time.deltaTime > 0f) PhysicsWorld.Step(Time.deltaTime);
+            CoroutineScheduler.Run(CoroutinePhase.Update);
+            Lifecycle.RunLateUpdates();
+            CoroutineScheduler.Run(CoroutinePhase.EndOfFrame);
+            Destruction.RunDue();
+        }
+
+        /// Leaves play mode: OnApplicationQuit, `Application.quitting`, then OnDisable and OnDestroy of everything.
+        public static void Quit()
+        {
+            if (!started) return;
+            var scripts = new List<MonoBehaviour>();
+            foreach (var root in SceneManagement.Scene.Active.GetRootGameObjects()) scripts.AddRange(root.GetComponentsInChildren<MonoBehaviour>());
+            foreach (var script in scripts)
+                if (script && script.isActiveAndEnabled) Messages.Send(script.messages.OnApplicationQuit, script);
+            Application.RaiseQuitting();
+            Destruction.DestroyScene();
+            SceneManagement.SceneManager.RaiseUnloaded();
+            started = false;
+        }
+
+        /// Quits if needed and forgets everything: objects, handlers, clocks, physics. For tests, one after another.
+        public static void Reset()
+        {
+            Quit();
+            Destruction.DestroyScene();
+            Lifecycle.ResetState();
+            CoroutineScheduler.ResetState();
+            PhysicsWorld.ResetState();
+            Time.ResetState();
+            Random.InitState(0);
+            Debug.ResetState();
+            Application.ResetState();
+            SceneManagement.SceneManager.ResetState();
+            DrawLog.Clear();
+            QuitRequested = false;
+            ExitCode = 0;
+        }
+
+        internal static void RequestQuit(int exitCode)
+        {
+            QuitRequested = true;
+            ExitCode = exitCode;
+        }
+
+        /// Of the assemblies that use UnityEngine, by assembly name and place in the assembly, so that every run has one order.
+        static List<MethodInfo> InitializeMethods()
+        {
+            var methods = new List<MethodInfo>();
+            var engine = typeof(Loop).Assembly.GetName().Name;
+            var assemblies = new List<Assembly>();
+            foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
+                if (Array.Exists(assembly.GetReferencedAssemblies(), reference => reference.Name == engine)) assemblies.Add(assembly);
+            assemblies.Sort((a, b) => string.CompareOrdinal(a.FullName, b.FullName));
+            foreach (var assembly in assemblies)
+                foreach (var type in assembly.GetTypes())
+                    foreach (var method in type.GetMethods(BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
+                        if (method.IsDefined(typeof(RuntimeInitializeOnLoadMethodAttribute), false)) methods.Add(method);
+            return methods;
+        }
+
+        static void Initialize(List<MethodInfo> methods, RuntimeInitializeLoadType when)
+        {
+            foreach (var method in methods)
+            {
+                if (method.GetCustomAttribute<RuntimeInitializeOnLoadMethodAttribute>().loadType != when) continue;
+                try
+                {
+                    method.Invoke(null, null);
+                }
+                catch (TargetInvocationException exception)
+                {
+                    Debug.LogException(exception.InnerException);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,48 @@
+using System.Collections.Generic;
+using UnityEngine.Rendering;
+
+namespace UnityEngine
+{
+    public struct RenderParams
+    {
+        public RenderParams(Material mat) : this()
+        {
+            material = mat;
+            receiveShadows = true;
+        }
+
+        public int layer { get; set; }
+        public uint renderingLayerMask { get; set; }
+        public Bounds worldBounds { get; set; }
+        public Material material { get; set; }
+        public MaterialPropertyBlock matProps { get; set; }
+        public ShadowCastingMode shadowCastingMode { get; set; }
+        public bool receiveShadows { get; set; }
+    }
+
+    /// Draws are recorded for the frame (`Headless.DrawLog`), not drawn.
+    public class Graphics
+    {
+        public static void RenderMesh(in RenderParams rparams, Mesh mesh, int submeshIndex, Matrix4x4 objectToWorld, Matrix4x4? prevObjectToWorld = null) =>
+            Headless.DrawLog.Add(rparams.material, mesh, 1);
+
+        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1, int startInstance = 0)
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount);
+
+        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, List<T> instanceData, int instanceCount = -1, int startInstance = 0)
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount);
+    }
+
+    public sealed class Gizmos
+    {
+        public static Color color { get; set; } = Color.white;
+        public static Matrix4x4 matrix { get; set; } = Matrix4x4.identity;
+        public static void DrawLine(Vector3 from, Vector3 to) { }
+        public static void DrawRay(Ray r) { }
+        public static void DrawRay(Vector3 from, Vector3 direction) { }
+        public static void DrawSphere(Vector3 center, float radius) { }
+        public static void DrawWireSphere(Vector3 center, float radius) { }
+        public static void DrawCube(Vector3 center, Vector3 size) { }
+        public static void DrawWireCube(Vector3 center, Vector3 size) { }
+    }
+}

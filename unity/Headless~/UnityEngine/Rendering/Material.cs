@@ -1,0 +1,62 @@
+using System;
+
+namespace UnityEngine
+{
+    public class Material : Object
+    {
+        static readonly int ColorId = Shader.PropertyToID("_Color");
+        internal static readonly Material Default = new Material(Shader.Find("Standard")) { name = "Default-Material" };
+
+        readonly MaterialPropertyBlock properties = new MaterialPropertyBlock();
+
+        public Material(Shader shader)
+        {
+            this.shader = shader;
+            color = Color.white;
+        }
+
+        public Material(Material source)
+        {
+            shader = source.shader;
+            enableInstancing = source.enableInstancing;
+            renderQueue = source.renderQueue;
+            properties.CopyFrom(source.properties);
+        }
+
+        public Shader shader { get; set; }
+        public bool enableInstancing { get; set; }
+        public int renderQueue { get; set; } = -1;
+        public Color color { get => GetColor(ColorId); set => SetColor(ColorId, value); }
+
+        public bool HasProperty(string name) => HasProperty(Shader.PropertyToID(name));
+        public bool HasProperty(int nameID) => properties.Has(nameID);
+        public void SetFloat(string name, float value) => properties.SetFloat(name, value);
+        public void SetFloat(int nameID, float value) => properties.SetFloat(nameID, value);
+        public float GetFloat(string name) => properties.GetFloat(name);
+        public float GetFloat(int nameID) => properties.GetFloat(nameID);
+        public void SetColor(string name, Color value) => properties.SetColor(name, value);
+        public void SetColor(int nameID, Color value) => properties.SetColor(nameID, value);
+        public Color GetColor(string name) => properties.GetColor(name);
+        public Color GetColor(int nameID) => properties.GetColor(nameID);
+        public void EnableKeyword(string keyword) { }
+        public void DisableKeyword(string keyword) { }
+    }
+
+    public sealed class Shader : Object
+    {
+        static readonly System.Collections.Generic.List<string> Names = new System.Collections.Generic.List<string>();
+
+        Shader() { }
+
+        public static Shader Find(string name) => new Shader { name = name };
+
+        public static int PropertyToID(string name)
+        {
+            if (string.IsNullOrEmpty(name)) throw new ArgumentException("A shader property needs a name.", nameof(name));
+            var known = Names.IndexOf(name);
+            if (known >= 0) return known;
+            Names.Add(name);
+            return Names.Count - 1;
+        }
+    }
+}

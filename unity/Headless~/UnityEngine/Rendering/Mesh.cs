@@ -1,0 +1,126 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine.Rendering;
+
+namespace UnityEngine
+{
+    public enum MeshTopology
+    {
+        Triangles = 0,
+        Quads = 2,
+        Lines = 3,
+        LineStrip = 4,
+        Points = 5,
+    }
+
+    public sealed class Mesh : Object
+    {
+        readonly List<Vector3> ownVertices = new List<Vector3>();
+        readonly List<Color> ownColors = new List<Color>();
+        readonly List<int> indices = new List<int>();
+
+        public IndexFormat indexFormat { get; set; }
+        public Bounds bounds { get; set; }
+        public int vertexCount => ownVertices.Count;
+        public int subMeshCount { get; set; } = 1;
+
+        public Vector3[] vertices { get => ownVertices.ToArray(); set => SetVertices(value); }
+        public int[] triangles { get => indices.ToArray(); set => SetTriangles(value, 0); }
+        public Vector3[] normals { get; set; } = new Vector3[0];
+
+        public Color[] colors
+        {
+            get => ownColors.ToArray();
+            set
+            {
+                ownColors.Clear();
+                ownColors.AddRange(value);
+            }
+        }
+
+        public void GetVertices(List<Vector3> vertices)
+        {
+            vertices.Clear();
+            vertices.AddRange(ownVertices);
+        }
+
+        public void SetVertices(List<Vector3> inVertices) => Replace(ownVertices, inVertices);
+        public void SetVertices(Vector3[] inVertices) => Replace(ownVertices, inVertices);
+
+        public void SetVertices(List<Vector3> inVertices, int start, int length)
+        {
+            ownVertices.Clear();
+            for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
+        }
+
+        public void SetVertices(Vector3[] inVertices, int start, int length)
+        {
+            ownVertices.Clear();
+            for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
+        }
+
+        public void SetColors(List<Color> inColors) => Replace(ownColors, inColors);
+        public void SetColors(Color[] inColors) => Replace(ownColors, inColors);
+        public void SetTriangles(int[] triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
+        public void SetTriangles(List<int> triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
+
+        public void SetIndices(int[] indices, MeshTopology topology, int submesh)
+        {
+            Replace(this.indices, indices);
+            RecalculateBounds();
+        }
+
+        public void SetIndices(List<int> indices, MeshTopology topology, int submesh, bool calculateBounds = true, int baseVertex = 0)
+        {
+            Replace(this.indices, indices);
+            if (calculateBounds) RecalculateBounds();
+        }
+
+        static void Replace<T>(List<T> target, IEnumerable<T> values)
+        {
+            target.Clear();
+            target.AddRange(values);
+        }
+
+        public void Clear() => Clear(true);
+
+        public void Clear(bool keepVertexLayout)
+        {
+            ownVertices.Clear();
+            ownColors.Clear();
+            indices.Clear();
+        }
+
+        public void RecalculateBounds()
+        {
+            if (ownVertices.Count == 0) return;
+            Vector3 least = ownVertices[0], most = ownVertices[0];
+            foreach (var vertex in ownVertices)
+            {
+                least = Vector3.Min(least, vertex);
+                most = Vector3.Max(most, vertex);
+            }
+            bounds = new Bounds((least + most) * 0.5f, most - least);
+        }
+
+        public void RecalculateNormals() { }
+        public void MarkDynamic() { }
+        public void UploadMeshData(bool markNoLongerReadable) { }
+
+        static readonly Mesh[] Primitives = new Mesh[Enum.GetValues(typeof(PrimitiveType)).Length];
+
+        /// Name and size of Unity's mesh; without vertices.
+        internal static Mesh Primitive(PrimitiveType type)
+        {
+            var size = type switch
+            {
+                PrimitiveType.Capsule => new Vector3(1f, 2f, 1f),
+                PrimitiveType.Cylinder => new Vector3(1f, 2f, 1f),
+                PrimitiveType.Plane => new Vector3(10f, 0f, 10f),
+                PrimitiveType.Quad => new Vector3(1f, 1f, 0f),
+                _ => Vector3.one,
+            };
+            return Primitives[(int)type] = Primitives[(int)type] ?? new Mesh { name = type.ToString(), bounds = new Bounds(Vector3.zero, size) };
+        }
+    }
+}

@@ -1,0 +1,117 @@
+using System.Collections.Generic;
+using UnityEngine.Rendering;
+
+namespace UnityEngine
+{
+    /// Keeps materials and property blocks; nothing is drawn.
+    public class Renderer : Component
+    {
+        readonly List<Material> assigned = new List<Material>();
+        MaterialPropertyBlock block;
+        Bounds? ownBounds;
+        bool ownsMaterial;
+
+        public bool enabled { get; set; } = true;
+        public bool isVisible => false;
+        public ShadowCastingMode shadowCastingMode { get; set; } = ShadowCastingMode.On;
+        public bool receiveShadows { get; set; } = true;
+        public int sortingOrder { get; set; }
+
+        public Bounds bounds
+        {
+            get
+            {
+                if (ownBounds.HasValue) return ownBounds.Value;
+                var mesh = GetComponent<MeshFilter>()?.sharedMesh;
+                if (!mesh) return new Bounds(transform.position, Vector3.zero);
+                var matrix = transform.localToWorldMatrix;
+                var extents = mesh.bounds.extents;
+                Vector3 x = matrix.MultiplyVector(new Vector3(extents.x, 0f, 0f)), y = matrix.MultiplyVector(new Vector3(0f, extents.y, 0f)), z = matrix.MultiplyVector(new Vector3(0f, 0f, extents.z));
+                var reach = new Vector3(
+                    Mathf.Abs(x.x) + Mathf.Abs(y.x) + Mathf.Abs(z.x), Mathf.Abs(x.y) + Mathf.Abs(y.y) + Mathf.Abs(z.y), Mathf.Abs(x.z) + Mathf.Abs(y.z) + Mathf.Abs(z.z));
+                return new Bounds(matrix.MultiplyPoint3x4(mesh.bounds.center), reach * 2f);
+            }
+            set => ownBounds = value;
+        }
+
+        public Material sharedMaterial
+        {
+            get => assigned.Count == 0 ? null : assigned[0];
+            set
+            {
+                if (assigned.Count == 0) assigned.Add(value);
+                else assigned[0] = value;
+                ownsMaterial = false;
+            }
+        }
+
+        /// A copy of the shared material, made at the first access and this renderer's own.
+        public Material material
+        {
+            get
+            {
+                if (!ownsMaterial && sharedMaterial)
+                {
+                    assigned[0] = new Material(assigned[0]) { name = assigned[0].name + " (Instance)" };
+                    ownsMaterial = true;
+                }
+                return sharedMaterial;
+            }
+            set
+            {
+                sharedMaterial = value;
+                ownsMaterial = true;
+            }
+        }
+
+        public Material[] sharedMaterials
+        {
+            get => assigned.ToArray();
+            set
+            {
+                assigned.Clear();
+                assigned.AddRange(value);
+                ownsMaterial = false;
+            }
+        }
+
+        public void SetPropertyBlock(MaterialPropertyBlock properties)
+        {
+            if (properties == null) block = null;
+            else (block = block ?? new MaterialPropertyBlock()).CopyFrom(properties);
+        }
+
+        public void GetPropertyBlock(MaterialPropertyBlock properties)
+        {
+            properties.Clear();
+            if (block != null) properties.CopyFrom(block);
+        }
+
+        internal override void CopyFrom(Component original)
+        {
+            var other = (Renderer)original;
+            enabled = other.enabled;
+            assigned.AddRange(other.assigned);
+            if (other.block != null) SetPropertyBlock(other.block);
+        }
+    }
+
+    public class MeshRenderer : Renderer { }
+}
+
+namespace UnityEngine.Rendering
+{
+    public enum ShadowCastingMode
+    {
+        Off = 0,
+        On = 1,
+        TwoSided = 2,
+        ShadowsOnly = 3,
+    }
+
+    public enum IndexFormat
+    {
+        UInt16 = 0,
+        UInt32 = 1,
+    }
+}
