@@ -62,7 +62,7 @@ void engine_set_state(int32_t state) {
 int32_t engine_check_running(void) {
     switch (engine_state()) {
         case CLK_STATE_RUNNING: return CLK_OK;
-        case CLK_STATE_LOST: return error_set(CLK_JVM_LOST, "the JVM is lost: %s. Restart the process to get a new one.", engine.reason);
+        case CLK_STATE_LOST: return error_set(CLK_JVM_LOST, "the JVM is lost, restart the process to get a new one: %s", engine.reason);
         case CLK_STATE_STOPPED:
             return error_set(CLK_JVM_NOT_RUNNING, "the JVM of this process was stopped; a process can start one only once");
         default: return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");

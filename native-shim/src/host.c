@@ -85,6 +85,14 @@ static void take_exception(JNIEnv *env, char *buffer, int32_t capacity) {
     (*env)->DeleteLocalRef(env, exception);
 }
 
+/* A class makes its name at the first call. With the heap exhausted that is too late. */
+static void prepare_name(JNIEnv *env, const char *class_name) {
+    char text[64];
+    jclass class = (*env)->FindClass(env, class_name);
+    if (class != NULL) string_of(env, class, java.get_name, text, sizeof text);
+    (*env)->DeleteLocalRef(env, class);
+}
+
 static int32_t java_error(JNIEnv *env, int32_t code, const char *where) {
     char text[2048];
     take_exception(env, text, sizeof text);
@@ -211,7 +219,7 @@ static int32_t does_not_fit(JNIEnv *env, const char *what) {
     char text[2048];
     give_text("no exception", text, sizeof text);
     if ((*env)->ExceptionCheck(env)) take_exception(env, text, sizeof text);
-    return error_set(CLK_HOST, "%s: %s. Check that the class path has the host jar of the shim's own version.", what, text);
+    return error_set(CLK_HOST, "%s; check that the class path has the host jar of the shim's own version: %s", what, text);
 }
 
 int32_t host_bind(JNIEnv *env) {
@@ -222,6 +230,7 @@ int32_t host_bind(JNIEnv *env) {
     java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
     (*env)->DeleteLocalRef(env, object);
     (*env)->DeleteLocalRef(env, class);
+    prepare_name(env, "java/lang/OutOfMemoryError");
 
     const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
                                        NATIVE("log", "(I[B)V", shim_log)};

@@ -95,14 +95,16 @@ static bool add_option(const char *prefix, const char *word) {
     return option != NULL;
 }
 
-/* Ours come first: -Xrs leaves the host its signals, headless is a default that the user may change. */
+/* Ours come first, so that the user may change what is a mere default. -Xrs leaves the host process its signals; the log
+ * option silences warnings about host_refuse_exit. */
 static int32_t prepare_options(const clk_jvm_config *config) {
     forget_options();
     jvm.home = copy("", config->home);
     jvm.configuration = join(config->home, config->class_path, config->options, config->option_count);
-    jvm.options = malloc(((size_t)config->option_count + 3) * sizeof *jvm.options);
+    jvm.options = malloc(((size_t)config->option_count + 4) * sizeof *jvm.options);
     bool good = jvm.home != NULL && jvm.configuration != NULL && jvm.options != NULL && add_option("-Xrs", "") &&
-                add_option("-Djava.awt.headless=true", "") && add_option("-Djava.class.path=", config->class_path);
+                add_option("-Djava.awt.headless=true", "") && add_option("-Xlog:jni+resolve=error", "") &&
+                add_option("-Djava.class.path=", config->class_path);
     jvm.own_count = jvm.option_count;
     for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(config->options[i], "");
     if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
@@ -171,21 +173,27 @@ static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file,
 /* The JVM is about to end the process, and must not come back from here: its thread stays. A JVM that did not come up leaves
  * signal handlers behind that nobody answers for. One that crashed has put its crash handlers in place of its usual ones,
  * and they would let every thread hang that only runs into a null reference of the host's own language. */
-static _Noreturn void lose(const char *what, int status) {
-    char last[1024];
-    log_jvm_last(last, sizeof last);
+static _Noreturn void lose(const char *what) {
+    char words[1024] = "";
     if (atomic_load(&jvm.created)) {
         signals_repair();
+        give_text("its report is on the standard error of the process and in hs_err_pid*.log", words, sizeof words);
     } else {
         signals_restore_host();
+        log_jvm_last(words, sizeof words);
+        if (words[0] == '\0') give_text("what it wrote is on the standard error of the process", words, sizeof words);
     }
-    engine_lose("it %s (%d)%s%s", what, status, last[0] != '\0' ? "; its last words: " : "", last);
+    engine_lose("it %s: %s", what, words);
     prim_park();
 }
 
-static void JNICALL hook_exit(jint code) { lose("ended itself with an exit code", code); }
+static void JNICALL hook_exit(jint code) {
+    char what[64];
+    snprintf(what, sizeof what, "ended itself with exit code %d", code);
+    lose(what);
+}
 
-static void JNICALL hook_abort(void) { lose("aborted", 0); }
+static void JNICALL hook_abort(void) { lose("aborted"); }
 
 /* ---- Start on the engine thread -------------------------------------------------------------------------------------- */
 
@@ -226,7 +234,7 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
         char last[1024];
         signals_restore_host();
         log_jvm_last(last, sizeof last);
-        return error_set(CLK_JVM_START, "JNI_CreateJavaVM failed (%d): %s. Correct the JVM options and restart the process.", result,
+        return error_set(CLK_JVM_START, "correct the JVM options and restart the process; JNI_CreateJavaVM failed (%d): %s", result,
                          last[0] != '\0' ? last : "the JVM gave no reason");
     }
     atomic_store(&jvm.created, true);

@@ -107,6 +107,7 @@ static void keep_last(const char *line, size_t length) {
 
 static void end_line(int32_t level) {
     jvm_output.line[jvm_output.used] = '\0';
+    if (level < CLK_LOG_WARNING && strstr(jvm_output.line, "warning") != NULL) level = CLK_LOG_WARNING;
     if (jvm_output.used > 0) {
         log_write(level, jvm_output.line, jvm_output.used);
         keep_last(jvm_output.line, (size_t)jvm_output.used);

@@ -13,7 +13,7 @@
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* A piece of what the JVM prints; whole lines go to the ring. */
+/* A piece of what the JVM prints; whole lines go to the ring, at least as a warning when they say so. */
 __attribute__((format(printf, 2, 0))) int32_t log_jvm_output(int32_t level, const char *format, va_list arguments);
 
 /* Copies what the JVM printed last (at most `capacity` - 1 bytes), lines joined by "; ". */

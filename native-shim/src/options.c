@@ -29,7 +29,7 @@ static const struct rule refused[] = {
     {"-XX:Flags=*", "options in a file cannot be checked; give them one by one"},
     {"-XX:VMOptionsFile=*", "options in a file cannot be checked; give them one by one"},
     {"-Djava.class.path=*", "the class path is that of the host; programs load from the jars of a session"},
-    {"-X", "it is help of the java command"},
+    {"-X", "only the java command knows it"},
     {"-Xinternalversion", "it prints the version and ends the process"},
     {"-XshowSettings*", "only the java command knows it"},
     {"-Xdiag*", "only the java command knows it"},
@@ -50,7 +50,7 @@ static bool matches(const char *option, const char *text) {
 }
 
 static int32_t refuse(const char *option, const char *reason) {
-    return error_set(CLK_JVM_OPTIONS, "the JVM option '%s' is refused: %s. Remove it from the JVM options.", option, reason);
+    return error_set(CLK_JVM_OPTIONS, "remove '%s' from the JVM options; it is refused, as %s", option, reason);
 }
 
 int32_t options_check(const char *option) {
@@ -65,13 +65,15 @@ int32_t options_check(const char *option) {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
     }
-    return refuse(option, "it is none of a JVM inside another process (give each option as one word, with '=' before its value)");
+    return refuse(option, "a JVM inside another process knows no such option (give each as one word, with '=' before its value)");
 }
 
 /* ---- In a child process ---------------------------------------------------------------------------------------------- */
 
-/* Many lines to one. */
-static void join_lines(char *text) {
+/* What the JVM wrote, on one line, without the launcher's general words. */
+static void tidy(char *text) {
+    char *general = strstr(text, "Error: Could not create the Java Virtual Machine");
+    if (general != NULL) *general = '\0';
     char *end = text + strlen(text);
     while (end > text && (end[-1] == '\n' || end[-1] == ' ')) *--end = '\0';
     for (char *at = text; (at = strchr(at, '\n')) != NULL;) *at = ' ';
@@ -79,7 +81,7 @@ static void join_lines(char *text) {
 
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
     char java[4096];
-    char output[2048];
+    char output[1024];
     int status = 0;
     static char version[] = "-version";
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
@@ -97,16 +99,17 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     free(arguments);
     /* The words of the version tell that the JVM came up, and was not ended in order by an option before that. */
     bool came_up = strstr(output, " version \"") != NULL;
-    join_lines(output);
+    tidy(output);
     switch (run) {
         case PRIM_NOT_STARTED:
             log_format(CLK_LOG_WARNING, "the JVM options are not tried before the start, as %s could not be run", java);
             return CLK_OK;
         case PRIM_TIMED_OUT:
-            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java, output);
+            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java,
+                             output[0] != '\0' ? output : "nothing");
         default: break;
     }
     if (status == 0 && came_up) return CLK_OK;
-    return error_set(CLK_JVM_OPTIONS, "the JVM of %s refuses its options (exit code %d): %s. Correct the JVM options.", home, status,
-                     output[0] != '\0' ? output : "an option ends it before it is up");
+    if (status == 0) return error_set(CLK_JVM_OPTIONS, "correct the JVM options: one of them ends the JVM of %s before it is up", home);
+    return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, output);
 }

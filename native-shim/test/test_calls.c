@@ -177,7 +177,7 @@ void heap_exhausted(void) {
     clk_session session;
     start_plain();
     CHECK_OK(open_session(&session));
-    for (int i = 0; i < 3; i++) CHECK_CODE(CLK_JAVA, "", step(session, EXHAUST, 0, 60000));
+    for (int i = 0; i < 3; i++) CHECK_CODE(CLK_JAVA, "OutOfMemoryError", step(session, EXHAUST, 0, 60000));
     CHECK_OK(step(session, EMPTY, 0, 60000));
     CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
 }

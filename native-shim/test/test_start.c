@@ -136,7 +136,7 @@ void options_refused_by_text(void) {
         "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
         "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint"};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        CHECK_CODE(CLK_JVM_OPTIONS, refused[i], start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
+        CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
     check_start_still_works();
 }
@@ -153,7 +153,7 @@ void options_refused_by_child(void) {
 }
 
 void option_that_ends_the_jvm(void) {
-    CHECK_CODE(CLK_JVM_OPTIONS, "refuses its options", start(OPTIONS("-Xlog:help")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "before it is up", start(OPTIONS("-Xlog:help")));
     check_start_still_works();
 }
 
@@ -185,7 +185,7 @@ void failed_start_restores_signal_handlers(void) {
     static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
     struct sigaction mine = {.sa_sigaction = on_fault, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     for (int i = 0; i < 4; i++) CHECK(sigaction(faults[i], &mine, NULL) == 0);
-    check_unchecked(OPTIONS("--add-modules=no.such.module"), "no.such.module");
+    check_unchecked(OPTIONS("--add-modules=no.such.module"), "standard error");
     for (int i = 0; i < 4; i++) {
         struct sigaction now;
         CHECK(sigaction(faults[i], NULL, &now) == 0 && now.sa_sigaction == on_fault);
