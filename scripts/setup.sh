@@ -59,6 +59,8 @@ fetch_flatbuffers() {
   mkdir -p "$FLATBUFFERS"
   cp -R "$crate"/flatbuffers/. "$FLATBUFFERS/"
   chmod -R u+w "$FLATBUFFERS"
+  # Mono 6.8 cannot bind the indexer of ReadOnlySpan in code that was compiled for netstandard2.1; that of Span it can.
+  sed -i 's/_buffer\.ReadOnlySpan\[index\]/_buffer.Span[index]/' "$FLATBUFFERS/net/FlatBuffers/ByteBuffer.cs"
   rm -rf "$work"
 }
 

@@ -49,14 +49,14 @@ namespace Collektive.Headless
 
         private void Describe(ReplayMetadata metadata)
         {
-            var arena = new Bounds();
-            var empty = true;
-            foreach (var collider in Object.FindObjectsByType<Collider>(FindObjectsSortMode.InstanceID))
+            var colliders = Object.FindObjectsByType<Collider>(FindObjectsSortMode.InstanceID);
+            var floor = FindFloor(colliders);
+            var arena = floor == null ? new Bounds() : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
+            foreach (var collider in colliders)
             {
-                var bounds = collider.bounds;
-                if (empty) arena = bounds;
-                else arena.Encapsulate(bounds);
-                empty = false;
+                if (collider == floor) continue;
+                if (arena.size == Vector3.zero) arena = collider.bounds;
+                else arena.Encapsulate(collider.bounds);
                 if (collider.GetComponentInParent<Node>() != null)
                 {
                     if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
@@ -66,11 +66,39 @@ namespace Collektive.Headless
                 if (collider is BoxCollider box) Add(metadata, box);
                 if (collider is SphereCollider sphere) Add(metadata, sphere);
             }
+            if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
+            // The page wants an arena of some size.
+            arena.Expand(new Vector3(arena.size.x > 0 ? 0 : 1, 0, arena.size.z > 0 ? 0 : 1));
             metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z);
             foreach (var landmark in scene.Landmarks)
             {
                 metadata.AddMarker(landmark.Key, landmark.Value.x, landmark.Value.y, landmark.Value.z);
             }
+        }
+
+        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws a floor of its own there.</summary>
+        private Collider FindFloor(Collider[] colliders)
+        {
+            Collider floor = null;
+            foreach (var collider in colliders)
+            {
+                if (!(collider is BoxCollider) || collider.attachedRigidbody != null || collider.isTrigger) continue;
+                if (floor == null || Footprint(collider) > Footprint(floor)) floor = collider;
+            }
+            if (floor == null) return null;
+            foreach (var node in manager.Nodes)
+            {
+                if (node.transform.position.y < Top(floor).y) return null;
+            }
+            return floor;
+        }
+
+        private static float Footprint(Collider collider) => collider.bounds.size.x * collider.bounds.size.z;
+
+        private static Vector3 Top(Collider collider)
+        {
+            var bounds = collider.bounds;
+            return new Vector3(bounds.center.x, bounds.max.y, bounds.center.z);
         }
 
         private static void Add(ReplayMetadata metadata, BoxCollider box)

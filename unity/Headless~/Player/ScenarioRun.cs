@@ -36,7 +36,7 @@ namespace Collektive.Headless
             Directory.CreateDirectory(options.Out);
             Installation.HostJar = options.HostJar;
             Installation.JavaHome = options.JavaHome;
-            Loop.Start(scenario.Seed);
+            Loop.Start(unchecked((int)(scenario.Seed ^ scenario.Seed >> 32)));
             var manager = MakeManager();
             var scene = MakeScene(manager);
             try

@@ -1,0 +1,380 @@
+#!/usr/bin/env python3
+"""Uses ./collektive as its users do. `acceptance.py ROOT [unittest arguments]`; the last line is "N passed, N failed"."""
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import replay
+
+ROOT = os.path.abspath(sys.argv[1])
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+import metas  # noqa: E402  (lies in the folder above)
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+COLLEKTIVE = os.path.join(ROOT, "collektive")
+SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
+
+
+def collektive(*arguments, cwd=None):
+    return subprocess.run([COLLEKTIVE, *arguments], cwd=cwd, capture_output=True, text=True)
+
+
+def last_error(result):
+    """The error line of a failed command."""
+    lines = [line for line in result.stderr.splitlines() if line.startswith("collektive: ")]
+    return lines[-1] if lines else result.stderr
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="collektive-test-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def manifest(self, out):
+        with open(os.path.join(out, "manifest.json")) as file:
+            return json.load(file)
+
+
+class TheCommand(unittest.TestCase):
+    def test_each_command_has_help(self):
+        whole = collektive("--help")
+        self.assertEqual(whole.returncode, 0)
+        for command in ["setup", "generate", "demo", "run", "test", "bench", "package", "clean"]:
+            self.assertIn(command, whole.stdout)
+            part = collektive(command, "--help")
+            self.assertEqual(part.returncode, 0, command)
+            self.assertTrue(part.stdout.strip(), command)
+
+    def test_unknown_commands_and_options_are_named(self):
+        self.assertEqual(collektive("nonesuch").returncode, 2)
+        result = collektive("demo", "--nonesuch")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--nonesuch", last_error(result))
+
+    def test_what_comes_later_says_so(self):
+        for command in ["bench", "package"]:
+            result = collektive(command)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("later", result.stderr)
+
+
+class TheDemo(Folder):
+    """One whole demo, looked at from all sides: it takes a while."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.out = tempfile.mkdtemp(prefix="collektive-demo-")
+        cls.addClassCleanup(shutil.rmtree, cls.out)
+        cls.result = collektive("demo", "--out", cls.out)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(os.path.join(cls.out, "manifest.json")) as file:
+            cls.whole = json.load(file)
+
+    def test_the_manifest_tells_what_was_run(self):
+        self.assertEqual(self.whole["nodes"], 500)
+        self.assertEqual(self.whole["seconds"], 60)
+        self.assertEqual(self.whole["seed"], 1)
+        self.assertEqual(self.whole["program"], "gradient-ascent")
+        self.assertEqual(self.whole["ticks"], 1200)
+        self.assertEqual(self.whole["errors"], 0)
+        self.assertRegex(self.whole["digest"], "^[0-9a-f]{16}$")
+        self.assertIn("jvm", self.whole["versions"])
+
+    def test_there_is_one_call_a_tick(self):
+        self.assertEqual(self.whole["shim_calls"], self.whole["ticks"])
+
+    def test_the_swarm_reaches_the_source(self):
+        with open(os.path.join(self.out, "metrics.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(
+            list(rows[0]),
+            "second,mean_distance,p90_distance,contacts,links,sense_ms,step_ms,act_ms,physics_ms,tick_ms_p99".split(","))
+        self.assertEqual([int(row["second"]) for row in rows], list(range(61)))
+        self.assertLess(float(rows[-1]["mean_distance"]), 0.3 * float(rows[0]["mean_distance"]))
+
+    def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self):
+        metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
+        boxes = [shape for shape in metadata["shapes"] if shape["kind"] == "box"]
+        self.assertEqual(len(boxes), 4)
+        source = metadata["markers"][0]["position"]
+        behind = sum(any(crosses((x, z), (source[0], source[2]), box) for box in boxes) for x, _, z, _ in frames[0][1].values())
+        self.assertGreaterEqual(behind, 50)
+
+    def test_no_node_ends_inside_an_obstacle_or_off_the_floor(self):
+        metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
+        self.assertEqual(len(frames), 601)
+        for node, (x, y, z, intensity) in frames[-1][1].items():
+            self.assertTrue(-50 <= x <= 50 and -30 <= z <= 30, f"node {node} is at {x}, {z}")
+            self.assertTrue(0.2 <= y <= 0.75, f"node {node} is {y} m high")
+            for box in metadata["shapes"]:
+                inside = all(abs(p - c) < s / 2 for p, c, s in zip((x, y, z), box["centre"], box["size"]))
+                self.assertFalse(inside, f"node {node} is inside an obstacle")
+        self.assertEqual(len(frames[-1][1]), 500)
+
+    def test_it_is_fast_enough(self):
+        self.assertLessEqual(self.whole["step_ms_median"], 2, "bridge and rounds, median")
+        self.assertLessEqual(self.whole["tick_ms_p99"], 33, "whole tick, p99")
+
+    def test_pictures_are_there_and_named_in_the_output(self):
+        for name in ["start.png", "middle.png", "end.png", "replay.html", "metrics.csv", "manifest.json"]:
+            self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 200)
+            self.assertIn(name, self.result.stdout)
+
+
+def crosses(start, end, box):
+    """Whether the straight way between two ground points meets a box (seen from above)."""
+    low, high = 0.0, 1.0
+    for axis, (a, b) in enumerate(zip(start, end)):
+        centre, size = box["centre"][2 * axis], box["size"][2 * axis]
+        if a == b:
+            if abs(a - centre) > size / 2:
+                return False
+            continue
+        enter, leave = sorted(((centre - size / 2 - a) / (b - a), (centre + size / 2 - a) / (b - a)))
+        low, high = max(low, enter), min(high, leave)
+    return low <= high
+
+
+class Repeatability(Folder):
+    def test_one_seed_has_one_digest_and_another_seed_another(self):
+        digests = []
+        for seed, out in [("7", "a"), ("7", "b"), ("8", "c")]:
+            result = collektive("demo", "--nodes", "80", "--seconds", "4", "--seed", seed, "--out", self.path(out))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            digests.append(self.manifest(self.path(out))["digest"])
+        self.assertEqual(digests[0], digests[1])
+        self.assertNotEqual(digests[0], digests[2])
+
+
+class AForeignProject(Folder):
+    """A project outside the clone: own schema, Kotlin, C# and scenario, run by one command."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
+
+    def change(self, file, old, new):
+        path = self.path("project", file)
+        with open(path) as opened:
+            text = opened.read()
+        self.assertIn(old, text)
+        with open(path, "w") as opened:
+            opened.write(text.replace(old, new))
+
+    def run_it(self, *arguments):
+        return collektive("run", "project/lamps.json", "--out", self.path("out"), *arguments, cwd=self.folder)
+
+    def refused(self, *words, arguments=()):
+        """Runs it, and expects one clear error with all the words."""
+        result = self.run_it(*arguments)
+        self.assertNotEqual(result.returncode, 0)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        return result
+
+    def test_it_builds_and_runs(self):
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        manifest = self.manifest(self.path("out"))
+        # Ten lamps in a row: after ten rounds the last one's brightness has reached all; each hears its neighbours.
+        self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
+        self.assertEqual(manifest["ticks"], 10)
+
+    def test_fields_can_be_set_on_the_command_line(self):
+        result = self.run_it("--set", "lamps=6", "--set", "loop=true", "--seed", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        manifest = self.manifest(self.path("out"))
+        self.assertEqual(manifest["end"], {"agreeing": 6, "seen": 12})
+        self.assertEqual(manifest["seed"], 3)
+
+    def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self):
+        self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
+        self.refused("Brightest.kt:", "lightness")
+
+    def test_csharp_that_does_not_compile_is_shown_with_file_and_line(self):
+        self.change("scene/Lamps.cs", "data.Brightness", "data.Lightness")
+        self.refused("Lamps.cs(", "Lightness")
+
+    def test_a_schema_that_is_wrong_is_shown_with_file_and_line(self):
+        self.change("light.fbs", "brightness: float;", "brightness: flaot;")
+        self.refused("light.fbs", "flaot")
+
+    def test_an_unknown_key_is_named_with_its_line(self):
+        self.change("lamps.json", '"threads": 2', '"treads": 2')
+        self.refused("lamps.json:10", "treads", "threads")
+
+    def test_a_key_given_twice_is_named(self):
+        self.change("lamps.json", '"threads": 2', '"seconds": 2')
+        self.refused("seconds", "twice")
+
+    def test_a_value_of_another_type_is_named(self):
+        self.change("lamps.json", '"threads": 2', '"threads": "two"')
+        self.refused("threads", "whole number")
+
+    def test_values_out_of_range_are_named(self):
+        self.change("lamps.json", '"threads": 2', '"threads": 0')
+        self.refused("threads", "1..256")
+
+    def test_a_file_that_is_not_json_is_refused_with_its_line(self):
+        self.change("lamps.json", '"threads": 2,', '"threads": 2')
+        self.refused("lamps.json:11", "not valid JSON")
+
+    def test_missing_files_are_named(self):
+        self.change("lamps.json", "light.fbs", "dark.fbs")
+        self.refused("schema", "dark.fbs")
+
+    def test_an_unknown_program_is_named_with_those_that_there_are(self):
+        self.change("lamps.json", '"brightest"', '"darkest"')
+        self.refused("darkest", "brightest")
+
+    def test_an_unknown_scene_is_named(self):
+        self.change("lamps.json", "Lamps.LampScene", "Lamps.Nonesuch")
+        self.refused("Lamps.Nonesuch", "SceneBuilder")
+
+    def test_an_unknown_field_is_named_with_those_that_there_are(self):
+        self.refused("brightness", "lamps", "loop", arguments=("--set", "brightness=3"))
+
+    def test_a_field_of_another_type_is_named(self):
+        self.refused("lamps", "whole number", arguments=("--set", "lamps=many"))
+
+    def test_a_missing_scenario_is_named(self):
+        result = collektive("run", "nowhere.json", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("nowhere.json", last_error(result))
+
+    def test_a_jvm_that_is_none_is_named(self):
+        self.change("lamps.json", '"jvm": {', '"jvm": { "home": "/nowhere/jdk",')
+        self.refused("/nowhere/jdk")
+
+    def test_a_jvm_option_that_is_wrong_is_shown(self):
+        self.change("lamps.json", '"-Xmx128m"', '"-Xmx128m", "-XX:+UseNonesuchGC"')
+        self.refused("UseNonesuchGC")
+
+    def test_a_jar_that_is_none_is_named(self):
+        with open(self.path("project", "broken.jar"), "w") as file:
+            file.write("this is no jar")
+        self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')
+        self.refused("broken.jar")
+
+    def test_a_program_that_throws_fails_the_run_but_not_its_end(self):
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
+                    'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
+        self.refused("three is too dark", "node 2")
+        self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+        self.assertEqual(self.manifest(self.path("out"))["errors"], 10)
+
+    def test_a_schema_changed_on_one_side_only_is_refused_with_the_type(self):
+        self.assertEqual(self.run_it().returncode, 0)
+        jar = subprocess.run(f"ls -t {ROOT}/build/programs/*/programs.jar | head -n 1", shell=True, capture_output=True, text=True).stdout.strip()
+        shutil.copy(jar, self.path("project", "old.jar"))
+        self.change("lamps.json", '"programs": "programs"', '"programs": "old.jar"')
+        self.change("light.fbs", "seen: [int];", "seen: [int];\n  colour: int;")
+        self.refused("ActuatorData")
+
+
+class Generated(Folder):
+    def test_committed_code_is_what_the_generator_makes(self):
+        self.assertEqual(collektive("generate", os.path.join(SAMPLE, "gradient_ascent.fbs"), "--csharp", self.path("sample")).returncode, 0)
+        self.same(self.path("sample"), os.path.join(SAMPLE, "Generated"))
+        flatc = os.path.join(ROOT, "build/flatc")
+        schemas = [os.path.join(ROOT, "schema", name) for name in ["frame.fbs", "types.fbs"]]
+        subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
+        self.same(self.path("core"), os.path.join(ROOT, "unity/Runtime/Bridge/Generated"))
+
+    def same(self, made, committed):
+        self.assertEqual(self.files(made), self.files(committed))
+
+    @staticmethod
+    def files(folder):
+        found = {}
+        for where, _, names in os.walk(folder):
+            for name in names:
+                if not name.endswith(".meta"):
+                    path = os.path.join(where, name)
+                    with open(path) as file:
+                        found[os.path.relpath(path, folder)] = file.read()
+        return found
+
+    def test_schemas_that_cannot_be_used_are_refused(self):
+        bad = {
+            "namespace": ("table SensorData { a: int; } table ActuatorData { a: int; }", "namespace"),
+            "sensor": ("namespace a; table ActuatorData { a: int; }", "SensorData"),
+            "union": ("namespace a; table X { a: int; } union U { X } table SensorData { u: U; } table ActuatorData { a: int; }", "union"),
+        }
+        for name, (text, word) in bad.items():
+            with open(self.path(name + ".fbs"), "w") as file:
+                file.write(text)
+            result = collektive("generate", self.path(name + ".fbs"))
+            self.assertEqual(result.returncode, 1, name)
+            self.assertIn(word, result.stderr, name)
+
+
+class TheHouse(unittest.TestCase):
+    def test_the_core_knows_no_case_study(self):
+        core = ["schema", "native-shim", "unity/Runtime", "unity/Headless~/UnityEngine", "unity/Headless~/Player"]
+        core += [os.path.join("jvm-host", module) for module in os.listdir(os.path.join(ROOT, "jvm-host")) if module != "programs"]
+        words = re.compile(r"gradient.?ascent|intensity|obstacle", re.I)
+        for folder in core:
+            for where, folders, names in os.walk(os.path.join(ROOT, folder)):
+                folders[:] = [name for name in folders if name not in ("target", "test")]
+                for name in names:
+                    path = os.path.join(where, name)
+                    with open(path, errors="replace") as file:
+                        match = words.search(file.read())
+                    self.assertIsNone(match, f"{path}: {match and match.group(0)}")
+
+    def test_every_asset_has_its_meta(self):
+        self.assertEqual(list(metas.problems(ROOT)), [])
+
+    def test_the_package_holds_what_unity_needs_and_nothing_else(self):
+        result = subprocess.run(["npm", "pack", "--dry-run", "--json"], cwd=ROOT, capture_output=True, text=True, check=True)
+        packed = {file["path"] for file in json.loads(result.stdout)[0]["files"]}
+        wanted = {asset for asset in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, asset))}
+        wanted |= {asset + ".meta" for asset in metas.assets(ROOT)}
+        self.assertEqual(sorted(wanted - packed), [])
+        extra = [path for path in packed - wanted if not path.startswith(("unity/Samples~/", "unity/Documentation~/"))]
+        self.assertEqual(extra, [])
+
+    def test_the_manifest_is_a_valid_package(self):
+        with open(os.path.join(ROOT, "package.json")) as file:
+            package = json.load(file)
+        self.assertRegex(package["name"], r"^[a-z0-9._-]+$")
+        self.assertRegex(package["version"], r"^\d+\.\d+\.\d+$")
+        for sample in package["samples"]:
+            self.assertTrue(os.path.isdir(os.path.join(ROOT, sample["path"])), sample["path"])
+
+    def test_each_requirement_is_mapped_to_tests_that_exist(self):
+        with open(os.path.join(ROOT, "docs/requirements.md")) as file:
+            text = file.read()
+        numbers = {"B": 6, "D": 10, "C": 4, "U": 7, "S": 2, "Q": 2}
+        for letter, count in numbers.items():
+            for number in range(1, count + 1):
+                self.assertRegex(text, rf"(?m)^\| {letter}{number} \|", f"{letter}{number} has no row")
+        for path, test in re.findall(r"`([^`:]+):([^`]+)`", text):
+            self.assertTrue(os.path.exists(os.path.join(ROOT, path)), path)
+            with open(os.path.join(ROOT, path)) as file:
+                self.assertIn(test, file.read(), f"{path} has no {test}")
+
+
+def main():
+    loader = unittest.defaultTestLoader
+    names = sys.argv[2:]
+    suite = loader.loadTestsFromNames(names, sys.modules[__name__]) if names else loader.loadTestsFromModule(sys.modules[__name__])
+    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout).run(suite)
+    failed = len(result.failures) + len(result.errors)
+    print(f"{result.testsRun - min(failed, result.testsRun)} passed, {failed} failed")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

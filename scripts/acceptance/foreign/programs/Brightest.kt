@@ -1,0 +1,21 @@
+package lamps
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.share
+import org.collektive.api.Program
+
+/** The greatest brightness anywhere, by gossip. */
+@Program("brightest")
+public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorDataT {
+    val mine = sensors.brightness()
+    val heard = mutableListOf<Int>()
+    val best = share(mine) { field ->
+        val values = field.neighbors.toMap()
+        heard += values.keys
+        maxOf(mine, values.values.maxOrNull() ?: mine)
+    }
+    return ActuatorDataT().also {
+        it.brightest = best
+        it.seen = heard.toIntArray()
+    }
+}

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Unity .meta files: `metas.py ROOT` makes the missing ones, `metas.py ROOT --check` lists what is wrong and exits 1.
+
+Unity identifies an asset by the GUID in its meta, so a meta is never changed once it exists. A new one gets a GUID from
+the asset's path. Names that end in `~` or begin with `.` are no assets.
+"""
+import hashlib
+import os
+import re
+import sys
+
+PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
+# Samples are copied into a project with their metas when the user imports them.
+IMPORTED = ["unity", "unity/Samples~"]
+IMPORTERS = {
+    ".cs": "MonoImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
+           "  icon: {instanceID: 0}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".asmdef": "AssemblyDefinitionImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".md": "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+}
+DEFAULT = "DefaultImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
+
+
+def is_asset(name):
+    return not name.endswith("~") and not name.startswith(".") and not name.endswith(".meta")
+
+
+def assets(root):
+    """Paths, relative to root, of everything that Unity would import from the package."""
+    yield from PACKED_ROOT_FILES
+    for top in IMPORTED:
+        for folder, folders, files in os.walk(os.path.join(root, top)):
+            folders[:] = sorted(name for name in folders if is_asset(name))
+            for name in sorted(folders + [name for name in files if is_asset(name)]):
+                yield os.path.relpath(os.path.join(folder, name), root)
+
+
+def meta_of(root, asset):
+    path = os.path.join(root, asset)
+    guid = hashlib.md5(("org.collektive.unity/" + asset.replace(os.sep, "/")).encode()).hexdigest()
+    head = f"fileFormatVersion: 2\nguid: {guid}\n"
+    if os.path.isdir(path):
+        return head + "folderAsset: yes\n" + DEFAULT
+    return head + IMPORTERS.get(os.path.splitext(asset)[1], DEFAULT)
+
+
+def problems(root):
+    """One line for each missing meta, meta without an asset, broken GUID, and GUID used twice."""
+    known = {}
+    wanted = set()
+    for asset in assets(root):
+        meta = os.path.join(root, asset + ".meta")
+        wanted.add(os.path.abspath(meta))
+        if not os.path.exists(meta):
+            yield f"{asset}: no .meta (run scripts/metas.py)"
+            continue
+        match = re.search(r"^guid: ([0-9a-f]{32})$", open(meta).read(), re.M)
+        if not match:
+            yield f"{asset}.meta: no GUID"
+        elif match.group(1) in known:
+            yield f"{asset}.meta: GUID of {known[match.group(1)]} used again"
+        else:
+            known[match.group(1)] = asset
+    for top in IMPORTED:
+        for folder, folders, files in os.walk(os.path.join(root, top)):
+            folders[:] = [name for name in folders if is_asset(name)]
+            for name in files:
+                path = os.path.abspath(os.path.join(folder, name))
+                if name.endswith(".meta") and path not in wanted:
+                    yield f"{os.path.relpath(path, root)}: belongs to no asset"
+
+
+def main():
+    root = sys.argv[1]
+    if "--check" in sys.argv:
+        found = list(problems(root))
+        print("\n".join(found))
+        sys.exit(1 if found else 0)
+    for asset in assets(root):
+        meta = os.path.join(root, asset + ".meta")
+        if not os.path.exists(meta):
+            with open(meta, "w") as file:
+                file.write(meta_of(root, asset))
+            print(asset)
+
+
+if __name__ == "__main__":
+    main()
