@@ -32,9 +32,7 @@ internal class GlobalData(private val schema: DataSchema) {
             reader.check()
             val length = frame.remaining()
             if (bytes.capacity() < length) bytes = ByteBuffer.allocate(2 * length).order(ByteOrder.LITTLE_ENDIAN)
-            bytes.clear()
-            for (index in 0 until length) bytes.put(index, frame.get(frame.position() + index))
-            bytes.limit(length)
+            bytes.clear().put(0, frame, frame.position(), length).limit(length)
             reader.attach(bytes, position - frame.position())
             return reader.data
         }
