@@ -4,7 +4,7 @@ import { decode, NodeState } from './recording.js';
 import { View } from './view.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
-const READABLE_PIXELS = 4.5; // a node's radius at first sight, in pixels, at least
+const READABLE_PIXELS = 4; // a node's radius at first sight, in pixels, at least
 const element = (id) => document.getElementById(id);
 
 class Player {
@@ -31,8 +31,7 @@ class Player {
     this.fillLegend(min, max);
     this.bind();
     this.resize();
-    this.view.frame('above');
-    this.setFactor(Math.min(Math.max(Math.ceil((2 * READABLE_PIXELS) / this.view.nodePixels) / 2, 1), 6));
+    this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 6));
   }
 
   get frame() {
@@ -193,15 +192,13 @@ class Player {
   resize() {
     const picture = document.body.classList.contains('picture');
     const controls = element('controls').getBoundingClientRect();
-    this.view.resize(window.innerWidth, window.innerHeight, { top: 24, bottom: picture ? 12 : window.innerHeight - controls.top });
-    this.view.request();
+    this.view.resize(window.innerWidth, window.innerHeight, { top: 28, bottom: picture ? 16 : window.innerHeight - controls.top });
   }
 
   /** Hides what can be pressed, for pictures. */
   setControls(visible) {
     document.body.classList.toggle('picture', !visible);
     this.resize();
-    this.view.frame('above');
   }
 
   bind() {
@@ -350,7 +347,10 @@ const ready = started.then(
         };
       },
       /** Draws the frame on show now, for a picture right after. */
-      draw: () => player.view.draw(),
+      draw: () => {
+        player.view.draw();
+        if (player.playing) player.view.request();
+      },
     });
   },
   (error) => {

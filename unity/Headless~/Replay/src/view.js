@@ -1,6 +1,6 @@
 // The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
 import {
-  AmbientLight, BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
+  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
   EdgesGeometry, Group, HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, Mesh,
   MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry, Scene, ShadowMaterial, SphereGeometry, Vector3,
   WebGLRenderer,
@@ -11,7 +11,7 @@ const THEMES = {
   light: { background: '#eef1f4', floor: '#fbfcfd', grid: '#dfe4ea', border: '#b4bec9', shape: '#8793a3', edge: '#4d5967', outline: '#2f3a46', link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, accent: '#d6336c' },
   dark: { background: '#0d1014', floor: '#191e24', grid: '#262d35', border: '#48525e', shape: '#5d6875', edge: '#98a4b1', outline: '#c3ccd6', link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, accent: '#ff5c8a' },
 };
-const LINE_GAP = 0.012; // lines lie this share of the arena's height unit above the floor, against flicker
+const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
 const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
 
 export class View {
@@ -26,6 +26,8 @@ export class View {
     this.radius = metadata.nodeRadius;
     this.insets = { top: 0, bottom: 0 };
     this.onFrame = () => {};
+    this.pending = null;
+    this.framed = 'above'; // the ready view that the camera has, null once the user has moved it
     this.detailed = slots <= DETAILED_NODES;
 
     // The buffer is kept so that scripts can read the canvas at any time.
@@ -39,6 +41,7 @@ export class View {
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.request());
+    this.controls.addEventListener('start', () => { this.framed = null; });
 
     this.materials = {
       floor: new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
@@ -66,14 +69,14 @@ export class View {
     const { min, max } = this.arena;
     const centre = min.clone().add(max).multiplyScalar(0.5);
     const reach = min.distanceTo(max) / 2;
-    const sun = new DirectionalLight('#ffffff', 1.5);
+    const sun = new DirectionalLight('#ffffff', 1.9);
     sun.position.copy(centre).add(new Vector3(-0.45, 1.2, 0.35).multiplyScalar(reach));
     sun.target.position.copy(centre);
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
     sun.shadow.radius = 3;
     Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 3 * reach });
-    this.scene.add(sun, sun.target, new HemisphereLight('#ffffff', '#aab4c0', 1.5), new AmbientLight('#ffffff', 0.55));
+    this.scene.add(sun, sun.target, new HemisphereLight('#ffffff', '#7d8894', 1.7));
   }
 
   addFloor() {
@@ -116,7 +119,7 @@ export class View {
 
   addMarker({ name, position: [x, y, z] }) {
     const size = this.arena.min.distanceTo(this.arena.max) / 100;
-    const top = new Vector3(x, y + 5 * size, -z);
+    const top = new Vector3(x, y + 7 * size, -z);
     for (const radius of [0.55, 1]) {
       const ring = new Mesh(new RingGeometry(size * (radius - 0.16), size * radius, 48).rotateX(-Math.PI / 2), this.materials.accent);
       ring.position.set(x, y + 2 * LINE_GAP, -z);
@@ -131,7 +134,7 @@ export class View {
   }
 
   addNodes(slots) {
-    const sphere = this.detailed ? new SphereGeometry(1, 24, 16) : new SphereGeometry(1, 10, 7);
+    const sphere = this.detailed ? new SphereGeometry(1, 20, 12) : new SphereGeometry(1, 10, 7);
     const instances = Math.max(slots, 1);
     this.nodes = new InstancedMesh(sphere, new MeshLambertMaterial(), instances);
     this.nodes.instanceMatrix.setUsage(DynamicDrawUsage);
@@ -179,11 +182,15 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, 0, (insets.bottom - insets.top) / 2, width, height);
+    if (this.framed) this.frame(this.framed);
     this.request();
   }
 
   /** Looks at the whole arena, `from` 'above' at an angle or from the 'top'. */
   frame(from) {
+    this.framed = from;
+    this.controls.enableDamping = false; // forgets what is left of the last turn
+    this.controls.update();
     const { min, max } = this.arena;
     const target = new Vector3((min.x + max.x) / 2, min.y, (min.z + max.z) / 2);
     // Straight down would leave the turn undefined.
@@ -200,7 +207,7 @@ export class View {
       const shift = (this.insets.bottom - this.insets.top) / this.height;
       return corners.every((corner) => {
         const seen = corner.clone().project(this.camera);
-        return seen.z < 1 && Math.abs(seen.x) < 0.95 && Math.abs(seen.y - shift) < 0.97 * free;
+        return seen.z < 1 && Math.abs(seen.x) < 0.96 && Math.abs(seen.y - shift) < 0.97 * free;
       });
     };
     let near = 0;
@@ -215,11 +222,13 @@ export class View {
     this.controls.minDistance = far / 60;
     this.controls.maxDistance = far * 4;
     this.controls.update();
+    this.controls.enableDamping = true;
     this.request();
   }
 
   /** Turns the camera about its target by radians, or moves it nearer (`zoom` < 1). */
   turn(aside, up, zoom) {
+    this.framed = null;
     const offset = this.camera.position.clone().sub(this.controls.target);
     const length = Math.min(Math.max(offset.length() * zoom, this.controls.minDistance), this.controls.maxDistance);
     const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.0001), this.controls.maxPolarAngle);
@@ -300,16 +309,21 @@ export class View {
 
   /** Draws soon, once for any number of calls. */
   request() {
-    if (this.pending) return;
-    this.pending = true;
-    requestAnimationFrame((now) => {
-      this.pending = false;
-      this.onFrame(now);
-      this.draw();
+    this.pending ??= requestAnimationFrame((now) => {
+      this.pending = null;
+      this.onFrame(now); // may ask for the next picture
+      this.render();
     });
   }
 
+  /** Draws now, in place of the picture asked for. */
   draw() {
+    cancelAnimationFrame(this.pending);
+    this.pending = null;
+    this.render();
+  }
+
+  render() {
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
     const point = new Vector3();

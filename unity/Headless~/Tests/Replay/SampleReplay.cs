@@ -6,12 +6,14 @@ using System.IO;
 namespace Collektive.Headless.Tests
 {
     /// <summary>
-    /// Writes a made-up run for work on the page and its test: a crowd drifts round four walls to a lamp.
+    /// Writes a made-up run for work on the page and its test: a crowd drifts round four walls to a lamp. Beside it lies
+    /// OUTPUT.html.expected.json, what some of its frames must show.
     /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html [nodes] [frames]
     /// </summary>
     internal static class SampleReplay
     {
-        private const float LampX = 25, Range = 3, Radius = 0.25f, Step = 0.1f;
+        private const float LampX = 25, Range = 3, Radius = 0.25f;
+        private const double Step = 0.1;
 
         private static int Main(string[] args)
         {
@@ -38,28 +40,41 @@ namespace Collektive.Headless.Tests
                 x[i] = -15 + 40 * spread * ((float)random.NextDouble() - 0.5f);
                 z[i] = 50 * Math.Min(spread, 1.1f) * ((float)random.NextDouble() - 0.5f);
             }
+            var expected = new List<string>();
             using (var writer = new ReplayWriter(args[1] + ".scratch", metadata))
             {
                 for (var frame = 0; frame < frames; frame++)
                 {
                     writer.BeginFrame(frame * Step);
+                    var present = new List<string>();
+                    var links = new List<string>();
                     for (var i = 0; i < nodes; i++)
                     {
-                        var distance = Length(x[i] - LampX, z[i]);
-                        if (Exists(i, frame)) writer.Node(i, x[i], Radius, z[i], i % 97 == 0 ? float.NaN : Math.Max(0, 100 - 1.6f * distance));
+                        if (!Exists(i, frame)) continue;
+                        var scalar = i % 97 == 0 ? float.NaN : Math.Max(0, 100 - 1.6f * Length(x[i] - LampX, z[i]));
+                        writer.Node(i, x[i], Radius, z[i], scalar);
+                        present.Add(Array(i, x[i], Radius, z[i], scalar));
                     }
-                    Move(writer, x, z, frame);
+                    Move(writer, links, x, z, frame);
                     writer.EndFrame();
+                    if (frame % Math.Max(1, frames / 4) == 0)
+                        expected.Add("{\"frame\":" + Number(frame) + ",\"time\":" + Number(frame * Step) +
+                            ",\"nodes\":[" + string.Join(",", present) + "],\"links\":[" + string.Join(",", links) + "]}");
                 }
                 writer.Finish(args[0], args[1]);
             }
+            File.WriteAllText(args[1] + ".expected.json", "[" + string.Join(",\n", expected) + "]\n");
             return 0;
         }
+
+        private static string Array(params double[] values) => "[" + string.Join(",", System.Array.ConvertAll(values, Number)) + "]";
+
+        private static string Number(double value) => double.IsNaN(value) ? "null" : value.ToString("R", CultureInfo.InvariantCulture);
 
         // Every fiftieth node comes late and leaves early.
         private static bool Exists(int node, int frame) => node % 50 != 0 || (frame >= 50 && frame < 400);
 
-        private static void Move(ReplayWriter writer, float[] x, float[] z, int frame)
+        private static void Move(ReplayWriter writer, List<string> links, float[] x, float[] z, int frame)
         {
             var cells = new Dictionary<(int, int), List<int>>();
             for (var i = 0; i < x.Length; i++)
@@ -79,7 +94,11 @@ namespace Collektive.Headless.Tests
                     {
                         float awayX = x[i] - x[other], awayZ = z[i] - z[other], distance = Length(awayX, awayZ);
                         if (other == i || distance > Range) continue;
-                        if (other > i && Exists(i, frame) && Exists(other, frame)) writer.Link(i, other);
+                        if (other > i && Exists(i, frame) && Exists(other, frame))
+                        {
+                            writer.Link(i, other);
+                            links.Add(Array(i, other));
+                        }
                         if (distance > 0.62f || distance < 1e-4f) continue;
                         pushX[i] += awayX / distance * (0.62f - distance) * 0.45f;
                         pushZ[i] += awayZ / distance * (0.62f - distance) * 0.45f;
@@ -89,13 +108,13 @@ namespace Collektive.Headless.Tests
             for (var i = 0; i < x.Length; i++)
             {
                 var distance = Length(x[i] - LampX, z[i]);
-                var speed = Math.Min(2.2f, distance * 0.12f) * Step;
+                var speed = Math.Min(2.2f, distance * 0.12f) * (float)Step;
                 var sway = 0.6f * (float)Math.Sin(0.13 * frame + i);
                 float moveX = (LampX - x[i]) / (distance + 0.01f) * speed, moveZ = -z[i] / (distance + 0.01f) * speed + sway * speed * 0.4f;
                 if (x[i] > 6.5f && x[i] < 12 && InsideWall(x[i] + moveX + 0.4f, z[i], out var centre))
                 {
                     moveX = 0;
-                    moveZ = (z[i] >= centre ? 1 : -1) * 2 * Step;
+                    moveZ = (z[i] >= centre ? 1 : -1) * 2 * (float)Step;
                 }
                 x[i] += moveX + pushX[i];
                 z[i] += moveZ + pushZ[i];
