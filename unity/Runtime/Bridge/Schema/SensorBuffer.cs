@@ -19,7 +19,7 @@ namespace Collektive.Bridge
         public abstract void Clear(int index);
 
         /// <summary>
-        /// Path of the element's first field that is NaN or infinite, such as <c>obstacles[2].x</c>, else null. A field whose
+        /// Path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, else null. A field whose
         /// default in the schema is not finite may hold such values and is not looked at.
         /// </summary>
         public abstract string FindNotFinite(int index);

@@ -205,9 +205,7 @@ internal object CSharp {
         else -> 4
     }
 
-    private val taken = setOf(
-        "Clear", "FindNotFinite", "Write", "Equals", "GetHashCode", "GetType", "ToString", "MemberwiseClone", "Finalize", "ReferenceEquals",
-    )
+    private val taken = setOf("Clear", "FindNotFinite", "Write")
 
     /** The C# name of a field; an underscore is added where a member of that name is there already. */
     private fun member(owner: Composite, field: Field): String {

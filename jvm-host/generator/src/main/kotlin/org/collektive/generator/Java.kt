@@ -36,6 +36,19 @@ internal object Java {
         )
     }
 
+    /**
+     * Makes flatc's code write optional scalars that are 0: it leaves them out, as if they were absent. [path] is the file's
+     * place in the output.
+     */
+    fun keepZeros(schema: UserSchema, path: String, text: String): String {
+        val table = schema.tables.find { "${it.name.toString().replace('.', '/')}.java" == path } ?: return text
+        return table.fields.filter { it.optional }.fold(text) { code, field ->
+            val add = Regex("""(void add${upperCamel(field.name)}\(.*\) \{ builder\.add\w+\()${field.id}, (.*), [^,]*\); }""")
+            check(add.containsMatchIn(code)) { "flatc writes ${table.name}.${field.name} in an unknown way" }
+            add.replace(code) { "${it.groupValues[1]}${it.groupValues[2]}); builder.slot(${field.id}); }" }
+        }
+    }
+
     private fun layoutModel(type: TableType) = mapOf(
         "constant" to constant(type),
         "fields" to type.fields.map(::fieldLayout),

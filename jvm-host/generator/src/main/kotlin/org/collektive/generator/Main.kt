@@ -42,13 +42,13 @@ private fun generate(arguments: Arguments, work: Path) {
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)
         reader.files.forEach { flatc.csharp(it, work.resolve("csharp")) }
-        output.copy(work.resolve("csharp"), CSharp::defineSymbols)
+        output.copy(work.resolve("csharp")) { _, text -> CSharp.defineSymbols(text) }
         output.write("${path(schema.name)}.cs", Templates.render("Schema.cs", CSharp.model(schema)))
     }
     arguments.java?.let { folder ->
         val output = OutputFolder(folder)
         reader.files.forEach { flatc.java(it, work.resolve("java")) }
-        output.copy(work.resolve("java")) { it }
+        output.copy(work.resolve("java")) { path, text -> Java.keepZeros(schema, path, text) }
         output.write("${path(schema.name)}.java", Templates.render("Schema.java", Java.model(schema)))
         output.write("META-INF/services/org.collektive.api.schema.DataSchema", "${schema.name}\n")
     }

@@ -12,10 +12,13 @@ internal class OutputFolder(private val root: Path) {
         Files.writeString(file, text)
     }
 
-    /** Takes over all files of [folder], each changed by [edit]. */
-    fun copy(folder: Path, edit: (String) -> String) {
+    /** Takes over all files of [folder]; [edit] gets the path and the text of each and gives its new text. */
+    fun copy(folder: Path, edit: (String, String) -> String) {
         if (!Files.exists(folder)) return
         val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }
-        for (file in files) write(folder.relativize(file).toString(), edit(Files.readString(file)))
+        for (file in files) {
+            val path = folder.relativize(file).joinToString("/")
+            write(path, edit(path, Files.readString(file)))
+        }
     }
 }

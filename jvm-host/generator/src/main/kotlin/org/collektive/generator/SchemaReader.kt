@@ -3,6 +3,7 @@ package org.collektive.generator
 import com.google.flatbuffers.reflection.BaseType
 import com.google.flatbuffers.reflection.Schema
 import java.nio.ByteBuffer
+import java.nio.file.Files
 import java.nio.file.Path
 import com.google.flatbuffers.reflection.Enum as BinaryEnum
 import com.google.flatbuffers.reflection.Field as BinaryField
@@ -21,6 +22,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         .filter { it != core }
 
     fun read(): UserSchema {
+        files.forEach(::checkNumbers)
         val sensor = root("SensorData") ?: throw missing("SensorData")
         val actuator = root("ActuatorData") ?: throw missing("ActuatorData")
         val global = root("GlobalData")
@@ -37,6 +39,19 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         )
         checkGeneratedNames(user)
         return user
+    }
+
+    /** The binary schema holds numbers as signed 64 bits and turns larger ones into 0 without a word. */
+    private fun checkNumbers(source: Path) {
+        for ((index, line) in Files.readAllLines(source).withIndex()) {
+            for (match in number.findAll(line.substringBefore("//"))) {
+                val text = match.groupValues[1]
+                val value = if (text.startsWith("0x", ignoreCase = true)) text.drop(2).toBigInteger(16) else text.toBigInteger()
+                if (value.bitLength() > 63) {
+                    throw GeneratorException("${source.fileName}:${index + 1}: $text is too large; numbers go up to ${Long.MAX_VALUE}")
+                }
+            }
+        }
     }
 
     private fun root(name: String): Composite? {
@@ -69,7 +84,9 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     }
 
     private fun field(owner: BinaryObject, source: BinaryField): Field {
-        if (source.name() == "class") throw error("${simple(owner.name())}.class: Java cannot have a getter of this name; rename the field")
+        if (upperCamel(source.name()) in reservedMembers) {
+            throw unsupported(owner, source.name(), "C# or Java has a member of this name in every class; rename the field")
+        }
         return Field(
             source.name(),
             type(owner, source),
@@ -166,6 +183,15 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private companion object {
         const val UNION = "unions are not supported; use one optional table field for each case"
+
+        /** Fields of these names would make flatc's own code fail to compile. */
+        val reservedMembers = setOf(
+            "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
+            "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer",
+        )
+
+        /** A default or enum value, decimal or hexadecimal. */
+        val number = Regex("""=\s*\+?(0[xX][0-9a-fA-F]+|[0-9]+)\b(?![.eE])""")
 
         fun simple(full: String): String = full.substringAfterLast('.')
 

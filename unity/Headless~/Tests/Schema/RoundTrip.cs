@@ -1,0 +1,114 @@
+using System;
+using System.IO;
+using System.Text;
+using Collektive.Bridge;
+using Google.FlatBuffers;
+
+namespace Collektive.Headless.Tests.Schema
+{
+    /// <summary>
+    /// The C# half of <c>schema/test/roundtrip.sh</c>: writes random sensor and global data for the JVM, and compares actuator
+    /// data that the JVM wrote. A file is a row of records: sensors, globals (-1 for none), count, frame, text; see Record.
+    /// </summary>
+    internal static class RoundTrip
+    {
+        private static int Main(string[] arguments)
+        {
+            var schema = (DataSchema)Activator.CreateInstance(Type.GetType(arguments[1] + ", TestSchemas", true));
+            if (arguments[0] == "write") return Write(schema, arguments[2], int.Parse(arguments[3]), int.Parse(arguments[4]));
+            return Read(schema, arguments[2]);
+        }
+
+        private static int Write(DataSchema schema, string file, int records, int seed)
+        {
+            var random = new RandomData(seed);
+            var sensors = schema.CreateSensors();
+            var globals = schema.CreateGlobals();
+            var builder = new FlatBufferBuilder(1024);
+            using (var output = new BinaryWriter(File.Create(file)))
+            {
+                foreach (var type in schema.Types) output.Write(type.Value);
+                for (var i = 0; i < records; i++)
+                {
+                    var count = random.Below(6);
+                    var text = new StringBuilder();
+                    Fill(sensors, random, count, text);
+                    builder.Clear();
+                    var globalOffset = -1;
+                    if (globals != null)
+                    {
+                        var draft = (Draft)globals.GetType().GetField("Data").GetValue(globals);
+                        random.Fill(draft);
+                        text.Append(Dump.Of(draft)).Append('\n');
+                        globalOffset = globals.Write(builder);
+                    }
+                    var sensorOffset = sensors.Write(builder, count);
+                    builder.Finish(sensorOffset);
+                    var frame = builder.SizedByteArray();
+                    Record(output, frame.Length - sensorOffset, globalOffset < 0 ? -1 : frame.Length - globalOffset, count, frame, text.ToString());
+                }
+            }
+            return 0;
+        }
+
+        private static void Fill(SensorBuffer sensors, RandomData random, int count, StringBuilder text)
+        {
+            sensors.EnsureCapacity(count);
+            var items = (Array)sensors.GetType().GetField("Items").GetValue(sensors);
+            for (var i = 0; i < count; i++)
+            {
+                sensors.Clear(i);
+                if (items.GetValue(i) is Draft draft) random.Fill(draft);
+                else items.SetValue(Mirror(random, sensors.DataType), i);
+                text.Append(Dump.Of(items.GetValue(i))).Append('\n');
+            }
+        }
+
+        private static object Mirror(RandomData random, Type type) => typeof(RandomData)
+            .GetMethod(nameof(RandomData.Mirror), System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)
+            .MakeGenericMethod(type).Invoke(random, null);
+
+        private static void Record(BinaryWriter output, int sensors, int globals, int count, byte[] frame, string text)
+        {
+            var utf8 = Encoding.UTF8.GetBytes(text);
+            output.Write(sensors);
+            output.Write(globals);
+            output.Write(count);
+            output.Write(frame.Length);
+            output.Write(frame);
+            output.Write(utf8.Length);
+            output.Write(utf8);
+        }
+
+        private static int Read(DataSchema schema, string file)
+        {
+            var actuators = schema.CreateActuators();
+            var item = actuators.GetType().GetProperty("Item");
+            int passed = 0, failed = 0;
+            using (var input = new BinaryReader(File.OpenRead(file)))
+            {
+                while (input.BaseStream.Position < input.BaseStream.Length)
+                {
+                    var position = input.ReadInt32();
+                    input.ReadInt32();
+                    var count = input.ReadInt32();
+                    var frame = new ByteBuffer(input.ReadBytes(input.ReadInt32()));
+                    var expected = Encoding.UTF8.GetString(input.ReadBytes(input.ReadInt32()));
+                    actuators.Attach(frame, position);
+                    var text = new StringBuilder();
+                    for (var i = 0; i < actuators.Count; i++) text.Append(Dump.Of(item.GetValue(actuators, new object[] { i }))).Append('\n');
+                    if (actuators.Count == count && text.ToString() == expected)
+                    {
+                        passed++;
+                    }
+                    else if (failed++ == 0)
+                    {
+                        Console.Error.WriteLine("record " + passed + " of " + file + "\nexpected " + expected + "\nread     " + text);
+                    }
+                }
+            }
+            Console.WriteLine(schema.Name + ": Kotlin to C#: " + passed + " passed, " + failed + " failed");
+            return 0;
+        }
+    }
+}
