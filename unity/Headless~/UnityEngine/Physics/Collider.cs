@@ -17,7 +17,6 @@ namespace UnityEngine
         internal Shape World;
         internal Vector3 Min, Max;
         internal IntPtr Geom;
-        internal int QueryStamp;
 
         Shape local; // relative to the body, or to the world without one
         bool geomStale = true;

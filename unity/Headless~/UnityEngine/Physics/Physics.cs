@@ -85,22 +85,18 @@ namespace UnityEngine
         // ---- Spheres and points ---------------------------------------------------------------------------------------
 
         /// In no particular order, as in Unity; what does not fit is left out.
-        public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask = AllLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal)
-        {
-            var count = Queries.Overlaps(position, radius, layerMask, queryTriggerInteraction, results.Length);
-            Array.Copy(PhysicsWorld.Grid.Found, results, count);
-            return count;
-        }
+        public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask = AllLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(position, radius, results, layerMask, queryTriggerInteraction);
 
         public static Collider[] OverlapSphere(Vector3 position, float radius, int layerMask = AllLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal)
         {
-            var results = new Collider[Queries.Overlaps(position, radius, layerMask, queryTriggerInteraction)];
-            Array.Copy(PhysicsWorld.Grid.Found, results, results.Length);
+            var results = new Collider[Queries.Count(position, radius, layerMask, queryTriggerInteraction)];
+            Queries.Overlaps(position, radius, results, layerMask, queryTriggerInteraction);
             return results;
         }
 
         public static bool CheckSphere(Vector3 position, float radius, int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Overlaps(position, radius, layerMask, queryTriggerInteraction, 1) > 0;
+            Queries.Count(position, radius, layerMask, queryTriggerInteraction) > 0;
 
         public static Vector3 ClosestPoint(Vector3 point, Collider collider, Vector3 position, Quaternion rotation) =>
             collider.ShapeAt(position, rotation).ClosestPoint(point);

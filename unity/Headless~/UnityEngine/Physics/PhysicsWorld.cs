@@ -12,7 +12,7 @@ namespace UnityEngine
         static readonly List<Rigidbody> Bodies = new List<Rigidbody>();
         static readonly List<Collider> Colliders = new List<Collider>();
         static readonly List<Transform> Moved = new List<Transform>();
-        static readonly ColumnGrid Columns = new ColumnGrid();
+        static readonly ColliderGrid Places = new ColliderGrid();
         static readonly Touches Touching = new Touches();
         static readonly Ode.Contact* Contacts = (Ode.Contact*)Marshal.AllocHGlobal(Ode.MaxContacts * sizeof(Ode.Contact));
 
@@ -27,13 +27,13 @@ namespace UnityEngine
 
         public static IntPtr Handle => world != IntPtr.Zero ? world : Create();
 
-        public static ColumnGrid Grid
+        public static ColliderGrid Grid
         {
             get
             {
-                if (GridStale) Columns.Build(Colliders);
+                if (GridStale) Places.Build(Colliders);
                 GridStale = false;
-                return Columns;
+                return Places;
             }
         }
 
@@ -180,7 +180,7 @@ namespace UnityEngine
                     var candidates = grid.InBox(collider.Min, collider.Max);
                     for (var index = 0; index < candidates; index++)
                     {
-                        var other = grid.Found[index];
+                        var other = grid.Found(index);
                         if (other.IsStatic) Examine(collider, other);
                         else if (collider.id < other.id && !ReferenceEquals(other.Body, body)) Examine(collider, other);
                     }

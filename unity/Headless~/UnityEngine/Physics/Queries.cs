@@ -10,18 +10,25 @@ namespace UnityEngine
                 || triggers == QueryTriggerInteraction.UseGlobal && Physics.queriesHitTriggers;
         }
 
-        /// Brings those that touch the sphere to the front of the grid's result; returns their number.
-        public static int Overlaps(Vector3 center, float radius, int layerMask, QueryTriggerInteraction triggers, int limit = int.MaxValue)
+        /// Puts colliders that touch the sphere into the array as far as it goes; returns how many there are, or the array's length if that is less.
+        public static int Overlaps(Vector3 center, float radius, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
         {
             var grid = PhysicsWorld.Grid;
-            var reach = new Vector3(radius, radius, radius);
-            int candidates = grid.InBox(center - reach, center + reach), count = 0;
-            var found = grid.Found;
-            for (var index = 0; index < candidates && count < limit; index++)
+            int touching = grid.InSphere(center, radius), count = 0;
+            for (var index = 0; index < touching && count < results.Length; index++)
             {
-                var collider = found[index];
-                if (Passes(collider, layerMask, triggers) && collider.World.TouchesSphere(center, radius)) found[count++] = collider;
+                var collider = grid.Found(index);
+                if (Passes(collider, layerMask, triggers)) results[count++] = collider;
             }
+            return count;
+        }
+
+        public static int Count(Vector3 center, float radius, int layerMask, QueryTriggerInteraction triggers)
+        {
+            var grid = PhysicsWorld.Grid;
+            int touching = grid.InSphere(center, radius), count = 0;
+            for (var index = 0; index < touching; index++)
+                if (Passes(grid.Found(index), layerMask, triggers)) count++;
             return count;
         }
 
@@ -41,10 +48,10 @@ namespace UnityEngine
             nearest = default;
             var unit = direction.normalized;
             if (unit.sqrMagnitude == 0f) return false;
-            var candidates = PhysicsWorld.Grid.AlongRay(origin, unit, maxDistance);
-            var found = PhysicsWorld.Grid.Found;
+            var grid = PhysicsWorld.Grid;
+            var candidates = grid.AlongRay(origin, unit, maxDistance);
             for (var index = 0; index < candidates; index++)
-                if (Passes(found[index], layerMask, triggers) && Hits(found[index], origin, unit, maxDistance, out var hit)
+                if (Passes(grid.Found(index), layerMask, triggers) && Hits(grid.Found(index), origin, unit, maxDistance, out var hit)
                     && (nearest.collider is null || hit.distance < nearest.distance))
                     nearest = hit;
             return !(nearest.collider is null);
@@ -54,11 +61,11 @@ namespace UnityEngine
         {
             var unit = direction.normalized;
             if (unit.sqrMagnitude == 0f) return 0;
-            var candidates = PhysicsWorld.Grid.AlongRay(origin, unit, maxDistance);
-            var found = PhysicsWorld.Grid.Found;
+            var grid = PhysicsWorld.Grid;
+            var candidates = grid.AlongRay(origin, unit, maxDistance);
             var count = 0;
             for (var index = 0; index < candidates && count < results.Length; index++)
-                if (Passes(found[index], layerMask, triggers) && Hits(found[index], origin, unit, maxDistance, out var hit)) results[count++] = hit;
+                if (Passes(grid.Found(index), layerMask, triggers) && Hits(grid.Found(index), origin, unit, maxDistance, out var hit)) results[count++] = hit;
             return count;
         }
     }

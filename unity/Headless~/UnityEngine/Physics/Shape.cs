@@ -47,10 +47,11 @@ namespace UnityEngine
             return Center + Rotation * (Radius > 0f ? core + beyond * (Radius / distance) : core);
         }
 
-        public readonly bool TouchesSphere(Vector3 center, float radius)
+        public readonly bool TouchesSphere(in Vector3 center, float radius)
         {
-            if (IsSphere) return (center - Center).sqrMagnitude <= (radius + Radius) * (radius + Radius);
-            return (ClosestPoint(center) - center).sqrMagnitude <= radius * radius;
+            if (!IsSphere) return (ClosestPoint(center) - center).sqrMagnitude <= radius * radius;
+            float x = center.x - Center.x, y = center.y - Center.y, z = center.z - Center.z, reach = radius + Radius;
+            return x * x + y * y + z * z <= reach * reach;
         }
 
         /// Where a ray (unit direction) enters; a ray that starts inside does not hit.

@@ -32,8 +32,8 @@ namespace UnityEngine
         readonly Stack<Touch> spare = new Stack<Touch>();
         readonly Collision message = new Collision();
         Contact[] contacts = new Contact[64];
-        Ode.JointFeedback** feedback; // one block per contact: joints keep the address, so blocks never move
-        int feedbackCapacity, contactCount, step;
+        IntPtr[] feedback = new IntPtr[0]; // one JointFeedback per contact: joints keep the address, so they never move
+        int contactCount, step;
 
         public void BeginStep()
         {
@@ -85,7 +85,7 @@ namespace UnityEngine
         public Ode.JointFeedback* AddContact(Touch touch, Ode.ContactGeometry* geometry)
         {
             if (contactCount == contacts.Length) Array.Resize(ref contacts, 2 * contactCount);
-            if (contactCount == feedbackCapacity) GrowFeedback();
+            if (contactCount == feedback.Length) GrowFeedback();
             var flip = touch.A.Geom == geometry->geom1 ? 1f : -1f;
             contacts[contactCount] = new Contact
             {
@@ -94,16 +94,15 @@ namespace UnityEngine
                 Depth = (float)geometry->depth,
             };
             touch.ContactCount++;
-            return feedback[contactCount++];
+            return (Ode.JointFeedback*)feedback[contactCount++];
         }
 
         void GrowFeedback()
         {
-            var capacity = Math.Max(64, 2 * feedbackCapacity);
-            feedback = (Ode.JointFeedback**)Marshal.ReAllocHGlobal((IntPtr)feedback, (IntPtr)(capacity * sizeof(IntPtr)));
-            var block = (Ode.JointFeedback*)Marshal.AllocHGlobal((capacity - feedbackCapacity) * sizeof(Ode.JointFeedback));
-            for (var index = feedbackCapacity; index < capacity; index++) feedback[index] = block++;
-            feedbackCapacity = capacity;
+            var known = feedback.Length;
+            Array.Resize(ref feedback, Math.Max(64, 2 * known));
+            var block = (Ode.JointFeedback*)Marshal.AllocHGlobal((feedback.Length - known) * sizeof(Ode.JointFeedback));
+            for (var index = known; index < feedback.Length; index++) feedback[index] = (IntPtr)block++;
         }
 
         public void SendMessages(float duration)
@@ -117,8 +116,9 @@ namespace UnityEngine
                 else SendCollision(touch, duration);
             }
             var kept = 0;
-            foreach (var touch in ordered)
+            for (var index = 0; index < ordered.Count; index++)
             {
+                var touch = ordered[index];
                 if (touch.LastStep == step && touch.StillRegistered) ordered[kept++] = touch;
                 else Forget(touch);
             }
@@ -188,7 +188,7 @@ namespace UnityEngine
             {
                 var contact = contacts[index];
                 // ODE gives the force on the joint's first body, which is B when A has none.
-                var force = feedback[index]->force1;
+                var force = ((Ode.JointFeedback*)feedback[index])->force1;
                 var impulse = new Vector3((float)force[0], (float)force[1], (float)force[2]) * (duration * (touch.A.IsStatic ? -sign : sign));
                 message.impulse += impulse;
                 message.Contacts.Add(new ContactPoint

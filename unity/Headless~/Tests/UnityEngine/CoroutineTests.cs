@@ -1,0 +1,129 @@
+using System.Collections;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class CoroutineTests : PlayerFixture
+    {
+        public class Runner : MonoBehaviour
+        {
+            public bool Open;
+
+            void Update() => Notes.Add("Update");
+            void LateUpdate() => Notes.Add("LateUpdate");
+
+            public IEnumerator Frames()
+            {
+                Notes.Add("a");
+                yield return null;
+                Notes.Add("b");
+                yield return null;
+                Notes.Add("c");
+            }
+
+            public IEnumerator Seconds(float seconds)
+            {
+                yield return new WaitForSeconds(seconds);
+                Notes.Add("waited");
+            }
+
+            public IEnumerator Nested()
+            {
+                yield return Frames();
+                Notes.Add("outer");
+                yield return StartCoroutine(Seconds(0f));
+                Notes.Add("end");
+            }
+
+            public IEnumerator Phases()
+            {
+                yield return new WaitForFixedUpdate();
+                Notes.Add("fixed");
+                yield return new WaitForEndOfFrame();
+                Notes.Add("frame end");
+                yield return new WaitUntil(() => Open);
+                Notes.Add("open");
+            }
+        }
+
+        public class StartsAsCoroutine : MonoBehaviour
+        {
+            IEnumerator Start()
+            {
+                Notes.Add("first");
+                yield return null;
+                Notes.Add("second");
+            }
+        }
+
+        static void Frames(int count)
+        {
+            for (var frame = 0; frame < count; frame++) Loop.Frame(0.02f);
+        }
+
+        [Test]
+        public void Null_waits_for_the_next_frame_between_Update_and_LateUpdate()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.Frames());
+            Frames(2);
+            Assert.That(Told(), Is.EqualTo("a Update b LateUpdate Update c LateUpdate"));
+        }
+
+        [Test]
+        public void Seconds_are_those_of_the_game()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.Seconds(0.1f));
+            Frames(4);
+            Assert.That(Notes, Has.No.Member("waited"));
+            Frames(2);
+            Assert.That(Notes, Has.Member("waited"));
+        }
+
+        [Test]
+        public void Nested_routines_and_coroutines_are_waited_for()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.Nested());
+            Frames(5);
+            Notes.RemoveAll(note => note.EndsWith("Update"));
+            Assert.That(Told(), Is.EqualTo("a b c outer waited end"));
+        }
+
+        [Test]
+        public void Fixed_update_end_of_frame_and_conditions_have_their_places()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.Phases());
+            Frames(1);
+            Assert.That(Told(), Is.EqualTo("fixed Update LateUpdate frame end"));
+            Frames(2);
+            runner.Open = true;
+            Frames(1);
+            Assert.That(Notes, Has.Member("open"));
+        }
+
+        [Test]
+        public void A_coroutine_ends_when_stopped_or_when_its_object_is_deactivated()
+        {
+            var runner = Add<Runner>();
+            runner.StopCoroutine(runner.StartCoroutine(runner.Frames()));
+            runner.StartCoroutine(runner.Frames());
+            runner.gameObject.SetActive(false);
+            runner.gameObject.SetActive(true);
+            Frames(2);
+            Assert.That(Notes, Has.No.Member("b"));
+        }
+
+        [Test]
+        public void Start_may_be_a_coroutine()
+        {
+            Add<StartsAsCoroutine>();
+            Frames(2);
+            Assert.That(Told(), Is.EqualTo("first second"));
+        }
+    }
+}

@@ -1,0 +1,77 @@
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class DestroyTests : PlayerFixture
+    {
+        public class Part : MonoBehaviour
+        {
+            void OnDisable() => Notes.Add(name + ".OnDisable");
+            void OnDestroy() => Notes.Add(name + ".OnDestroy");
+        }
+
+        [Test]
+        public void Destroy_waits_for_the_end_of_the_frame()
+        {
+            var part = Add<Part>("a");
+            Object.Destroy(part);
+            Assert.That(part != null, Is.True);
+            Loop.Frame(0.01f);
+            Assert.That(part == null, Is.True);
+            Assert.That(Told(), Is.EqualTo("a.OnDisable a.OnDestroy"));
+        }
+
+        [Test]
+        public void A_destroyed_object_equals_null_but_not_for_CSharp()
+        {
+            var holder = new GameObject("a");
+            var part = holder.AddComponent<Part>();
+            Object.DestroyImmediate(holder);
+            Assert.That(part == null, Is.True);
+            Assert.That(part.Equals(null), Is.True);
+            Assert.That((bool)part, Is.False);
+            Assert.That(part is null, Is.False);
+            Assert.That(part?.enabled, Is.True);
+            Assert.That(part.ToString(), Is.EqualTo("null"));
+            Assert.Throws<MissingReferenceException>(() => _ = part.transform);
+            Assert.Throws<MissingReferenceException>(() => _ = holder.name);
+        }
+
+        [Test]
+        public void Children_go_with_their_parent_and_all_are_disabled_before_any_is_destroyed()
+        {
+            var parent = Add<Part>("p");
+            var child = Add<Part>("c");
+            child.transform.SetParent(parent.transform);
+            Object.Destroy(parent.gameObject);
+            Loop.Frame(0.01f);
+            Assert.That(child == null, Is.True);
+            Assert.That(Told(), Is.EqualTo("p.OnDisable c.OnDisable p.OnDestroy c.OnDestroy"));
+        }
+
+        [Test]
+        public void A_delayed_destruction_waits_for_its_time()
+        {
+            var holder = new GameObject();
+            Object.Destroy(holder, 0.05f);
+            Loop.Frame(0.02f);
+            Loop.Frame(0.02f);
+            Assert.That(holder != null, Is.True);
+            Loop.Frame(0.02f);
+            Assert.That(holder == null, Is.True);
+        }
+
+        [Test]
+        public void A_destroyed_component_is_no_longer_found()
+        {
+            var part = Add<Part>();
+            var holder = part.gameObject;
+            Object.DestroyImmediate(part);
+            Assert.That(holder.GetComponent<Part>() == null, Is.True);
+            Assert.That(holder.TryGetComponent<Part>(out _), Is.False);
+            Assert.That(Object.FindAnyObjectByType<Part>() == null, Is.True);
+        }
+    }
+}

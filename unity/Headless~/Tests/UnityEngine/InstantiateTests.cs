@@ -1,0 +1,73 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class InstantiateTests : PlayerFixture
+    {
+        [Serializable]
+        public class Settings
+        {
+            public int count;
+        }
+
+        public class Template : MonoBehaviour
+        {
+            public int number;
+            public List<string> names = new List<string>();
+            public Settings settings = new Settings();
+            public Transform child;
+            public GameObject stranger;
+            [SerializeField] float hidden;
+            [NonSerialized] public int transient;
+            public float Hidden { get => hidden; set => hidden = value; }
+            void Awake() => Notes.Add($"Awake({number} at {transform.position.x:0})");
+        }
+
+        [Test]
+        public void A_copy_has_the_serialised_values_of_its_own_before_Awake()
+        {
+            var holder = new GameObject("template");
+            holder.SetActive(false);
+            var original = holder.AddComponent<Template>();
+            holder.AddComponent<SphereCollider>().radius = 0.25f;
+            var child = new GameObject("child").transform;
+            child.SetParent(holder.transform);
+            var stranger = new GameObject("stranger");
+            original.number = 7;
+            original.names.Add("one");
+            original.settings.count = 3;
+            original.child = child;
+            original.stranger = stranger;
+            original.Hidden = 0.5f;
+            original.transient = 9;
+
+            var copy = UnityEngine.Object.Instantiate(original, new Vector3(4f, 0f, 0f), Quaternion.identity);
+            copy.gameObject.SetActive(true);
+
+            Assert.That(Told(), Is.EqualTo("Awake(7 at 4)"));
+            Assert.That(copy.name, Is.EqualTo("template(Clone)"));
+            Assert.That(copy.names, Is.EqualTo(new[] { "one" }).And.Not.SameAs(original.names));
+            Assert.That(copy.settings, Is.Not.SameAs(original.settings));
+            Assert.That(copy.settings.count, Is.EqualTo(3));
+            Assert.That(copy.child, Is.SameAs(copy.transform.GetChild(0)));
+            Assert.That(copy.stranger, Is.SameAs(stranger));
+            Assert.That(copy.Hidden, Is.EqualTo(0.5f));
+            Assert.That(copy.transient, Is.EqualTo(0));
+            Assert.That(copy.GetComponent<SphereCollider>().radius, Is.EqualTo(0.25f));
+        }
+
+        [Test]
+        public void A_copy_under_a_parent_keeps_its_local_place()
+        {
+            var parent = new GameObject().transform;
+            parent.position = new Vector3(10f, 0f, 0f);
+            var original = new GameObject().transform;
+            original.position = new Vector3(1f, 0f, 0f);
+            Assert.That(UnityEngine.Object.Instantiate(original, parent).position, Is.EqualTo(new Vector3(11f, 0f, 0f)));
+            Assert.That(UnityEngine.Object.Instantiate(original, Vector3.up, Quaternion.identity, parent).position, Is.EqualTo(Vector3.up));
+        }
+    }
+}

@@ -1,0 +1,245 @@
+using System;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class LifecycleTests : PlayerFixture
+    {
+        public class Witness : MonoBehaviour
+        {
+            protected void Note(string what) => Notes.Add(name + "." + what);
+            void Awake() => Note("Awake");
+            void OnEnable() => Note("OnEnable");
+            void Start() => Note("Start");
+            void FixedUpdate() => Note("FixedUpdate");
+            void Update() => Note("Update");
+            void LateUpdate() => Note("LateUpdate");
+            void OnDisable() => Note("OnDisable");
+            void OnDestroy() => Note("OnDestroy");
+            void OnApplicationQuit() => Note("OnApplicationQuit");
+        }
+
+        public class Heir : Witness { }
+
+        public class Quiet : MonoBehaviour
+        {
+            void Awake() => Notes.Add(name);
+        }
+
+        [DefaultExecutionOrder(-5)] public class Early : Quiet { void Update() => Notes.Add("early"); }
+        public class Middle : Quiet { void Update() => Notes.Add("middle"); }
+        [DefaultExecutionOrder(7)] public class Late : Quiet { void Update() => Notes.Add("late"); }
+
+        public class Thrower : MonoBehaviour
+        {
+            void Start() => throw new InvalidOperationException("start failed");
+            void Update() => throw new InvalidOperationException("update failed");
+        }
+
+        public class FailsToAwake : MonoBehaviour
+        {
+            void Awake() => throw new InvalidOperationException("awake failed");
+            void OnEnable() => Notes.Add("enabled");
+        }
+
+        public class Spawner : MonoBehaviour
+        {
+            void Update()
+            {
+                if (Time.frameCount == 1) new GameObject("child").AddComponent<Witness>();
+            }
+        }
+
+        [RequireComponent(typeof(Rigidbody), typeof(SphereCollider))] public class Needy : MonoBehaviour { }
+        [DisallowMultipleComponent] public class Single : MonoBehaviour { }
+        public class SingleHeir : Single { }
+
+        [Test]
+        public void A_script_lives_in_the_order_of_the_manual()
+        {
+            var witness = Add<Witness>("a");
+            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable"));
+            Loop.Frame(0.02f);
+            UnityEngine.Object.Destroy(witness.gameObject);
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo(
+                "a.Awake a.OnEnable a.Start a.FixedUpdate a.Update a.LateUpdate a.Update a.LateUpdate a.OnDisable a.OnDestroy"));
+        }
+
+        [Test]
+        public void Private_messages_of_base_classes_are_found()
+        {
+            Add<Heir>("h");
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("h.Awake h.OnEnable h.Start h.Update h.LateUpdate"));
+        }
+
+        [Test]
+        public void Every_Start_comes_before_any_Update()
+        {
+            Add<Witness>("a");
+            Add<Witness>("b");
+            Notes.Clear();
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("a.Start b.Start a.Update b.Update a.LateUpdate b.LateUpdate"));
+        }
+
+        [Test]
+        public void Execution_order_rules_updates()
+        {
+            Add<Late>();
+            Add<Middle>();
+            Add<Early>();
+            Notes.Clear();
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("early middle late"));
+        }
+
+        [Test]
+        public void Execution_order_rules_the_Awake_of_a_batch()
+        {
+            var root = new GameObject("root");
+            root.SetActive(false);
+            Child<Late>("late");
+            Child<Middle>("middle");
+            Child<Early>("early");
+            root.SetActive(true);
+            Assert.That(Told(), Is.EqualTo("early middle late"));
+
+            void Child<T>(string name) where T : Component
+            {
+                var child = new GameObject(name);
+                child.transform.SetParent(root.transform);
+                child.AddComponent<T>();
+            }
+        }
+
+        [Test]
+        public void An_inactive_object_wakes_when_activated_and_not_before()
+        {
+            var holder = new GameObject("a");
+            holder.SetActive(false);
+            var witness = holder.AddComponent<Witness>();
+            Loop.Frame(0.02f);
+            Assert.That(Told(), Is.Empty);
+            Assert.That(witness.isActiveAndEnabled, Is.False);
+            holder.SetActive(true);
+            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable"));
+            holder.SetActive(false);
+            holder.SetActive(true);
+            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable a.OnDisable a.OnEnable"));
+        }
+
+        [Test]
+        public void An_object_that_never_woke_is_destroyed_in_silence()
+        {
+            var holder = new GameObject("a");
+            holder.SetActive(false);
+            holder.AddComponent<Witness>();
+            UnityEngine.Object.DestroyImmediate(holder);
+            Assert.That(Told(), Is.Empty);
+        }
+
+        [Test]
+        public void A_disabled_component_wakes_but_does_not_start()
+        {
+            var holder = new GameObject("a");
+            holder.SetActive(false);
+            var witness = holder.AddComponent<Witness>();
+            witness.enabled = false;
+            holder.SetActive(true);
+            Loop.Frame(0.02f);
+            Assert.That(Told(), Is.EqualTo("a.Awake"));
+            witness.enabled = true;
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable a.Start a.Update a.LateUpdate"));
+        }
+
+        [Test]
+        public void A_child_follows_the_activity_of_its_parent()
+        {
+            var parent = new GameObject("parent");
+            var child = Add<Witness>("c");
+            child.transform.SetParent(parent.transform);
+            Notes.Clear();
+            parent.SetActive(false);
+            Assert.That(child.gameObject.activeSelf, Is.True);
+            Assert.That(child.gameObject.activeInHierarchy, Is.False);
+            child.transform.SetParent(null);
+            Assert.That(Told(), Is.EqualTo("c.OnDisable c.OnEnable"));
+        }
+
+        [Test]
+        public void Exceptions_are_logged_and_stop_nobody_else()
+        {
+            Add<Thrower>();
+            Add<Witness>("w");
+            Notes.Clear();
+            Loop.Frame(0.001f);
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("w.Start w.Update w.LateUpdate w.Update w.LateUpdate"));
+            Assert.That(Errors, Is.EqualTo(new[] { "start failed", "update failed", "update failed" }));
+        }
+
+        [Test]
+        public void A_script_whose_Awake_throws_is_off()
+        {
+            var script = Add<FailsToAwake>();
+            Assert.That(script.enabled, Is.False);
+            Assert.That(Told(), Is.Empty);
+        }
+
+        [Test]
+        public void What_Update_spawns_starts_before_LateUpdate_and_updates_in_the_next_frame()
+        {
+            Add<Spawner>();
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("child.Awake child.OnEnable child.Start child.LateUpdate"));
+            Notes.Clear();
+            Loop.Frame(0.001f);
+            Assert.That(Told(), Is.EqualTo("child.Update child.LateUpdate"));
+        }
+
+        [TestCase(0.02f, 1)]
+        [TestCase(0.1f, 5)]
+        [TestCase(0.05f, 2)]
+        public void Fixed_updates_keep_up_with_the_frame(float deltaTime, int expected)
+        {
+            Add<Witness>("a");
+            Loop.Frame(deltaTime);
+            Assert.That(Notes.FindAll(note => note == "a.FixedUpdate").Count, Is.EqualTo(expected));
+        }
+
+        [Test]
+        public void Quit_tells_everyone_and_destroys()
+        {
+            var quitting = 0;
+            Application.quitting += () => quitting++;
+            Add<Witness>("a");
+            Notes.Clear();
+            Loop.Quit();
+            Assert.That(Told(), Is.EqualTo("a.OnApplicationQuit a.OnDisable a.OnDestroy"));
+            Assert.That(quitting, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Required_components_come_along()
+        {
+            var holder = Add<Needy>().gameObject;
+            Assert.That(holder.GetComponents<Component>().Length, Is.EqualTo(4));
+            Assert.That(holder.GetComponent<Rigidbody>(), Is.Not.Null);
+            Assert.That(holder.GetComponent<Collider>(), Is.InstanceOf<SphereCollider>());
+        }
+
+        [Test]
+        public void A_single_component_and_its_heirs_are_refused_twice()
+        {
+            var holder = Add<Single>().gameObject;
+            Assert.That(holder.AddComponent<Single>() == null, Is.True);
+            Assert.That(holder.AddComponent<SingleHeir>() == null, Is.True);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+        }
+    }
+}

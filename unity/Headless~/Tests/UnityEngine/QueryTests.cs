@@ -1,0 +1,176 @@
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class QueryTests : PhysicsFixture
+    {
+        static readonly Collider[] Results = new Collider[4096];
+
+        [TestCase(500, 60f, 3f)]
+        [TestCase(2000, 20f, 3f)]
+        [TestCase(300, 15f, 20f)]
+        public void Overlaps_of_spheres_are_those_of_brute_force(int count, float half, float radius)
+        {
+            var random = new System.Random(count);
+            Floor();
+            var colliders = new List<SphereCollider>();
+            for (var index = 0; index < count; index++)
+            {
+                var place = new Vector3(Number(half), Number(3f), Number(half));
+                var collider = new GameObject().AddComponent<SphereCollider>();
+                collider.transform.position = place;
+                collider.radius = 0.1f + (float)random.NextDouble() * (index % 50 == 0 ? 10f : 0.5f);
+                colliders.Add(collider);
+            }
+            Physics.SyncTransforms();
+            for (var trial = 0; trial < 100; trial++)
+            {
+                var center = new Vector3(Number(half), Number(3f), Number(half));
+                var expected = new HashSet<Collider>();
+                foreach (var collider in colliders)
+                    if (Vector3.Distance(collider.transform.position, center) <= radius + collider.radius) expected.Add(collider);
+                var found = new HashSet<Collider>();
+                var number = Physics.OverlapSphereNonAlloc(center, radius, Results);
+                for (var index = 0; index < number; index++)
+                    if (Results[index] is SphereCollider) found.Add(Results[index]);
+                Assert.That(found.SetEquals(expected), $"{found.Count} instead of {expected.Count} around {center}");
+            }
+
+            float Number(float most) => (float)(random.NextDouble() * 2 - 1) * most;
+        }
+
+        [Test]
+        public void Overlaps_follow_moving_bodies()
+        {
+            var bodies = new List<Rigidbody>();
+            for (var index = 0; index < 50; index++)
+            {
+                var body = Ball(new Vector3(index * 3f - 75f, 0f, 0f));
+                body.useGravity = false;
+                body.linearVelocity = new Vector3(0f, 0f, index);
+                bodies.Add(body);
+            }
+            Run(1f);
+            foreach (var body in bodies)
+            {
+                Assert.That(Physics.OverlapSphereNonAlloc(body.transform.position, 0.1f, Results), Is.EqualTo(1));
+                Assert.That(Results[0].attachedRigidbody, Is.SameAs(body));
+            }
+        }
+
+        [Test]
+        public void Too_small_a_buffer_is_filled()
+        {
+            for (var index = 0; index < 10; index++) Box(Vector3.zero, Vector3.one);
+            Assert.That(Physics.OverlapSphereNonAlloc(Vector3.zero, 1f, new Collider[4]), Is.EqualTo(4));
+            Assert.That(Physics.OverlapSphere(Vector3.zero, 1f).Length, Is.EqualTo(10));
+        }
+
+        [Test]
+        public void Layers_and_triggers_are_filtered()
+        {
+            var box = Box(Vector3.zero, Vector3.one);
+            box.gameObject.layer = 5;
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f, 1 << 5), Is.True);
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f, ~(1 << 5)), Is.False);
+            box.isTrigger = true;
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f, ~0, QueryTriggerInteraction.Ignore), Is.False);
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f, ~0, QueryTriggerInteraction.Collide), Is.True);
+            Physics.queriesHitTriggers = false;
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f), Is.False);
+        }
+
+        [Test]
+        public void Closest_points_by_hand()
+        {
+            var box = Box(new Vector3(0f, 0f, 0f), new Vector3(2f, 2f, 2f));
+            Assert.That(box.ClosestPoint(new Vector3(5f, 0.5f, 0f)) == new Vector3(1f, 0.5f, 0f), Is.True);
+            Assert.That(box.ClosestPoint(new Vector3(0.2f, 0.3f, 0f)) == new Vector3(0.2f, 0.3f, 0f), Is.True);
+            box.transform.rotation = Quaternion.Euler(0f, 45f, 0f);
+            Physics.SyncTransforms();
+            Assert.That(box.ClosestPoint(new Vector3(5f, 0f, 0f)) == new Vector3(Mathf.Sqrt(2f), 0f, 0f), Is.True);
+            var capsule = new GameObject().AddComponent<CapsuleCollider>();
+            capsule.height = 4f;
+            Assert.That(capsule.ClosestPoint(new Vector3(0f, 9f, 0f)) == new Vector3(0f, 2f, 0f), Is.True);
+            Assert.That(capsule.ClosestPoint(new Vector3(3f, 1f, 0f)) == new Vector3(0.5f, 1f, 0f), Is.True);
+            capsule.direction = 0;
+            Assert.That(capsule.ClosestPoint(new Vector3(9f, 0f, 0f)) == new Vector3(2f, 0f, 0f), Is.True);
+            Assert.That(Physics.ClosestPoint(new Vector3(9f, 0f, 0f), capsule, new Vector3(1f, 0f, 0f), Quaternion.identity) == new Vector3(3f, 0f, 0f), Is.True);
+        }
+
+        [Test]
+        public void Rays_by_hand()
+        {
+            var box = Box(new Vector3(10f, 0f, 0f), new Vector3(2f, 2f, 2f));
+            var ball = Ball(new Vector3(0f, 0f, 10f), 1f);
+            var capsule = new GameObject().AddComponent<CapsuleCollider>();
+            capsule.transform.position = new Vector3(-10f, 0f, 0f);
+            capsule.height = 4f;
+            Physics.SyncTransforms();
+
+            Assert.That(Physics.Raycast(Vector3.zero, new Vector3(7f, 0f, 0f), out var hit), Is.True);
+            Assert.That(hit.collider, Is.SameAs(box));
+            Assert.That(hit.distance, Is.EqualTo(9f).Within(1e-5f));
+            Assert.That(hit.point == new Vector3(9f, 0f, 0f) && hit.normal == Vector3.left, Is.True);
+
+            Assert.That(Physics.Raycast(new Ray(new Vector3(0f, 0.6f, 0f), Vector3.forward), out hit), Is.True);
+            Assert.That(hit.rigidbody, Is.SameAs(ball));
+            Assert.That(hit.distance, Is.EqualTo(9.2f).Within(1e-4f));
+            Assert.That(hit.normal == new Vector3(0f, 0.6f, -0.8f), Is.True);
+
+            Assert.That(Physics.Raycast(new Vector3(0f, 1f, 0f), Vector3.left, out hit), Is.True);
+            Assert.That(hit.distance, Is.EqualTo(9.5f).Within(1e-4f));
+            Assert.That(Physics.Raycast(new Vector3(-10f, 9f, 0f), Vector3.down, out hit), Is.True);
+            Assert.That(hit.distance, Is.EqualTo(7f).Within(1e-4f));
+
+            Assert.That(Physics.Raycast(Vector3.zero, Vector3.right, 8.9f), Is.False);
+            Assert.That(Physics.Raycast(Vector3.zero, Vector3.up), Is.False);
+            Assert.That(Physics.Raycast(new Vector3(10f, 0f, 0f), Vector3.right), Is.False, "from inside");
+            Assert.That(Physics.Linecast(Vector3.zero, new Vector3(9.5f, 0f, 0f), out hit) && hit.collider == box, Is.True);
+            box.gameObject.layer = 2;
+            Assert.That(Physics.Raycast(Vector3.zero, Vector3.right), Is.False, "Ignore Raycast");
+        }
+
+        [Test]
+        public void The_nearest_of_random_spheres_is_hit()
+        {
+            var random = new System.Random(3);
+            var balls = new List<SphereCollider>();
+            for (var index = 0; index < 400; index++)
+            {
+                var ball = new GameObject().AddComponent<SphereCollider>();
+                ball.transform.position = new Vector3(Number(), Number() * 0.1f, Number());
+                balls.Add(ball);
+            }
+            Physics.SyncTransforms();
+            var hits = 0;
+            for (var trial = 0; trial < 300; trial++)
+            {
+                var origin = new Vector3(Number(), Number(), Number()) * 1.5f;
+                var direction = (balls[trial].transform.position - origin + new Vector3(Number(), 0f, Number()) * 0.02f).normalized;
+                var expected = float.PositiveInfinity;
+                foreach (var ball in balls)
+                    if (ball.Raycast(new Ray(origin, direction), out var one, 1000f)) expected = Mathf.Min(expected, one.distance);
+                var found = Physics.Raycast(origin, direction, out var hit);
+                Assert.That(found, Is.EqualTo(!float.IsInfinity(expected)));
+                if (!found) continue;
+                hits++;
+                Assert.That(hit.distance, Is.EqualTo(expected));
+            }
+            Assert.That(hits, Is.GreaterThan(100));
+
+            float Number() => (float)(random.NextDouble() * 2 - 1) * 40f;
+        }
+
+        [Test]
+        public void All_hits_of_a_ray_are_given()
+        {
+            for (var index = 1; index <= 5; index++) Box(new Vector3(index * 2f, 0f, 0f), Vector3.one);
+            var hits = new RaycastHit[16];
+            Assert.That(Physics.RaycastNonAlloc(Vector3.zero, Vector3.right, hits), Is.EqualTo(5));
+            Assert.That(Physics.RaycastNonAlloc(Vector3.zero, Vector3.right, hits, 5f), Is.EqualTo(2));
+        }
+    }
+}

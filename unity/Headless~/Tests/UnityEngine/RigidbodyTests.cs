@@ -1,0 +1,245 @@
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class RigidbodyTests : PhysicsFixture
+    {
+        [Test]
+        public void Free_fall_is_semi_implicit_Euler()
+        {
+            var ball = Ball(new Vector3(0f, 100f, 0f));
+            Run(1f);
+            const int steps = 50;
+            Assert.That(ball.transform.position.y, Is.EqualTo(100f - 9.81f * Step * Step * steps * (steps + 1) / 2f).Within(1e-3f));
+            Assert.That(ball.linearVelocity.y, Is.EqualTo(-9.81f).Within(1e-3f));
+        }
+
+        [Test]
+        public void Damping_without_gravity_is_geometric()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.linearDamping = 1f;
+            ball.linearVelocity = new Vector3(1f, 0f, 0f);
+            Run(0.2f);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(Mathf.Pow(0.98f, 10f)).Within(1e-4f));
+        }
+
+        [TestCase(ForceMode.Force, 0.01f)]
+        [TestCase(ForceMode.Acceleration, 0.02f)]
+        [TestCase(ForceMode.Impulse, 0.5f)]
+        [TestCase(ForceMode.VelocityChange, 1f)]
+        public void The_four_force_modes(ForceMode mode, float speedAfterOneStep)
+        {
+            var ball = Ball(Vector3.zero);
+            ball.mass = 2f;
+            ball.useGravity = false;
+            ball.AddForce(Vector3.right, mode);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(0f), "before the step");
+            Run(Step);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(speedAfterOneStep).Within(1e-6f));
+            Run(Step);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(speedAfterOneStep).Within(1e-6f), "a force lasts one step");
+        }
+
+        [Test]
+        public void Torque_turns_a_ball_by_its_inertia()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.angularDamping = 0f;
+            ball.AddTorque(new Vector3(0f, 0.1f, 0f), ForceMode.Impulse);
+            Run(Step);
+            Assert.That(ball.angularVelocity.y, Is.EqualTo(0.1f / (0.4f * 0.5f * 0.5f)).Within(1e-3f));
+        }
+
+        [Test]
+        public void A_ball_comes_to_rest_on_a_box()
+        {
+            Floor();
+            var ball = Ball(new Vector3(0f, 2f, 0f));
+            Run(4f);
+            Assert.That(ball.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
+            Assert.That(ball.linearVelocity.magnitude, Is.LessThan(0.01f));
+        }
+
+        [Test]
+        public void A_wall_stops_a_pushed_ball()
+        {
+            Floor();
+            Box(new Vector3(5f, 1.5f, 0f), new Vector3(1f, 3f, 5f));
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            for (var step = 0; step < 200; step++)
+            {
+                ball.AddForce(20f, 0f, 0f);
+                Physics.Simulate(Step);
+            }
+            Assert.That(ball.transform.position.x, Is.EqualTo(4f).Within(0.05f));
+        }
+
+        [Test]
+        public void Without_friction_sliding_keeps_its_speed()
+        {
+            Floor(Slippery());
+            var ball = Ball(new Vector3(-20f, 0.5f, 0f), material: Slippery());
+            Run(1f);
+            ball.linearVelocity = new Vector3(4f, 0f, 0f);
+            Run(5f);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(4f).Within(1e-4f));
+            Assert.That(ball.angularVelocity.magnitude, Is.LessThan(1e-4f));
+            Assert.That(ball.transform.position.x, Is.EqualTo(0f).Within(1e-2f));
+        }
+
+        [Test]
+        public void Friction_stops_a_sliding_box()
+        {
+            Floor();
+            var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
+            Run(0.2f);
+            box.linearVelocity = new Vector3(3f, 0f, 0f);
+            Run(2f);
+            Assert.That(box.linearVelocity.magnitude, Is.LessThan(0.01f));
+            // v^2 / (2 mu g)
+            Assert.That(box.transform.position.x, Is.EqualTo(9f / (2f * 0.6f * 9.81f)).Within(0.1f));
+        }
+
+        [TestCase(0f, 0f, 0.05f)]
+        [TestCase(0.8f, 2.56f, 0.4f)]
+        public void Bounciness_gives_back_speed(float bounciness, float heightAfterBounce, float tolerance)
+        {
+            var material = new PhysicsMaterial { bounciness = bounciness, bounceCombine = PhysicsMaterialCombine.Maximum };
+            Floor(material);
+            var ball = Ball(new Vector3(0f, 4.5f, 0f), material: material);
+            Run(0.95f); // after the impact
+            var highest = 0f;
+            for (var step = 0; step < 100; step++)
+            {
+                Physics.Simulate(Step);
+                highest = Mathf.Max(highest, ball.transform.position.y - 0.5f);
+            }
+            Assert.That(highest, Is.EqualTo(heightAfterBounce).Within(tolerance));
+        }
+
+        [Test]
+        public void The_speed_limit_holds()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.maxLinearVelocity = 5f;
+            ball.AddForce(new Vector3(100f, 0f, 0f), ForceMode.VelocityChange);
+            Run(1f);
+            Assert.That(ball.linearVelocity.magnitude, Is.LessThanOrEqualTo(5.0001f));
+        }
+
+        [Test]
+        public void A_frozen_rotation_stays_exactly()
+        {
+            Floor();
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            ball.constraints = RigidbodyConstraints.FreezeRotation;
+            Box(new Vector3(3f, 1f, 0.4f), new Vector3(1f, 2f, 1f));
+            for (var step = 0; step < 300; step++)
+            {
+                ball.AddForce(15f, 0f, 0f);
+                ball.AddTorque(5f, 5f, 5f);
+                Physics.Simulate(Step);
+            }
+            Assert.That(ball.transform.rotation.Equals(Quaternion.identity), Is.True);
+            Assert.That(ball.angularVelocity, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void A_frozen_position_stays_exactly_and_the_others_move()
+        {
+            var ball = Ball(new Vector3(0f, 1f, 0f));
+            ball.constraints = RigidbodyConstraints.FreezePositionY | RigidbodyConstraints.FreezeRotation;
+            ball.linearVelocity = new Vector3(1f, 0f, 0f);
+            Run(1f);
+            Assert.That(ball.transform.position.y, Is.EqualTo(1f));
+            Assert.That(ball.transform.position.x, Is.EqualTo(1f).Within(1e-4f));
+        }
+
+        [Test]
+        public void A_kinematic_body_pushes_and_is_not_pushed()
+        {
+            Floor(Slippery());
+            var ball = Ball(new Vector3(1.2f, 0.5f, 0f), material: Slippery());
+            var pusher = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
+            pusher.isKinematic = true;
+            for (var step = 1; step <= 100; step++)
+            {
+                pusher.MovePosition(new Vector3(step * 0.02f, 0.5f, 0f));
+                Physics.Simulate(Step);
+            }
+            Assert.That(pusher.transform.position.x, Is.EqualTo(2f).Within(1e-4f));
+            Assert.That(pusher.transform.position.y, Is.EqualTo(0.5f));
+            Assert.That(ball.transform.position.x, Is.GreaterThan(2.95f));
+        }
+
+        [Test]
+        public void Colliders_of_children_belong_to_the_body_and_set_its_centre()
+        {
+            var body = new GameObject("body");
+            foreach (var x in new[] { 1f, 3f })
+            {
+                var part = new GameObject("part");
+                part.transform.SetParent(body.transform);
+                part.transform.localPosition = new Vector3(x, 0f, 0f);
+                part.AddComponent<SphereCollider>();
+            }
+            var rigidbody = body.AddComponent<Rigidbody>();
+            Assert.That(body.transform.GetChild(0).GetComponent<Collider>().attachedRigidbody, Is.SameAs(rigidbody));
+            Assert.That((rigidbody.worldCenterOfMass - new Vector3(2f, 0f, 0f)).magnitude, Is.LessThan(1e-5f));
+            rigidbody.useGravity = false;
+            rigidbody.angularDamping = 0f;
+            rigidbody.angularVelocity = new Vector3(0f, Mathf.PI, 0f); // half a turn a second about the centre
+            Run(1f);
+            Assert.That((body.transform.position - new Vector3(4f, 0f, 0f)).magnitude, Is.LessThan(0.05f));
+            Assert.That((body.transform.GetChild(1).GetComponent<Collider>().bounds.center - new Vector3(1f, 0f, 0f)).magnitude, Is.LessThan(0.05f));
+        }
+
+        [Test]
+        public void A_sleeping_body_waits_for_a_push()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            ball.Sleep();
+            Run(0.2f);
+            Assert.That(ball.IsSleeping(), Is.True);
+            Assert.That(ball.transform.position.y, Is.EqualTo(5f));
+            ball.AddForce(Vector3.right);
+            Run(0.2f);
+            Assert.That(ball.IsSleeping(), Is.False);
+            Assert.That(ball.transform.position.y, Is.LessThan(5f));
+        }
+
+        [Test]
+        public void Layers_and_pairs_can_be_ignored()
+        {
+            Floor().gameObject.layer = 8;
+            Ball(new Vector3(0f, 1f, 0f)).gameObject.layer = 9;
+            Physics.IgnoreLayerCollision(8, 9);
+            var through = Ball(new Vector3(5f, 1f, 0f));
+            Physics.IgnoreCollision(through.GetComponent<Collider>(), Object.FindAnyObjectByType<BoxCollider>());
+            var stays = Ball(new Vector3(-5f, 1f, 0f));
+            Run(2f);
+            Assert.That(through.transform.position.y, Is.LessThan(-2f));
+            Assert.That(stays.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
+        }
+
+        [Test]
+        public void The_fixed_update_steps_physics_unless_scripts_do()
+        {
+            Physics.simulationMode = SimulationMode.FixedUpdate;
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            Loop.Frame(0.1f);
+            Assert.That(ball.transform.position.y, Is.LessThan(5f));
+            Physics.Simulate(Step);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Physics.simulationMode = SimulationMode.Script;
+            var height = ball.transform.position.y;
+            Loop.Frame(0.1f);
+            Assert.That(ball.transform.position.y, Is.EqualTo(height));
+        }
+    }
+}

@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    /// Many bodies at once: repeatability, garbage, cost.
+    public sealed class SwarmTests : PhysicsFixture
+    {
+        public class Counter : MonoBehaviour
+        {
+            public static int Calls;
+            void FixedUpdate() => Calls++;
+            void Update() => Calls++;
+            void LateUpdate() => Calls++;
+            void OnCollisionEnter(Collision collision) => Calls++;
+            void OnTriggerEnter(Collider other) => Calls++;
+        }
+
+        static readonly Collider[] Results = new Collider[1024];
+
+        /// Balls without friction on a floor with four obstacles, drawn to one point.
+        static List<Rigidbody> Swarm(int count, bool listeners)
+        {
+            var slippery = Slippery();
+            Floor(slippery);
+            for (var index = 0; index < 4; index++) Box(new Vector3(10f, 1.5f, index * 8f - 12f), new Vector3(1f, 3f, 5f), slippery);
+            var random = new System.Random(9);
+            var bodies = new List<Rigidbody>();
+            var side = Mathf.CeilToInt(Mathf.Sqrt(count));
+            for (var index = 0; index < count; index++)
+            {
+                var place = new Vector3(index % side * 0.8f - 35f + (float)random.NextDouble() * 0.2f, 0.25f, index / side * 0.8f - side * 0.4f);
+                var body = Ball(place, 0.25f, slippery);
+                body.maxLinearVelocity = 5f;
+                if (listeners) body.gameObject.AddComponent<Counter>();
+                bodies.Add(body);
+            }
+            return bodies;
+        }
+
+        static void Tick(List<Rigidbody> bodies)
+        {
+            foreach (var body in bodies)
+            {
+                Physics.OverlapSphereNonAlloc(body.transform.position, 3f, Results);
+                body.AddForce(Vector3.ClampMagnitude(new Vector3(25f, 0.25f, 0f) - body.transform.position, 5f));
+            }
+            Physics.Simulate(Step);
+            Physics.Simulate(Step);
+            Loop.Frame(0.02f);
+        }
+
+        static ulong PositionsAfter(int ticks)
+        {
+            var bodies = Swarm(200, true);
+            for (var tick = 0; tick < ticks; tick++) Tick(bodies);
+            var hash = 14695981039346656037UL;
+            foreach (var body in bodies)
+            {
+                var place = body.transform.position;
+                foreach (var value in new[] { place.x, place.y, place.z }) hash = (hash ^ (uint)BitConverter.SingleToInt32Bits(value)) * 1099511628211UL;
+            }
+            return hash;
+        }
+
+        [Test]
+        public void Two_runs_with_one_seed_are_equal_to_the_bit()
+        {
+            var first = PositionsAfter(250);
+            Loop.Reset();
+            Loop.Start(1);
+            Physics.simulationMode = SimulationMode.Script;
+            Assert.That(PositionsAfter(250), Is.EqualTo(first));
+            Console.WriteLine($"positions {first:x16}"); // the same in every process
+        }
+
+        [Test]
+        public void A_tick_makes_no_garbage()
+        {
+            var bodies = Swarm(300, true);
+            for (var tick = 0; tick < 400; tick++) Tick(bodies);
+            var calls = Counter.Calls;
+            var ticks = Allocated(() =>
+            {
+                for (var tick = 0; tick < 200; tick++) Tick(bodies);
+            });
+            var control = Allocated(() =>
+            {
+                for (var tick = 0; tick < 200; tick++) GC.KeepAlive(new byte[64]);
+            });
+            Assert.That(Counter.Calls, Is.GreaterThan(calls + 200 * 300));
+            Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the control allocates, so the measure works");
+            Assert.That(ticks, Is.LessThan(200), "bytes in 200 ticks");
+        }
+
+        static long Allocated(Action action)
+        {
+            GC.Collect();
+            var before = GC.GetAllocatedBytesForCurrentThread();
+            action();
+            return GC.GetAllocatedBytesForCurrentThread() - before;
+        }
+
+        [TestCase(500)]
+        [TestCase(2000)]
+        public void A_swarm_stays_on_the_floor_and_within_its_budget(int count)
+        {
+            var bodies = Swarm(count, false);
+            double physics = 0, overlaps = 0;
+            const int ticks = 300;
+            var clock = new Stopwatch();
+            for (var tick = 0; tick < ticks; tick++)
+            {
+                clock.Restart();
+                foreach (var body in bodies) Physics.OverlapSphereNonAlloc(body.transform.position, 3f, Results);
+                overlaps += clock.Elapsed.TotalMilliseconds;
+                foreach (var body in bodies) body.AddForce(Vector3.ClampMagnitude(new Vector3(5f, 0.25f, 0f) - body.transform.position, 5f));
+                clock.Restart();
+                Physics.Simulate(Step);
+                physics += clock.Elapsed.TotalMilliseconds;
+            }
+            Console.WriteLine($"{count} bodies: {physics / ticks:0.00} ms a step, {overlaps / ticks:0.00} ms for {count} overlap queries of 3 m");
+            foreach (var body in bodies) Assert.That(body.transform.position.y, Is.InRange(0.2f, 3f));
+        }
+    }
+}

@@ -1,0 +1,174 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class TouchTests : PhysicsFixture
+    {
+        public class Listener : MonoBehaviour
+        {
+            public Collision Last;
+            public ContactPoint Contact;
+            public float Impulse;
+            void OnTriggerEnter(Collider other) => Notes.Add(name + " enter " + other.name);
+            void OnTriggerStay(Collider other) => Notes.Add(name + " stay " + other.name);
+            void OnTriggerExit(Collider other) => Notes.Add(name + " exit " + other.name);
+
+            void OnCollisionEnter(Collision collision)
+            {
+                Notes.Add(name + " hits " + collision.gameObject.name);
+                Contact = collision.GetContact(0);
+                Impulse = collision.impulse.y;
+                Last = collision;
+            }
+
+            void OnCollisionExit() => Notes.Add(name + " leaves");
+        }
+
+        static Rigidbody Mover(Vector3 place)
+        {
+            var mover = Ball(place);
+            mover.name = "mover";
+            mover.isKinematic = true;
+            return mover;
+        }
+
+        static BoxCollider Zone()
+        {
+            var zone = Box(Vector3.zero, Vector3.one);
+            zone.name = "zone";
+            zone.isTrigger = true;
+            zone.gameObject.AddComponent<Listener>();
+            return zone;
+        }
+
+        static void StepAt(Rigidbody body, float x)
+        {
+            body.transform.position = new Vector3(x, 0f, 0f);
+            Physics.Simulate(Step);
+        }
+
+        [Test]
+        public void A_trigger_tells_enter_once_then_stay_then_exit()
+        {
+            Zone();
+            var mover = Mover(new Vector3(5f, 0f, 0f));
+            StepAt(mover, 5f);
+            StepAt(mover, 0.8f);
+            StepAt(mover, 0.4f);
+            StepAt(mover, 0f);
+            StepAt(mover, 5f);
+            StepAt(mover, 5f);
+            Assert.That(Told(), Is.EqualTo("zone enter mover zone stay mover zone stay mover zone exit mover"));
+        }
+
+        [Test]
+        public void Both_sides_hear_of_a_trigger_even_disabled_ones()
+        {
+            Zone().GetComponent<Listener>().enabled = false;
+            var mover = Mover(Vector3.zero);
+            mover.gameObject.AddComponent<Listener>();
+            Physics.Simulate(Step);
+            Assert.That(Notes, Is.EquivalentTo(new[] { "zone enter mover", "mover enter zone" }));
+        }
+
+        [Test]
+        public void Two_static_colliders_tell_nothing()
+        {
+            Zone();
+            Box(Vector3.zero, Vector3.one);
+            Physics.Simulate(Step);
+            Assert.That(Notes, Is.Empty);
+        }
+
+        [Test]
+        public void A_trigger_holds_nobody_up()
+        {
+            Zone();
+            var ball = Ball(new Vector3(0f, 3f, 0f));
+            Run(2f);
+            Assert.That(ball.transform.position.y, Is.LessThan(-5f));
+            Assert.That(Notes[0], Is.EqualTo("zone enter ball"));
+            Assert.That(Notes[Notes.Count - 1], Is.EqualTo("zone exit ball"));
+        }
+
+        [Test]
+        public void Disabled_and_destroyed_colliders_give_no_exit_and_enter_again()
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            Physics.Simulate(Step);
+            mover.gameObject.SetActive(false);
+            Physics.Simulate(Step);
+            mover.gameObject.SetActive(true);
+            Physics.Simulate(Step);
+            Object.DestroyImmediate(mover.gameObject);
+            Physics.Simulate(Step);
+            Assert.That(Told(), Is.EqualTo("zone enter mover zone enter mover"));
+        }
+
+        [Test]
+        public void A_trigger_of_a_child_tells_the_body_too()
+        {
+            var parent = Mover(new Vector3(9f, 0f, 0f));
+            parent.gameObject.AddComponent<Listener>();
+            var child = new GameObject("child");
+            child.transform.SetParent(parent.transform, false);
+            var range = child.AddComponent<SphereCollider>();
+            range.radius = 3f;
+            range.isTrigger = true;
+            child.AddComponent<Listener>();
+            Box(new Vector3(11.5f, 0f, 0f), Vector3.one);
+            Physics.Simulate(Step);
+            Assert.That(Notes, Is.EquivalentTo(new[] { "child enter box", "mover enter box" }));
+        }
+
+        [Test]
+        public void A_collision_tells_where_how_fast_and_how_hard()
+        {
+            Floor().name = "floor";
+            var ball = Ball(new Vector3(2f, 3f, 1f));
+            var listener = ball.gameObject.AddComponent<Listener>();
+            var before = 0f;
+            while (Notes.Count == 0)
+            {
+                before = ball.linearVelocity.y;
+                Physics.Simulate(Step);
+            }
+            Assert.That(Told(), Is.EqualTo("ball hits floor"));
+            Assert.That(listener.Last.relativeVelocity.y, Is.EqualTo(-before + 9.81f * Step).Within(1e-3f));
+            Assert.That(listener.Contact.normal == Vector3.up, Is.True);
+            Assert.That(listener.Contact.thisCollider.name, Is.EqualTo("ball"));
+            Assert.That((listener.Contact.point - new Vector3(2f, 0f, 1f)).magnitude, Is.LessThan(0.2f));
+            Assert.That(listener.Impulse, Is.EqualTo(ball.linearVelocity.y - (before - 9.81f * Step)).Within(0.02f));
+            ball.transform.position = new Vector3(2f, 3f, 1f);
+            Physics.Simulate(Step);
+            Assert.That(Told(), Is.EqualTo("ball hits floor ball leaves"));
+        }
+
+        [Test]
+        public void A_moved_transform_is_seen_by_physics_only_after_a_sync()
+        {
+            var target = Box(Vector3.zero, Vector3.one);
+            Physics.SyncTransforms();
+            target.transform.position = new Vector3(10f, 0f, 0f);
+            Assert.That(Physics.CheckSphere(Vector3.zero, 0.1f), Is.True);
+            Assert.That(target.bounds.center, Is.EqualTo(Vector3.zero));
+            Physics.SyncTransforms();
+            Assert.That(Physics.CheckSphere(Vector3.zero, 0.1f), Is.False);
+            Assert.That(Physics.CheckSphere(new Vector3(10f, 0f, 0f), 0.1f), Is.True);
+        }
+
+        [Test]
+        public void A_moved_parent_moves_the_colliders_of_its_children()
+        {
+            var parent = new GameObject("parent").transform;
+            Box(Vector3.zero, Vector3.one).transform.SetParent(parent);
+            parent.position = new Vector3(0f, 7f, 0f);
+            parent.localScale = new Vector3(2f, 2f, 2f);
+            Physics.SyncTransforms();
+            Assert.That(Physics.CheckSphere(new Vector3(0f, 7.95f, 0f), 0.01f), Is.True);
+            Assert.That(Physics.CheckSphere(Vector3.zero, 0.1f), Is.False);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class TransformTests : PlayerFixture
+    {
+        const int Trials = 200;
+
+        static System.Random random;
+
+        [SetUp]
+        public void Seed() => random = new System.Random(42);
+
+        static float Number(float least, float most) => least + (float)random.NextDouble() * (most - least);
+        static Vector3 Vector(float size) => new Vector3(Number(-size, size), Number(-size, size), Number(-size, size));
+        static Quaternion Turn() => Quaternion.Euler(Number(-180f, 180f), Number(-180f, 180f), Number(-180f, 180f));
+
+        static Transform Chain(int depth)
+        {
+            Transform last = null;
+            for (var level = 0; level < depth; level++)
+            {
+                var next = new GameObject().transform;
+                next.SetParent(last, false);
+                next.localPosition = Vector(10f);
+                next.localRotation = Turn();
+                next.localScale = new Vector3(Number(0.5f, 2f), Number(0.5f, 2f), Number(0.5f, 2f));
+                last = next;
+            }
+            return last;
+        }
+
+        static void Same(Vector3 actual, Vector3 expected, float tolerance = 1e-2f) => Assert.That((actual - expected).magnitude, Is.LessThan(tolerance), $"{actual} is not {expected}");
+
+        [Test]
+        public void Points_vectors_and_directions_come_back_from_the_world()
+        {
+            for (var trial = 0; trial < Trials; trial++)
+            {
+                var transform = Chain(1 + trial % 4);
+                var value = Vector(5f);
+                Same(transform.InverseTransformPoint(transform.TransformPoint(value)), value);
+                Same(transform.InverseTransformVector(transform.TransformVector(value)), value);
+                Same(transform.InverseTransformDirection(transform.TransformDirection(value)), value);
+                Same(transform.localToWorldMatrix.MultiplyPoint3x4(value), transform.TransformPoint(value));
+                Same(transform.worldToLocalMatrix.MultiplyPoint3x4(transform.TransformPoint(value)), value);
+            }
+        }
+
+        [Test]
+        public void World_position_and_rotation_are_kept_when_set()
+        {
+            for (var trial = 0; trial < Trials; trial++)
+            {
+                var transform = Chain(1 + trial % 4);
+                var position = Vector(20f);
+                var rotation = Turn();
+                transform.SetPositionAndRotation(position, rotation);
+                Same(transform.position, position);
+                Assert.That(Quaternion.Angle(transform.rotation, rotation), Is.LessThan(0.1f));
+            }
+        }
+
+        [Test]
+        public void A_new_parent_leaves_the_world_pose()
+        {
+            for (var trial = 0; trial < Trials; trial++)
+            {
+                Transform child = Chain(2), parent = Chain(1);
+                var position = child.position;
+                var rotation = child.rotation;
+                child.SetParent(parent);
+                Same(child.position, position);
+                Assert.That(Quaternion.Angle(child.rotation, rotation), Is.LessThan(0.1f));
+                Assert.That(child.parent, Is.SameAs(parent));
+            }
+        }
+
+        [Test]
+        public void Hand_values()
+        {
+            var parent = new GameObject("parent").transform;
+            parent.position = new Vector3(1f, 2f, 3f);
+            parent.rotation = Quaternion.Euler(0f, 90f, 0f);
+            parent.localScale = new Vector3(2f, 2f, 2f);
+            var child = new GameObject("child").transform;
+            child.SetParent(parent, false);
+            child.localPosition = new Vector3(0f, 0f, 1f);
+            Same(child.position, new Vector3(3f, 2f, 3f), 1e-5f);
+            Same(child.forward, Vector3.right, 1e-5f);
+            Same(child.lossyScale, new Vector3(2f, 2f, 2f), 1e-5f);
+            child.Translate(0f, 0f, 1f);
+            Same(child.position, new Vector3(4f, 2f, 3f), 1e-5f);
+            child.LookAt(child.position + Vector3.back);
+            Same(child.forward, Vector3.back, 1e-5f);
+        }
+
+        [Test]
+        public void The_hierarchy_is_kept_in_order()
+        {
+            var root = new GameObject("root").transform;
+            foreach (var name in new[] { "a", "b", "c" }) new GameObject(name).transform.SetParent(root);
+            root.GetChild(2).SetAsFirstSibling();
+            Assert.That(root.childCount, Is.EqualTo(3));
+            Assert.That(root.GetChild(0).name, Is.EqualTo("c"));
+            Assert.That(root.Find("b").GetSiblingIndex(), Is.EqualTo(2));
+            Assert.That(root.GetChild(1).IsChildOf(root), Is.True);
+            root.SetParent(root.GetChild(1));
+            Assert.That(root.parent, Is.Null);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            root.DetachChildren();
+            Assert.That(root.childCount, Is.EqualTo(0));
+        }
+    }
+}
