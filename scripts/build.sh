@@ -21,7 +21,7 @@ jvm_fingerprint() {
 build_jvm() {
   setup_flatc
   [ -f "$HOST_JAR" ] && [ -f "$GENERATOR_JAR" ] || rm -f "$BUILD/stamp/jvm-host"
-  once jvm-host "$(jvm_fingerprint)" maven package -DskipTests
+  once jvm-host "$(jvm_fingerprint)" maven package -Dmaven.test.skip=true
 }
 
 # Maven of the reactor; progress is one line per module in the log.

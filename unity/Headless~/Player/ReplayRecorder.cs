@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using Collektive.Bridge;
 using Collektive.Unity;
 using UnityEngine;
-using Object = UnityEngine.Object;
+using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
 {
@@ -49,7 +49,8 @@ namespace Collektive.Headless
 
         private void Describe(ReplayMetadata metadata)
         {
-            var colliders = Object.FindObjectsByType<Collider>(FindObjectsSortMode.InstanceID);
+            var colliders = new List<Collider>();
+            foreach (var root in SceneManager.GetActiveScene().GetRootGameObjects()) colliders.AddRange(root.GetComponentsInChildren<Collider>());
             var floor = FindFloor(colliders);
             var arena = floor == null ? new Bounds() : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
             foreach (var collider in colliders)
@@ -77,7 +78,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>The standing box with the largest top, if all nodes are above it: the page draws a floor of its own there.</summary>
-        private Collider FindFloor(Collider[] colliders)
+        private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
             foreach (var collider in colliders)
