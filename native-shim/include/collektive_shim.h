@@ -12,14 +12,17 @@
  *
  * Threads
  *   All functions may be called from any thread. Calls that need the engine (start, open, step, close, stop) are served
- *   one at a time; a second caller waits its turn within its own limit.
+ *   one at a time; a second caller waits its turn within its own limit, and gets CLK_TIMEOUT with nothing done when that
+ *   passes. A call whose host does not come back within its limit and 2 s more loses the JVM: CLK_JVM_LOST. In a forked
+ *   child process the JVM counts as lost.
  *
  * Errors
  *   Functions return CLK_OK or a negative code of CLK_ERRORS. clk_last_error() gives the whole text of the calling
  *   thread's last failure: what happened, to what, and what to do next.
  *
  * Structs of the caller
- *   Each begins with `size`, set by the caller to sizeof(struct): later versions append fields.
+ *   Each begins with `size`, set by the caller to sizeof(struct): later versions append fields. Smaller ones than this
+ *   header's are CLK_ARGUMENT, but for clk_stats; fields of a larger clk_jvm_config must be 0.
  *
  * Strings are UTF-8 and ended by NUL. Pointers passed in are only read during the call.
  */
@@ -108,7 +111,8 @@ CLK_API int32_t clk_jvm_start(const clk_jvm_config *config);
 /* One of enum clk_jvm_state. Never waits. */
 CLK_API int32_t clk_jvm_state(void);
 
-/* Copies the running (or lost) JVM's description, "home\nversion\noption\noption...", like clk_last_error does. */
+/* Copies the description of the JVM that was started, "home\nversion\noption\noption...", like clk_last_error does. Without
+ * one CLK_JVM_NOT_RUNNING. */
 CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
 
 /* Closes all sessions and destroys the JVM on the engine thread. For the end of the process only: no JVM can follow.
@@ -129,11 +133,13 @@ typedef struct clk_memory {
  * Needs no JVM. */
 CLK_API int32_t clk_slot_acquire(int32_t capacity, clk_slot *slot, clk_memory *memory);
 
-/* Makes an own slot at least `capacity` bytes large. The last `keep` bytes of the old memory become the last bytes of the
- * new (FlatBuffers are built from the back). The old address is invalid afterwards. */
+/* Makes an own slot at least `capacity` bytes large; one that is large enough stays as it is. The last `keep` bytes of the
+ * old memory become the last bytes of the new (FlatBuffers are built from the back). The old address is invalid afterwards.
+ * CLK_ARGUMENT while a call uses the slot. */
 CLK_API int32_t clk_slot_grow(clk_slot slot, int32_t capacity, int32_t keep, clk_memory *memory);
 
-/* Gives a slot back. Its memory stays in the pool for the next one who asks. */
+/* Gives a slot back. Its memory stays in the pool for the next one who asks (up to 64 MiB unused, the rest goes back to the
+ * system). A call that uses it at this moment keeps the memory until it ends. */
 CLK_API int32_t clk_slot_release(clk_slot slot);
 
 /* ---- Sessions -------------------------------------------------------------------------------------------------------- */
@@ -149,7 +155,7 @@ typedef struct clk_answer {
     uint8_t *address;  /* of the slot's first byte: the answer begins at address + offset */
 } clk_answer;
 
-/* Opens a session with the OpenRequest in the slot; the answer holds an OpenResponse. */
+/* Opens a session with the OpenRequest in the slot; the answer holds an OpenResponse. At most 256 are open at a time. */
 CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
                                  clk_answer *answer);
 
@@ -166,7 +172,8 @@ CLK_API int32_t clk_session_close(clk_session session, int32_t limit_ms);
 enum clk_log_level { CLK_LOG_DEBUG = 0, CLK_LOG_INFO = 1, CLK_LOG_WARNING = 2, CLK_LOG_ERROR = 3 };
 
 /* Takes the oldest log line from the ring: copies it to `buffer` (cut to capacity - 1) and returns its length there, or -1
- * when there is none. `level` gets one of enum clk_log_level. Lines that did not fit the ring are counted in clk_stats. */
+ * when there is none. `level` (may be NULL) gets one of enum clk_log_level. A line has at most 8191 bytes. The ring holds
+ * 256 KiB; lines that did not fit are counted in clk_stats. */
 CLK_API int32_t clk_log_read(int32_t *level, char *buffer, int32_t capacity);
 
 typedef struct clk_stats {
