@@ -1,0 +1,39 @@
+package org.collektive.api
+
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+class ParametersTest {
+    private val parameters = Parameters(mapOf("step" to "1.5", "count" to "3", "loud" to "true", "name" to "x"))
+
+    @Test
+    fun `values are read as what the program asks for`() {
+        assertEquals("1.5", parameters["step"])
+        assertEquals(1.5, parameters.double("step"))
+        assertEquals(3, parameters.int("count"))
+        assertEquals(true, parameters.boolean("loud"))
+    }
+
+    @Test
+    fun `an unknown name is refused with those that there are`() {
+        val error = assertFailsWith<NoSuchElementException> { parameters["stpe"] }
+        assertEquals("the program declares no parameter 'stpe', only [step, count, loud, name]", error.message)
+    }
+
+    @Test
+    fun `a text of another kind is refused with the text`() {
+        assertEquals(
+            "parameter 'name' must be a number, but is 'x'",
+            assertFailsWith<IllegalArgumentException> { parameters.double("name") }.message,
+        )
+        assertEquals(
+            "parameter 'step' must be a whole number, but is '1.5'",
+            assertFailsWith<IllegalArgumentException> { parameters.int("step") }.message,
+        )
+        assertEquals(
+            "parameter 'count' must be true or false, but is '3'",
+            assertFailsWith<IllegalArgumentException> { parameters.boolean("count") }.message,
+        )
+    }
+}

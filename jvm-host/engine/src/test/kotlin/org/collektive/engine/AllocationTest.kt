@@ -1,0 +1,73 @@
+package org.collektive.engine
+
+import com.sun.management.ThreadMXBean
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.runtime.AggregateRuntimes
+import org.junit.jupiter.api.Test
+import java.lang.management.ManagementFactory
+import java.util.concurrent.TimeUnit
+import kotlin.test.assertTrue
+
+/** The engine itself allocates nothing per tick once it is warm; a control that does shows that the measure works. */
+class AllocationTest {
+    private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
+    private val answer = Any()
+
+    private inner class Constant(private val allocates: Boolean) : NodeProgram {
+        override val name = "constant"
+
+        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any = if (allocates) LongArray(4) else answer
+
+        override fun describe(failure: Throwable) = failure.toString()
+    }
+
+    private object NoData : RoundData {
+        override fun sensors(worker: Int, index: Int): Any? = null
+
+        override fun fault(worker: Int, answer: Any): String? = null
+    }
+
+    @Test
+    fun `no allocation per tick in steady state`() {
+        for (schedule in Schedule.entries) {
+            val control = bytesPerTick(schedule, allocates = true)
+            assertTrue(control > NODES * 32, "the control allocates at least its arrays, but only $control B were seen")
+            val bytes = bytesPerTick(schedule, allocates = false)
+            assertTrue(bytes < 1, "$schedule: $bytes B per tick")
+        }
+    }
+
+    /** Bytes that the engine's thread and those of its pool allocate; the least of several runs, since the JIT allocates too. */
+    private fun bytesPerTick(schedule: Schedule, allocates: Boolean): Long {
+        Engine(EngineSettings(1, 2, schedule), AggregateRuntimes()).use { engine ->
+            val tick = Tick()
+            for (id in 0 until NODES) tick.nodesAdded.add(NewNode(id, Constant(allocates), Parameters(emptyMap())))
+            for (id in 1 until NODES) tick.links.add(id - 1, id, 1f, 0f)
+            fun step() {
+                tick.number++
+                tick.time += 0.1
+                for (id in 0 until NODES) tick.due.add(id)
+                for (id in 1 until NODES step 10) tick.links.add(id - 1, id, tick.time.toFloat(), 0f)
+                engine.step(tick, NoData, System.nanoTime() + TimeUnit.SECONDS.toNanos(10))
+                tick.clear()
+            }
+            tick.links.clear()
+            repeat(WARM_UP) { step() }
+            val own = Thread.getAllStackTraces().keys.filter { it is RoundThread || it === Thread.currentThread() }
+            val ids = own.map { it.id }.toLongArray()
+            return (1..5).minOf {
+                val before = threads.getThreadAllocatedBytes(ids).sum()
+                repeat(TICKS) { step() }
+                (threads.getThreadAllocatedBytes(ids).sum() - before) / TICKS
+            }
+        }
+    }
+
+    private companion object {
+        const val NODES = 500
+        const val WARM_UP = 500
+        const val TICKS = 2000
+    }
+}

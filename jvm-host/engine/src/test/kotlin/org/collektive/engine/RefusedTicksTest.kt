@@ -1,0 +1,110 @@
+package org.collektive.engine
+
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.toMap
+import org.junit.jupiter.api.DynamicTest
+import org.junit.jupiter.api.TestFactory
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+/** Each bad tick is refused with a message that names the tick, the id and the value, and leaves no trace. */
+class RefusedTicksTest {
+    private class Case(val message: String, val fill: TestEngine.(Tick) -> Unit)
+
+    private val cases = listOf(
+        Case("tick 7: tick 3 must come next") { it.number = 7 },
+        Case("tick 2: tick 3 must come next") { it.number = 2 },
+        Case("tick 3: the time is NaN; it must be finite") { it.time = Double.NaN },
+        Case("tick 3: the time is Infinity; it must be finite") { it.time = Double.POSITIVE_INFINITY },
+        Case("tick 3: the delta time is NaN; it must be finite and 0 or greater") { it.deltaTime = Double.NaN },
+        Case("tick 3: the delta time is -0.5; it must be finite and 0 or greater") { it.deltaTime = -0.5 },
+        Case("tick 3: node 9 cannot be removed: there is none") { it.nodesRemoved.add(9) },
+        Case("tick 3: node 1 is removed twice") { tick -> repeat(2) { tick.nodesRemoved.add(1) } },
+        Case("tick 3: node -1 cannot be added: ids are 0 or greater") { it.add(-1) },
+        Case("tick 3: node 2 cannot be added: it is there already") { it.add(2) },
+        Case("tick 3: node 8 is added twice") { it.add(8, 7, 8) },
+        Case("tick 3: link 1 -> 9 cannot be removed: there is none") { it.unlink(1, 9) },
+        Case("tick 3: link 2 -> 1 cannot be removed: there is none") { it.unlink(2, 1) },
+        Case("tick 3: link 1 -> 2 is removed twice") { tick -> repeat(2) { tick.unlink(1, 2) } },
+        Case("tick 3: link 1 -> 2 cannot be removed: there is none") {
+            it.nodesRemoved.add(2)
+            it.unlink(1, 2)
+        },
+        Case("tick 3: node 1 cannot be linked to itself") { it.link(1, 1) },
+        Case("tick 3: link 9 -> 1: there is no node 9") { it.link(9, 1) },
+        Case("tick 3: link 1 -> 9: there is no node 9") { it.link(1, 9) },
+        Case("tick 3: link 1 -> 2: there is no node 2") {
+            it.nodesRemoved.add(2)
+            it.link(1, 2)
+        },
+        Case("tick 3: link 1 -> 2 has length NaN; it must be finite and 0 or greater") { it.links.add(1, 2, Float.NaN, 0f) },
+        Case("tick 3: link 1 -> 2 has length -1.0; it must be finite and 0 or greater") { it.links.add(1, 2, -1f, 0f) },
+        Case("tick 3: link 1 -> 2 has attenuation -2.0; it must be finite and 0 or greater") { it.links.add(1, 2, 1f, -2f) },
+        Case("tick 3: link 1 -> 2 has attenuation Infinity; it must be finite and 0 or greater") {
+            it.links.add(1, 2, 1f, Float.POSITIVE_INFINITY)
+        },
+        Case("tick 3: link 1 -> 2 is given twice") { tick -> repeat(2) { tick.link(1, 2) } },
+        Case("tick 3: link 3 -> 1 is made twice") { tick ->
+            tick.link(3, 1)
+            tick.link(2, 1)
+            tick.link(3, 1)
+        },
+        Case("tick 3: link 1 -> 2 is made twice") { tick ->
+            tick.unlink(1, 2)
+            repeat(2) { tick.link(1, 2) }
+        },
+        Case("tick 3: due node 9: there is no such node") { it.due(1, 9) },
+        Case("tick 3: due node 1 comes after 2; due ids must ascend without repetition") { it.due(2, 1) },
+        Case("tick 3: due node 1 comes after 1; due ids must ascend without repetition") { it.due(1, 1) },
+        Case("tick 3: due node -5 comes after -1; due ids must ascend without repetition") { it.due(-5) },
+        Case("tick 3: due node 2: there is no such node") {
+            it.nodesRemoved.add(2)
+            it.due(1, 2)
+        },
+    )
+
+    @TestFactory
+    fun `a bad tick changes nothing`(): List<DynamicTest> = cases.map { case ->
+        DynamicTest.dynamicTest(case.message) {
+            assertEquals(run(bad = null), run(bad = case))
+        }
+    }
+
+    /** Four ticks; before the third one comes the bad one, wrapped in changes that must not happen. */
+    private fun run(bad: Case?): List<Any?> {
+        val program = program { device -> evolveAll(device.time) to device.time }
+        return TestEngine(program).use { test ->
+            with(test) {
+                step {
+                    add(1, 2, 3)
+                    link(1, 2)
+                    due(1, 2, 3)
+                }
+                val second = step { due(1, 2, 3) }.toMap()
+                if (bad != null) {
+                    val error = assertFailsWith<TickRefused> {
+                        step {
+                            nodesRemoved.add(3)
+                            add(3, 100)
+                            link(100, 1)
+                            globals = "never"
+                            bad.fill(test, this)
+                        }
+                    }
+                    assertEquals(bad.message, error.message)
+                }
+                val third = step {
+                    unlink(1, 2)
+                    link(3, 2)
+                    due(1, 2, 3)
+                }.toMap()
+                listOf(second, third, step { due(1, 2, 3) }.toMap(), engine.nodeCount, engine.linkCount)
+            }
+        }
+    }
+
+    private fun it.unibo.collektive.aggregate.api.Aggregate<Int>.evolveAll(time: Double) = listOf(
+        alignedOn("count") { evolve(0) { it + 1 } },
+        alignedOn("near") { neighboring(localId + time).neighbors.toMap() },
+    )
+}

@@ -1,0 +1,65 @@
+package org.collektive.engine
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.runtime.AggregateRuntimes
+import java.util.concurrent.TimeUnit
+
+/** A program from a lambda. */
+internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any?): NodeProgram = object : NodeProgram {
+    override val name = name
+
+    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = aggregate.body(device)
+
+    override fun describe(failure: Throwable): String = failure.toString()
+}
+
+/** An engine with the real runtime, ticked one by one. */
+internal class TestEngine(
+    private val program: NodeProgram,
+    threads: Int = 1,
+    schedule: Schedule = Schedule.LOCKSTEP,
+    seed: Long = 1,
+) : AutoCloseable {
+    val engine = Engine(EngineSettings(seed, threads, schedule), AggregateRuntimes())
+    private val data = object : RoundData {
+        override fun sensors(worker: Int, index: Int): Any? = null
+
+        override fun fault(worker: Int, answer: Any): String? = if (answer == USELESS) "is useless" else null
+    }
+    var tick = 0L
+        private set
+
+    /** The next tick; a refused one does not count. */
+    fun step(limitMillis: Long = 10_000, fill: Tick.() -> Unit): TickResult {
+        val request = Tick()
+        request.number = tick + 1
+        request.time = request.number * 0.5
+        request.deltaTime = 0.5
+        request.fill()
+        val result = engine.step(request, data, System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(limitMillis))
+        tick++
+        return result
+    }
+
+    fun Tick.add(vararg ids: Int) = ids.forEach { nodesAdded.add(NewNode(it, program, Parameters(emptyMap()))) }
+
+    fun Tick.link(from: Int, to: Int) = links.add(from, to, 1f, 0f)
+
+    fun Tick.unlink(from: Int, to: Int) {
+        linksRemoved.add(from)
+        linksRemoved.add(to)
+    }
+
+    fun Tick.due(vararg ids: Int) = ids.forEach(due::add)
+
+    override fun close() = engine.close()
+
+    companion object {
+        const val USELESS = "useless"
+    }
+}
+
+/** Answers (or failures) by id. */
+internal fun TickResult.toMap(): Map<Int, Any?> = (0 until size).associate { id(it) to (failure(it) ?: answer(it)) }
