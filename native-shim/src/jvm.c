@@ -155,9 +155,21 @@ static int32_t check_class_path(const char *class_path) {
     return CLK_OK;
 }
 
+/* In another locale the JVM reads the bytes of a path as other characters, and misses its own files or the host's. */
+static int32_t check_characters(int32_t code, const char *path) {
+    for (const char *at = path; *at != '\0'; at++) {
+        if ((unsigned char)*at >= 0x80 && !prim_locale_is_utf8()) {
+            return error_set(code, "the locale of the process cannot express %s; set LC_ALL=C.UTF-8 or use a path of plain ASCII", path);
+        }
+    }
+    return CLK_OK;
+}
+
 static int32_t check(const clk_jvm_config *config, int64_t deadline) {
     int32_t result = check_home(config->home);
+    if (result == CLK_OK) result = check_characters(CLK_JVM_NOT_FOUND, config->home);
     if (result == CLK_OK) result = check_class_path(config->class_path);
+    if (result == CLK_OK) result = check_characters(CLK_HOST, config->class_path);
     for (int32_t i = 0; result == CLK_OK && i < config->option_count; i++) result = options_check(config->options[i]);
     if (result == CLK_OK) result = prepare_options(config);
     if (result == CLK_OK && config->check_options != 0) result = options_try(jvm.home, jvm.options, jvm.option_count, deadline);

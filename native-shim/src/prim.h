@@ -61,6 +61,9 @@ enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
 enum prim_file prim_file_kind(const char *path);
 bool prim_executable(const char *path);
 
+/* Whether other programs, by the locale of the environment, read paths as UTF-8. */
+bool prim_locale_is_utf8(void);
+
 /* Loads a library for the rest of the process. NULL on failure with the reason in `why`. */
 void *prim_library_open(const char *path, char *why, size_t why_size);
 void *prim_library_symbol(void *library, const char *name);

@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <langinfo.h>
+#include <locale.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -110,6 +112,14 @@ enum prim_file prim_file_kind(const char *path) {
 }
 
 bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE && access(path, X_OK) == 0; }
+
+bool prim_locale_is_utf8(void) {
+    locale_t locale = newlocale(LC_CTYPE_MASK, "", (locale_t)0);
+    if (locale == (locale_t)0) return false;
+    bool is_utf8 = strcmp(nl_langinfo_l(CODESET, locale), "UTF-8") == 0;
+    freelocale(locale);
+    return is_utf8;
+}
 
 void *prim_library_open(const char *path, char *why, size_t why_size) {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);

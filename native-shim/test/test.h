@@ -56,7 +56,7 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(slot_arguments) X(slot_handles) X(slot_growth_keeps_the_tail) X(slots_are_reused) X(slots_agree_with_a_model) \
     X(structs_of_other_sizes) \
     X(home_missing) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) X(home_with_a_broken_libjvm) \
-    X(home_without_java_command) X(class_path_missing) X(class_path_without_host) X(class_path_with_misfit) \
+    X(home_without_java_command) X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
     X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(option_that_ends_the_jvm) \
     X(refused_start_may_be_repeated) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
     X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \

@@ -5,8 +5,6 @@
 #include <time.h>
 #include "test.h"
 
-static void sleep_ms(long ms) { nanosleep(&(struct timespec){.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1000000}, NULL); }
-
 /* ---- Answers --------------------------------------------------------------------------------------------------------- */
 
 /* Writes a command with random bytes to a random place of the slot, growing it when need be, and checks that they come back. */
@@ -224,8 +222,9 @@ static void *sleep_in_host(void *argument) {
 
 static void begin_sleep(struct sleeper *sleeper, int32_t ms) {
     sleeper->ms = ms;
+    uint64_t before = stats().steps;
     CHECK(pthread_create(&sleeper->thread, NULL, sleep_in_host, sleeper) == 0);
-    sleep_ms(150);
+    while (stats().steps == before) nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
 static void end_sleep(struct sleeper *sleeper) {
@@ -239,7 +238,7 @@ void released_request_stays_valid(void) {
     clk_memory memory = {.size = sizeof memory};
     start_plain();
     CHECK_OK(open_session(&shared_session));
-    begin_sleep(&sleeper, 600);
+    begin_sleep(&sleeper, 1500);
     CHECK_CODE(CLK_ARGUMENT, "in use by a running call", clk_slot_grow(request, 1 << 21, 0, &memory));
     CHECK_OK(clk_slot_release(request));
     CHECK_CODE(CLK_HANDLE, NULL, clk_slot_release(request));
@@ -278,10 +277,10 @@ void own_turn_times_out(void) {
     clk_session session;
     start_plain();
     CHECK_OK(open_session(&shared_session));
-    begin_sleep(&sleeper, 1000);
+    begin_sleep(&sleeper, 3000);
     int64_t begin = now_ns();
     CHECK_CODE(CLK_TIMEOUT, "nothing was done", clk_session_open(request, 0, 8, 200, &session, &answer));
-    CHECK(now_ns() - begin >= 200000000 && now_ns() - begin < 600000000);
+    CHECK(now_ns() - begin >= 200000000 && now_ns() - begin < 2500000000);
     end_sleep(&sleeper);
     CHECK_OK(open_session(&session));
     CHECK(stats().steps == 1 && clk_jvm_state() == CLK_STATE_RUNNING);

@@ -95,6 +95,16 @@ void class_path_missing(void) {
     check_start_still_works();
 }
 
+void class_path_beyond_ascii(void) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/\xC3\xA4", scratch_folder());
+    CHECK(symlink(host_classes, path) == 0);
+    CHECK(setenv("LC_ALL", "C", 1) == 0);
+    CHECK_CODE(CLK_HOST, "LC_ALL=C.UTF-8", start_at(java_home(), path, NULL, true, 60000));
+    CHECK(setenv("LC_ALL", "C.UTF-8", 1) == 0);
+    CHECK_OK(start_at(java_home(), path, NULL, true, 60000));
+}
+
 static void check_lost(void) {
     clk_session session;
     CHECK(clk_jvm_state() == CLK_STATE_LOST);
@@ -236,7 +246,7 @@ void start_limit(void) {
     write_file(home, "bin/java", "#!/bin/sh\necho still at it\nsleep 30\n", 0755);
     int64_t begin = now_ns();
     CHECK_CODE(CLK_TIMEOUT, "still at it", start_at(home, host_classes, NULL, true, 300));
-    CHECK(now_ns() - begin < 2000000000);
+    CHECK(now_ns() - begin < 10000000000);
     check_start_still_works();
 }
 
