@@ -31,7 +31,7 @@ class Player {
     this.fillLegend(min, max);
     this.bind();
     this.resize();
-    this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 6));
+    this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 3));
   }
 
   get frame() {
