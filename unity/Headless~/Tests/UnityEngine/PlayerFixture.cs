@@ -16,10 +16,10 @@ namespace Collektive.Headless.Tests.Engine
         public void StartPlayer()
         {
             Loop.Reset();
-            Notes.Clear();
-            Errors.Clear();
             Debug.unityLogger.logHandler = new Recorder();
             Loop.Start(1);
+            Notes.Clear();
+            Errors.Clear();
         }
 
         [TearDown]

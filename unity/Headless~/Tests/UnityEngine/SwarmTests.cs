@@ -82,7 +82,10 @@ namespace Collektive.Headless.Tests.Engine
         public void A_tick_makes_no_garbage()
         {
             var bodies = Swarm(300, true);
+            foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // around the goal: the jam is densest while it forms
             for (var tick = 0; tick < 400; tick++) Tick(bodies);
+            foreach (var body in bodies) body.linearDamping = 1f;
+            for (var tick = 0; tick < 100; tick++) Tick(bodies);
             var calls = Counter.Calls;
             var ticks = Allocated(() =>
             {
@@ -94,7 +97,7 @@ namespace Collektive.Headless.Tests.Engine
             });
             Assert.That(Counter.Calls, Is.GreaterThan(calls + 200 * 300));
             Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the control allocates, so the measure works");
-            Assert.That(ticks, Is.LessThan(200), "bytes in 200 ticks");
+            Assert.That(ticks, Is.EqualTo(0), "bytes in 200 ticks");
         }
 
         static long Allocated(Action action)
@@ -107,24 +110,32 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(500)]
         [TestCase(2000)]
-        public void A_swarm_stays_on_the_floor_and_within_its_budget(int count)
+        public void A_swarm_stays_on_the_floor(int count)
         {
+            const int rounds = 200;
             var bodies = Swarm(count, false);
-            double physics = 0, overlaps = 0;
-            const int ticks = 300;
-            var clock = new Stopwatch();
-            for (var tick = 0; tick < ticks; tick++)
+            var physics = ProcessorMillis(() =>
             {
-                clock.Restart();
-                foreach (var body in bodies) Physics.OverlapSphereNonAlloc(body.transform.position, 3f, Results);
-                overlaps += clock.Elapsed.TotalMilliseconds;
-                foreach (var body in bodies) body.AddForce(Vector3.ClampMagnitude(new Vector3(5f, 0.25f, 0f) - body.transform.position, 5f));
-                clock.Restart();
-                Physics.Simulate(Step);
-                physics += clock.Elapsed.TotalMilliseconds;
-            }
-            Console.WriteLine($"{count} bodies: {physics / ticks:0.00} ms a step, {overlaps / ticks:0.00} ms for {count} overlap queries of 3 m");
+                for (var round = 0; round < rounds; round++)
+                {
+                    foreach (var body in bodies) body.AddForce(Vector3.ClampMagnitude(new Vector3(5f, 0.25f, 0f) - body.transform.position, 5f));
+                    Physics.Simulate(Step);
+                }
+            });
+            var overlaps = ProcessorMillis(() =>
+            {
+                for (var round = 0; round < rounds; round++)
+                    foreach (var body in bodies) Physics.OverlapSphereNonAlloc(body.transform.position, 3f, Results);
+            });
+            Console.WriteLine($"{count} bodies, processor time: {physics / rounds:0.00} ms a step, {overlaps / rounds:0.00} ms for {count} overlap queries of 3 m");
             foreach (var body in bodies) Assert.That(body.transform.position.y, Is.InRange(0.2f, 3f));
+        }
+
+        static double ProcessorMillis(Action action)
+        {
+            var before = Process.GetCurrentProcess().TotalProcessorTime;
+            action();
+            return (Process.GetCurrentProcess().TotalProcessorTime - before).TotalMilliseconds;
         }
     }
 }

@@ -12,11 +12,13 @@ namespace UnityEngine
         public static event Func<bool> wantsToQuit;
         public static event Action quitting;
 
+        static Application() => ResetState();
+
         public static bool isPlaying => true;
         public static bool isEditor => false;
         public static bool isBatchMode => true;
-        public static bool runInBackground { get; set; } = true;
-        public static int targetFrameRate { get; set; } = -1;
+        public static bool runInBackground { get; set; }
+        public static int targetFrameRate { get; set; }
         public static string dataPath => AppDomain.CurrentDomain.BaseDirectory;
         public static string streamingAssetsPath => Path.Combine(dataPath, "StreamingAssets");
         public static string persistentDataPath => Path.Combine(Environment.GetFolderPath(Environment.SpecialFolder.LocalApplicationData), productName);
@@ -43,13 +45,15 @@ namespace UnityEngine
             logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
         }
 
-        internal static void RaiseQuitting() => quitting?.Invoke();
+        internal static void RaiseQuitting() => Headless.Loop.Guarded(quitting);
 
         internal static void ResetState()
         {
             logMessageReceived = logMessageReceivedThreaded = null;
             wantsToQuit = null;
             quitting = null;
+            runInBackground = true;
+            targetFrameRate = -1;
         }
     }
 

@@ -88,6 +88,23 @@ namespace UnityEngine.Headless
             ExitCode = 0;
         }
 
+        /// Calls handlers one by one; what one throws is logged and stops no other.
+        internal static void Guarded(Action handlers)
+        {
+            if (handlers == null) return;
+            foreach (Action handler in handlers.GetInvocationList())
+            {
+                try
+                {
+                    handler();
+                }
+                catch (Exception exception)
+                {
+                    Debug.LogException(exception);
+                }
+            }
+        }
+
         internal static void RequestQuit(int exitCode)
         {
             QuitRequested = true;

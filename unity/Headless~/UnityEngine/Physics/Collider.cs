@@ -119,26 +119,41 @@ namespace UnityEngine
         {
             Registered = false;
             owner.RemovePhysics(this);
-            Body?.Colliders.Remove(this);
-            if (!(Body is null)) Body.MassStale = true;
-            Body = null;
-            DropGeom();
+            Detach();
             PhysicsWorld.Remove(this);
         }
 
         /// Joins the nearest active body at or above its object.
         internal void Attach()
         {
-            var nearest = owner.GetComponentInParent<Rigidbody>();
-            if (!ReferenceEquals(nearest, Body) || !(Body is null) && !Body.Registered)
+            var nearest = NearestBody();
+            if (!ReferenceEquals(nearest, Body))
             {
-                Body?.Colliders.Remove(this);
-                if (!(Body is null)) Body.MassStale = true;
-                DropGeom();
-                Body = !(nearest is null) && nearest.Registered ? nearest : null;
-                Body?.Colliders.Add(this);
+                Detach();
+                Body = nearest;
+                if (!(Body is null))
+                {
+                    Body.Colliders.Add(this);
+                    Body.MassStale = true;
+                }
             }
             TakePose();
+        }
+
+        Rigidbody NearestBody()
+        {
+            for (var level = owner.TransformUnchecked; !(level is null); level = level.parentOrNull)
+                if (level.owner.physicsParts?.Count > 0 && level.owner.physicsParts[0] is Rigidbody body) return body;
+            return null;
+        }
+
+        void Detach()
+        {
+            DropGeom();
+            if (Body is null) return;
+            Body.Colliders.Remove(this);
+            Body.MassStale = true;
+            Body = null;
         }
 
         /// Takes the transform's pose and scale over.

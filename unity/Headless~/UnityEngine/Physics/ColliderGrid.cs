@@ -4,8 +4,8 @@ using System.Collections.Generic;
 namespace UnityEngine
 {
     /// Finds colliders by place. Square cells over the x-z plane on several levels: a collider lies, with its centre, in one cell of the level
-    /// whose side is not below its size, and queries look half the level's largest collider further. Built anew whenever something moved,
-    /// which costs less than a tenth of a step.
+    /// whose side is not below its size, and queries look half the level's largest collider further. Built anew, on the next use, whenever
+    /// something moved.
     sealed class ColliderGrid
     {
         const int Levels = 12; // sides of 1, 2, 4 ... 2048 m; what is larger lies on the last level too

@@ -22,9 +22,6 @@ namespace UnityEngine
         public static int Seed;
         public static bool GridStale = true;
 
-        /// Pairs of solid colliders in contact in the latest step.
-        public static int ContactPairs { get; private set; }
-
         public static IntPtr Handle => world != IntPtr.Zero ? world : Create();
 
         public static ColliderGrid Grid
@@ -72,7 +69,6 @@ namespace UnityEngine
             Touching.Clear();
             Ignored.Clear();
             GridStale = true;
-            ContactPairs = 0;
             Seed = 0;
             stepping = false;
             Physics.ResetState();
@@ -172,7 +168,6 @@ namespace UnityEngine
 
         static void FindTouches()
         {
-            ContactPairs = 0;
             var grid = Grid;
             foreach (var body in Bodies)
                 foreach (var collider in body.Colliders)
@@ -204,7 +199,6 @@ namespace UnityEngine
             }
             var count = Ode.dCollide(a.Geom, b.Geom, Ode.MaxContacts, &Contacts->geometry, sizeof(Ode.Contact));
             if (count == 0) return;
-            ContactPairs++;
             var touch = heard ? Touching.AddCollision(a, b) : null;
             var surface = Surface(a.EffectiveMaterial, b.EffectiveMaterial);
             for (var index = 0; index < count; index++)

@@ -1,0 +1,125 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+using UnityEngine.SceneManagement;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class PlayerTests : PlayerFixture
+    {
+        static class Hooks
+        {
+            [RuntimeInitializeOnLoadMethod] static void Last() => Notes.Add("after scene");
+            [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)] static void Before() => Notes.Add("before scene");
+            [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSplashScreen)] static void Splash() => Notes.Add("splash");
+            [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.AfterAssembliesLoaded)] static void Loaded() => Notes.Add("assemblies");
+            [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)] static void Register() => Notes.Add("subsystems");
+        }
+
+        [Test]
+        public void Start_runs_the_initialisers_around_the_scene()
+        {
+            Loop.Reset();
+            Notes.Clear();
+            Loop.Start(1, () => Notes.Add("scene"));
+            Assert.That(Told(), Is.EqualTo("subsystems assemblies splash before scene scene after scene"));
+        }
+
+        [Test]
+        public void A_player_starts_once_and_runs_only_when_started()
+        {
+            Assert.Throws<InvalidOperationException>(() => Loop.Start(1));
+            Loop.Quit();
+            Assert.Throws<InvalidOperationException>(() => Loop.Frame(0.02f));
+        }
+
+        [Test]
+        public void Reset_leaves_nothing_behind()
+        {
+            Add<BoxCollider>();
+            Time.timeScale = 2f;
+            Physics.gravity = Vector3.zero;
+            Physics.IgnoreLayerCollision(1, 2);
+            Loop.Frame(0.02f);
+            Loop.Reset();
+            Assert.That(SceneManager.GetActiveScene().rootCount, Is.EqualTo(0));
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f), Is.False);
+            Assert.That(new[] { Time.time, Time.frameCount, Time.timeScale }, Is.EqualTo(new[] { 0f, 0f, 1f }));
+            Assert.That(Physics.gravity.y, Is.EqualTo(-9.81f));
+            Assert.That(Physics.GetIgnoreLayerCollision(1, 2), Is.False);
+        }
+
+        [Test]
+        public void Time_has_a_frame_clock_and_a_fixed_clock()
+        {
+            Loop.Frame(0.05f);
+            Assert.That(Time.time, Is.EqualTo(0.05f).Within(1e-6f));
+            Assert.That(Time.fixedTime, Is.EqualTo(0.04f).Within(1e-6f));
+            Time.timeScale = 0.5f;
+            Loop.Frame(0.1f);
+            Assert.That(Time.deltaTime, Is.EqualTo(0.05f).Within(1e-6f));
+            Assert.That(Time.unscaledDeltaTime, Is.EqualTo(0.1f));
+            Loop.Frame(100f);
+            Assert.That(Time.deltaTime, Is.EqualTo(Time.maximumDeltaTime * 0.5f));
+            Assert.That(Time.frameCount, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Quit_is_asked_for_and_may_be_refused()
+        {
+            var allowed = false;
+            Application.wantsToQuit += () => allowed;
+            Application.Quit(3);
+            Assert.That(Loop.QuitRequested, Is.False);
+            allowed = true;
+            Application.Quit(3);
+            Assert.That(Loop.QuitRequested, Is.True);
+            Assert.That(Loop.ExitCode, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Messages_reach_those_who_listen()
+        {
+            Loop.Reset(); // the player's own handler again
+            var heard = new List<string>();
+            Application.logMessageReceived += (text, stack, type) => heard.Add(type + ": " + text);
+            Debug.Log("note");
+            Debug.LogWarningFormat("{0} of {1}", 1, 2);
+            Debug.LogException(new InvalidOperationException("broken"));
+            Assert.That(heard, Is.EqualTo(new[] { "Log: note", "Warning: 1 of 2", "Exception: InvalidOperationException: broken" }));
+        }
+
+        [Test]
+        public void A_renderer_owns_its_material_once_asked()
+        {
+            var shared = new Material(Shader.Find("Standard"));
+            var renderer = GameObject.CreatePrimitive(PrimitiveType.Sphere).GetComponent<Renderer>();
+            renderer.sharedMaterial = shared;
+            renderer.material.color = Color.red;
+            Assert.That(shared.color, Is.EqualTo(Color.white));
+            Assert.That(renderer.material.color, Is.EqualTo(Color.red));
+
+            var block = new MaterialPropertyBlock();
+            block.SetColor("_Color", Color.blue);
+            renderer.SetPropertyBlock(block);
+            block.Clear();
+            renderer.GetPropertyBlock(block);
+            Assert.That(block.GetColor("_Color"), Is.EqualTo(Color.blue));
+            Assert.That(renderer.bounds.size, Is.EqualTo(Vector3.one));
+        }
+
+        [Test]
+        public void Draws_are_recorded_for_their_frame()
+        {
+            var parameters = new RenderParams(new Material(Shader.Find("Standard")));
+            var mesh = new Mesh();
+            Graphics.RenderMeshInstanced(in parameters, mesh, 0, new Matrix4x4[8], 5);
+            Assert.That(DrawLog.Draws.Count, Is.EqualTo(1));
+            Assert.That(DrawLog.Draws[0].Instances, Is.EqualTo(5));
+            Loop.Frame(0.02f);
+            Assert.That(DrawLog.Draws, Is.Empty);
+        }
+    }
+}
