@@ -213,6 +213,23 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(ball.transform.position.y, Is.LessThan(5f));
         }
 
+        [TestCase(float.NaN)]
+        [TestCase(float.PositiveInfinity)]
+        public void What_is_no_number_is_refused_and_changes_nothing(float bad)
+        {
+            var ball = Ball(new Vector3(1f, 2f, 3f));
+            ball.useGravity = false;
+            ball.transform.position = new Vector3(bad, 0f, 0f);
+            ball.transform.rotation = new Quaternion(bad, 0f, 0f, 1f);
+            ball.linearVelocity = new Vector3(0f, bad, 0f);
+            ball.AddForce(0f, 0f, bad);
+            ball.position = new Vector3(bad, 0f, 0f);
+            Run(0.1f);
+            Assert.That(ball.transform.position, Is.EqualTo(new Vector3(1f, 2f, 3f)));
+            Assert.That(Errors.Count, Is.EqualTo(5));
+            Assert.That(Errors[0], Is.StringContaining("'ball'"));
+        }
+
         [Test]
         public void Layers_and_pairs_can_be_ignored()
         {
@@ -225,6 +242,20 @@ namespace Collektive.Headless.Tests.Engine
             Run(2f);
             Assert.That(through.transform.position.y, Is.LessThan(-2f));
             Assert.That(stays.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
+        }
+
+        [Test]
+        public void Removing_the_body_leaves_a_static_collider()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            Object.DestroyImmediate(ball);
+            Run(0.2f);
+            var collider = Object.FindAnyObjectByType<SphereCollider>();
+            Assert.That(collider.attachedRigidbody == null, Is.True);
+            var other = Ball(new Vector3(0f, 7f, 0f));
+            other.constraints = RigidbodyConstraints.FreezePositionX | RigidbodyConstraints.FreezePositionZ;
+            Run(3f);
+            Assert.That(other.transform.position.y, Is.EqualTo(6f).Within(0.01f));
         }
 
         [Test]

@@ -42,6 +42,7 @@ namespace UnityEngine
             get => ownPosition;
             set
             {
+                if (!Finite.Accepts(value, "transform.position", this)) return;
                 ownPosition = value;
                 Changed();
             }
@@ -52,6 +53,7 @@ namespace UnityEngine
             get => ownRotation;
             set
             {
+                if (!Finite.Accepts(value, "transform.rotation", this)) return;
                 ownRotation = value.normalized;
                 Changed();
             }
@@ -62,6 +64,7 @@ namespace UnityEngine
             get => ownScale;
             set
             {
+                if (!Finite.Accepts(value, "transform.localScale", this)) return;
                 ownScale = value;
                 Changed();
             }
@@ -71,7 +74,7 @@ namespace UnityEngine
 
         public void SetLocalPositionAndRotation(Vector3 localPosition, Quaternion localRotation)
         {
-            ownPosition = localPosition;
+            this.localPosition = localPosition;
             this.localRotation = localRotation;
         }
 
@@ -102,6 +105,7 @@ namespace UnityEngine
 
         public void SetPositionAndRotation(Vector3 position, Quaternion rotation)
         {
+            if (!Finite.Accepts(position, "transform.position", this) || !Finite.Accepts(rotation, "transform.rotation", this)) return;
             Place(position, rotation);
             Changed();
         }

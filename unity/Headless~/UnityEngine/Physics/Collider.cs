@@ -85,7 +85,7 @@ namespace UnityEngine
         internal bool IsStatic => Body is null;
         internal Shape Local => local;
 
-        public Vector3 ClosestPoint(Vector3 position) => World.ClosestPoint(position);
+        public Vector3 ClosestPoint(Vector3 position) => Registered ? World.ClosestPoint(position) : position;
         public Vector3 ClosestPointOnBounds(Vector3 position) => bounds.ClosestPoint(position);
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>

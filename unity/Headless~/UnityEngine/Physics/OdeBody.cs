@@ -61,10 +61,7 @@ namespace UnityEngine
             Ode.dMassSetZero(&mass);
             foreach (var collider in colliders)
                 if (!collider.isTrigger) Add(collider.Local, &mass);
-            if (mass.mass <= 0)
-            {
-                Ode.dMassSetSphere(&mass, 1, 0.5);
-            }
+            if (mass.mass <= 0) Ode.dMassSetSphere(&mass, 1, 0.5);
             Ode.dMassAdjust(&mass, total);
             var center = new Vector3((float)mass.center[0], (float)mass.center[1], (float)mass.center[2]);
             Ode.dMassTranslate(&mass, -mass.center[0], -mass.center[1], -mass.center[2]);

@@ -148,22 +148,24 @@ namespace UnityEngine
             stepping = true;
             try
             {
-                for (var index = 0; index < Bodies.Count; index++) Bodies[index].BeforeStep(step);
-                for (var index = 0; index < Colliders.Count; index++) Colliders[index].RefreshGeom();
                 Touching.BeginStep();
-                FindTouches();
-                if (world != IntPtr.Zero)
-                {
-                    Ode.dWorldQuickStep(world, step);
-                    Ode.dJointGroupEmpty(contactGroup);
-                }
-                for (var index = 0; index < Bodies.Count; index++) Bodies[index].AfterStep();
+                if (Bodies.Count > 0) MoveBodies(step);
                 Touching.SendMessages(step);
             }
             finally
             {
                 stepping = false;
             }
+        }
+
+        static void MoveBodies(float step)
+        {
+            for (var index = 0; index < Bodies.Count; index++) Bodies[index].BeforeStep(step);
+            for (var index = 0; index < Colliders.Count; index++) Colliders[index].RefreshGeom();
+            FindTouches();
+            Ode.dWorldQuickStep(world, step);
+            Ode.dJointGroupEmpty(contactGroup);
+            for (var index = 0; index < Bodies.Count; index++) Bodies[index].AfterStep();
         }
 
         static void FindTouches()

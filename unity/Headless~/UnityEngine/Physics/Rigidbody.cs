@@ -116,6 +116,7 @@ namespace UnityEngine
             get => velocity;
             set
             {
+                if (!Finite.Accepts(value, "Rigidbody.linearVelocity", this)) return;
                 velocity = value;
                 if (!value.Equals(Vector3.zero)) WakeUp();
             }
@@ -126,6 +127,7 @@ namespace UnityEngine
             get => spin;
             set
             {
+                if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this)) return;
                 spin = value;
                 if (!value.Equals(Vector3.zero)) WakeUp();
             }
@@ -162,6 +164,7 @@ namespace UnityEngine
 
         public void Move(Vector3 position, Quaternion rotation)
         {
+            if (!Finite.Accepts(position, "Rigidbody.MovePosition", this) || !Finite.Accepts(rotation, "Rigidbody.MoveRotation", this)) return;
             targetPosition = position;
             targetRotation = rotation.normalized;
             hasTarget = true;
@@ -174,6 +177,7 @@ namespace UnityEngine
         /// Takes effect with the next step.
         public void AddForce(Vector3 force, ForceMode mode)
         {
+            if (!Finite.Accepts(force, "Rigidbody.AddForce", this)) return;
             switch (mode)
             {
                 case ForceMode.Force: accelerationDue += force / ownMass; break;
@@ -193,6 +197,7 @@ namespace UnityEngine
 
         public void AddTorque(Vector3 torque, ForceMode mode)
         {
+            if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this)) return;
             switch (mode)
             {
                 case ForceMode.Force: torqueDue += torque; break;
@@ -232,6 +237,7 @@ namespace UnityEngine
 
         void Teleport(Vector3 position, Quaternion rotation)
         {
+            if (!Finite.Accepts(position, "Rigidbody.position", this) || !Finite.Accepts(rotation, "Rigidbody.rotation", this)) return;
             if (!Registered)
             {
                 transform.SetPositionAndRotation(position, rotation);
@@ -281,7 +287,7 @@ namespace UnityEngine
             foreach (var collider in Colliders) collider.FollowBody();
         }
 
-        /// Mass, centre and inertia from the colliders, as if they had one density; a body without any is a unit ball's like.
+        /// Mass, centre and inertia from the colliders, as if they had one density; a body without any turns like a ball of 1 m.
         void RefreshMass()
         {
             MassStale = false;
