@@ -1,0 +1,69 @@
+using System;
+using Collektive.Bridge;
+using Google.FlatBuffers;
+using NUnit.Framework;
+using test.blocks;
+
+namespace Collektive.Headless.Tests.Schema
+{
+    [TestFixture]
+    public class ActuatorBufferTests
+    {
+        private ActuatorBuffer<ActuatorDataValue> actuators;
+        private byte[] frame;
+        private int position;
+
+        [SetUp]
+        public void MakeFrame()
+        {
+            actuators = (ActuatorBuffer<ActuatorDataValue>)new BlocksSchema().CreateActuators();
+            var writer = new StructSensorBuffer<ActuatorDataValue>(8);
+            writer.EnsureCapacity(3);
+            for (var i = 0; i < 3; i++) writer.Items[i].Target.X = i;
+            var builder = new FlatBufferBuilder(64);
+            var offset = writer.Write(builder, 3);
+            builder.Finish(offset);
+            frame = builder.SizedByteArray();
+            position = frame.Length - offset;
+        }
+
+        [Test]
+        public void ElementsAreReadInPlace()
+        {
+            actuators.Attach(new ByteBuffer(frame), position);
+            Assert.That(actuators.Count, Is.EqualTo(3));
+            Assert.That(actuators[2].Target.X, Is.EqualTo(2f));
+            Assert.That(actuators.DataType, Is.EqualTo(typeof(ActuatorDataValue)));
+        }
+
+        [TestCase(-1)]
+        [TestCase(3)]
+        public void AnIndexBeyondTheElementsIsRefused(int index)
+        {
+            actuators.Attach(new ByteBuffer(frame), position);
+            Assert.Throws<ArgumentOutOfRangeException>(() => { var _ = actuators[index]; });
+        }
+
+        [Test]
+        public void AFrameCutShortIsRefusedAndThePreviousOneStays()
+        {
+            actuators.Attach(new ByteBuffer(frame), position);
+            for (var length = 1; length < frame.Length; length++)
+            {
+                var cut = new byte[length];
+                Array.Copy(frame, cut, length);
+                var error = Assert.Throws<BridgeException>(() => actuators.Attach(new ByteBuffer(cut), position));
+                Assert.That(error.Error, Is.EqualTo(BridgeError.Frame));
+            }
+            Assert.That(actuators.Count, Is.EqualTo(3));
+            Assert.That(actuators[1].Target.X, Is.EqualTo(1f));
+        }
+
+        [TestCase(-1)]
+        [TestCase(int.MaxValue)]
+        public void APositionOutsideOfTheFrameIsRefused(int outside)
+        {
+            Assert.Throws<BridgeException>(() => actuators.Attach(new ByteBuffer(frame), outside));
+        }
+    }
+}
