@@ -6,9 +6,16 @@ import org.collektive.api.Parameters
 import org.collektive.api.Program
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.UnusableAnswer
+import java.lang.invoke.MethodHandle
+import java.lang.invoke.MethodType
 
-/** A program of a user's jar, ready to be called. */
-internal class LoadedProgram(private val info: Program, private val body: ProgramBody) : NodeProgram {
+/**
+ * A program of a user's jar, ready to be called.
+ *
+ * The [function] has exactly the type of [TYPE], so that a call allocates nothing. A generated lambda would be a little cheaper, but the JDK
+ * makes none for a class of another loader: the lookup lacks the right of its module.
+ */
+internal class LoadedProgram(private val info: Program, private val function: MethodHandle) : NodeProgram {
     override val name: String get() = info.name
 
     /** Name, default and description of each parameter. */
@@ -16,7 +23,8 @@ internal class LoadedProgram(private val info: Program, private val body: Progra
 
     private val defaults = Parameters(parameters.associate { it.name to it.default })
 
-    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = body.run(aggregate, sensors, device)
+    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? =
+        function.invokeExact(aggregate, sensors, device)
 
     override fun describe(failure: Throwable): String = RoundFailure.describe(failure)
 
@@ -36,18 +44,12 @@ internal class LoadedProgram(private val info: Program, private val body: Progra
         }
         return Parameters(all)
     }
-}
 
-/** The function of a program, with the type of its data erased. */
-public fun interface ProgramBody {
-    /** Runs one round. */
-    public fun run(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any?
-}
-
-/** [ProgramBody] of a function that takes no `Device`. */
-public fun interface PlainProgramBody {
-    /** Runs one round. */
-    public fun run(aggregate: Aggregate<Int>, sensors: Any?): Any?
+    companion object {
+        /** The erased type of all programs. */
+        val TYPE: MethodType =
+            MethodType.methodType(Any::class.java, Aggregate::class.java, Any::class.java, Device::class.java)
+    }
 }
 
 /** Why a round failed, for its author: one line, then the stack in the user's code. */

@@ -4,10 +4,8 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.api.Device
 import org.collektive.api.Program
 import org.collektive.api.schema.DataSchema
-import java.lang.invoke.LambdaMetafactory
 import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodHandles
-import java.lang.invoke.MethodType
 import java.lang.reflect.Method
 import java.lang.reflect.Modifier
 import java.lang.reflect.ParameterizedType
@@ -28,7 +26,7 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
                     if (other != null) {
                         throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one")
                     }
-                    programs[info.name] = LoadedProgram(info, body(method, place))
+                    programs[info.name] = LoadedProgram(info, function(method, place))
                 }
             }
         }
@@ -46,7 +44,7 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
     private fun cannotLoad(jar: ProgramJar, className: String, e: Throwable) =
         HostException(HostError.PROGRAM, "class $className of ${jar.path} cannot be loaded: $e; build the jar again", e)
 
-    private fun body(method: Method, place: String): ProgramBody {
+    private fun function(method: Method, place: String): MethodHandle {
         val types = method.parameterTypes
         val takesDevice = types.size == 3
         val isProgram = Modifier.isPublic(method.modifiers) && Modifier.isStatic(method.modifiers) &&
@@ -64,11 +62,9 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
                     "follow the sensors, but it is ${method.toGenericString()}",
             )
         }
-        val lookup = MethodHandles.privateLookupIn(method.declaringClass, MethodHandles.lookup())
-        val handle = lookup.unreflect(method)
-        if (takesDevice) return lambda(lookup, handle, ProgramBody::class.java, DEVICE_TYPE) as ProgramBody
-        val plain = lambda(lookup, handle, PlainProgramBody::class.java, PLAIN_TYPE) as PlainProgramBody
-        return ProgramBody { aggregate, sensors, _ -> plain.run(aggregate, sensors) }
+        val handle = MethodHandles.publicLookup().unreflect(method)
+        val full = if (takesDevice) handle else MethodHandles.dropArguments(handle, types.size, Device::class.java)
+        return full.asType(LoadedProgram.TYPE)
     }
 
     private fun hasIntIds(method: Method): Boolean {
@@ -76,15 +72,9 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
         return aggregate.actualTypeArguments.single() == Int::class.javaObjectType
     }
 
-    /** Calls through an object of [type] cost no more than calls in Java source, and allocate nothing. */
-    private fun lambda(lookup: MethodHandles.Lookup, handle: MethodHandle, type: Class<*>, erased: MethodType): Any =
-        LambdaMetafactory.metafactory(lookup, "run", MethodType.methodType(type), erased, handle, handle.type()).target.invoke()
-
     private companion object {
         const val CLASS = ".class"
         val ANNOTATION = Program::class.java.descriptorString().encodeToByteArray()
-        val PLAIN_TYPE: MethodType = MethodType.methodType(Any::class.java, Aggregate::class.java, Any::class.java)
-        val DEVICE_TYPE: MethodType = PLAIN_TYPE.appendParameterTypes(Device::class.java)
 
         fun contains(bytes: ByteArray, wanted: ByteArray): Boolean {
             val first = wanted[0]
