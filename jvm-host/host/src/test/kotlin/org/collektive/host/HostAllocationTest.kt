@@ -1,0 +1,48 @@
+package org.collektive.host
+
+import com.sun.management.ThreadMXBean
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import java.lang.management.ManagementFactory
+import kotlin.test.assertTrue
+
+/** The host's thread allocates nothing per tick once it is warm: frames are read, and answers written, in place. */
+@Timeout(60)
+class HostAllocationTest {
+    private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
+
+    @Test
+    fun `no allocation per tick on the engine thread`() {
+        val shim = TestShim()
+        val session = TestSession(shim).apply { open(program = "probe") }
+        session.ok(Step(1).apply { added = (0 until 200).map { Step.Added(it) }; due = (0 until 200).toList() })
+        val frame = Step(2).apply { due = (0 until 200).toList() }.bytes()
+        val tickAt = frame.tickPosition()
+        var tick = 2L
+        fun ticks(count: Int, allocates: Boolean): Long {
+            val before = threads.getThreadAllocatedBytes(Thread.currentThread().id)
+            repeat(count) {
+                frame.putLong(tickAt, tick++)
+                if (allocates) control = LongArray(100)
+                assertTrue(session.step(frame) >= 0, "refused")
+            }
+            return (threads.getThreadAllocatedBytes(Thread.currentThread().id) - before) / count
+        }
+        ticks(3000, false)
+        val control = (1..3).minOf { ticks(500, true) }
+        assertTrue(control >= 800, "the control allocates 816 B, but only $control were seen")
+        val bytes = (1..3).minOf { ticks(500, false) }
+        // The test's own wrapping of the answer is all that is left.
+        assertTrue(bytes <= WRAPPER_BYTES, "$bytes B per tick")
+        session.close()
+    }
+
+    private var control = LongArray(0)
+
+    private fun java.nio.ByteBuffer.tickPosition(): Int = (0 until capacity() - 8).first { getLong(it) == 2L }
+
+    private companion object {
+        /** `ByteBuffer.duplicate` in [TestSession]. */
+        const val WRAPPER_BYTES = 128
+    }
+}

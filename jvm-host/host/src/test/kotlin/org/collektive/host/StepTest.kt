@@ -1,0 +1,213 @@
+package org.collektive.host
+
+import org.junit.jupiter.api.AfterEach
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotEquals
+import kotlin.test.assertTrue
+
+@Timeout(60)
+class StepTest {
+    private val shim = TestShim()
+    private val sessions = ArrayList<TestSession>()
+
+    private fun session(program: String = "sum", threads: Int = 2, schedule: Int = 0): TestSession {
+        val session = TestSession(shim)
+        check(session.open(program = program, threads = threads, schedule = schedule) >= 0) { shim.error }
+        sessions.add(session)
+        return session
+    }
+
+    @AfterEach
+    fun closeAll() = sessions.forEach(TestSession::close)
+
+    private fun nodes(vararg ids: Int) = ids.map { Step.Added(it) }
+
+    @Test
+    fun `answers come in id order, with counts and times`() {
+        val session = session()
+        session.ok(Step(1).apply { added = nodes(5, 2, 9); linked = listOf(2 to 5, 9 to 5); due = listOf(2, 5, 9) })
+        val answer = session.ok(Step(2).apply { due = listOf(2, 5, 9) })
+        assertEquals(2, answer.tick())
+        assertEquals(3, answer.nodeCount())
+        assertEquals(2, answer.linkCount())
+        assertEquals(listOf(2, 5, 9), List(answer.nodesLength()) { answer.nodes(it) })
+        val values = session.answers(answer).mapValues { it.value.first }
+        assertEquals(mapOf(2 to 2L, 5 to (5L * 31 + 2) * 31 + 9, 9 to 9L), values)
+        assertTrue(answer.hostMicros() >= answer.roundMicros())
+    }
+
+    @Test
+    fun `a tick without due nodes is an answer without nodes`() {
+        val answer = session().ok(Step(1).apply { sensors = emptyList() })
+        assertEquals(0, answer.nodesLength())
+        assertEquals(0, answer.errorsLength())
+    }
+
+    @Test
+    fun `one seed and one input give one digest, whatever the threads`() {
+        val runs = listOf(1, 2, 8).map { digests(session(threads = it)) }
+        assertEquals(runs[0], runs[1])
+        assertEquals(runs[0], runs[2])
+        val changed = digests(session(), changedTick = 7)
+        assertEquals(runs[0].take(6), changed.take(6))
+        for (tick in 6 until 20) assertNotEquals(runs[0][tick], changed[tick])
+        assertNotEquals(runs[0], digests(session(schedule = 1)))
+    }
+
+    private fun digests(session: TestSession, changedTick: Int = 0): List<Long> {
+        val ids = (0 until 200).toList()
+        return (1..20).map { tick ->
+            session.ok(
+                Step(tick.toLong()).apply {
+                    if (tick == 1) {
+                        added = ids.map { Step.Added(it) }
+                        linked = ids.zipWithNext() + ids.zipWithNext { a, b -> b to a }
+                    }
+                    due = ids.filter { (it + tick) % 3 != 0 }
+                    sensors = due.map { Step.Sensor(it * tick + if (tick == changedTick && it == 100) 1 else 0) }
+                },
+            ).digest()
+        }
+    }
+
+    @Test
+    fun `global data stays until the next, and a refused tick does not change it`() {
+        val session = session()
+        fun texts(step: Step) = session.answers(session.ok(step)).getValue(1).second.orEmpty().substringAfterLast('/')
+        assertEquals("calm", texts(Step(1).apply { added = nodes(1); due = listOf(1) }))
+        assertEquals("2.5", texts(Step(2).apply { wind = 2.5f; due = listOf(1) }))
+        assertEquals(-12, session.step(Step(3).apply { wind = 9f; due = listOf(8) }.bytes()))
+        assertEquals("2.5", texts(Step(3).apply { due = listOf(1) }))
+        assertEquals("3.5", texts(Step(4).apply { wind = 3.5f; due = listOf(1) }))
+    }
+
+    @Test
+    fun `a failed round is reported with its node, its program and the lines of its code`() {
+        val labels = mapOf(
+            "throw" to "java.lang.IllegalStateException: broken in two lines\n    at probe.Programs.probe(Programs.java:",
+            "recurse" to "java.lang.StackOverflowError",
+            "memory" to "java.lang.OutOfMemoryError",
+            "exit" to "java.lang.SecurityException: System.exit is refused",
+            "null" to "the result is null",
+            "surrogate" to "text holds half a surrogate pair",
+            "share-view" to "a probe.SensorData is a view of this tick's memory",
+            "keep-view" to "a probe.SensorData is a view of this tick's memory",
+        )
+        val session = session(program = "probe")
+        session.ok(Step(1).apply { added = nodes(1, 2, 3); due = listOf(1, 2, 3) })
+        var tick = 2L
+        for ((label, message) in labels) {
+            val answer = session.ok(Step(tick++).apply {
+                due = listOf(1, 2, 3)
+                sensors = listOf(Step.Sensor(0), Step.Sensor(0, label), Step.Sensor(0))
+            })
+            assertEquals(listOf(1, 3), List(answer.nodesLength()) { answer.nodes(it) }, label)
+            assertEquals(1, answer.errorsLength())
+            assertEquals("probe", answer.errors(0).program())
+            assertContains(session.errors(answer).getValue(2), message)
+            assertFalse("LambdaForm" in session.errors(answer).getValue(2), "only the user's own lines")
+        }
+        val last = session.answers(session.ok(Step(tick).apply { due = listOf(1, 2, 3) })).mapValues { it.value.first }
+        assertEquals(mapOf(1 to labels.size + 2L, 2 to 2L, 3 to labels.size + 2L), last, "failed rounds do not count")
+    }
+
+    @Test
+    fun `an answer too large for its slot grows it, and no round runs twice`() {
+        val session = session(program = "probe")
+        session.ok(Step(1).apply { added = nodes(1, 2); due = listOf(1, 2) })
+        val answers = session.answers(session.ok(Step(2).apply {
+            due = listOf(1, 2)
+            sensors = listOf(Step.Sensor(0, "text:100000"), Step.Sensor(0))
+        }))
+        assertEquals(2L to "x".repeat(100_000), answers[1])
+        assertEquals(2L, answers.getValue(2).first)
+        assertEquals(3L, session.answers(session.ok(Step(3).apply { due = listOf(1, 2) })).getValue(1).first)
+    }
+
+    @Test
+    fun `without memory for the answer the session fails, and says so`() {
+        val session = session(program = "probe")
+        session.ok(Step(1).apply { added = nodes(1); due = listOf(1) })
+        shim.memoryLeft = 4096
+        val step = Step(2).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "text:100000")) }
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(step.bytes()))
+        assertContains(shim.error, "no native memory")
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(3).bytes()))
+    }
+
+    @Test
+    fun `a round that never ends fails the session, and the next one runs`() {
+        val session = session(program = "probe")
+        session.ok(Step(1).apply { added = nodes(1, 2); due = listOf(1, 2) })
+        val endless = Step(2).apply { due = listOf(1, 2); sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop")) }
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(endless.bytes(), limitMillis = 300))
+        assertContains(shim.error, "tick 2: rounds did not finish within the limit")
+        assertTrue(shim.logs.any { "in the round of node 2" in it.second })
+        assertTrue(shim.logs.any { "probe.Programs.probe(Programs.java:" in it.second })
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(2).bytes()))
+        session().ok(Step(1).apply { added = nodes(1); due = listOf(1) })
+    }
+
+    @Test
+    fun `bad requests are refused with what is wrong`() {
+        val session = session()
+        session.ok(Step(1).apply { added = nodes(1, 2); linked = listOf(1 to 2); due = listOf(1, 2) })
+        val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
+            Triple(-12, "tick 2: node 7 cannot be removed: there is none") { removed = listOf(7) },
+            Triple(-12, "tick 2: due node 7: there is no such node") { due = listOf(7) },
+            Triple(-12, "sensor data of 1 nodes, but 2 are due") { due = listOf(1, 2); sensors = listOf(Step.Sensor(1)) },
+            Triple(-12, "tick 2: the time is NaN") { time = Double.NaN },
+            Triple(-14, "node 3 wants the program 'smu', which is in none of the jars") { added = listOf(Step.Added(3, "smu")) },
+            Triple(-14, "node 3 sets the parameter 'speed', which program 'sum' does not declare") {
+                added = listOf(Step.Added(3, "sum", mapOf("speed" to "1")))
+            },
+        )
+        for ((code, message, fill) in cases) {
+            assertEquals(code.toLong(), session.step(Step(2).apply(fill).bytes()))
+            assertContains(shim.error, message)
+        }
+        assertEquals(-12, session.step(Step(3).bytes()))
+        assertContains(shim.error, "tick 3: tick 2 must come next")
+        assertEquals(2, session.ok(Step(2)).nodeCount())
+    }
+
+    @Test
+    fun `each node may have a program of its own`() {
+        val session = session(program = "")
+        assertEquals(HostError.PROGRAM.code.toLong(), session.step(Step(1).apply { added = nodes(1) }.bytes()))
+        assertContains(shim.error, "node 1 names no program, and the session has none either")
+        val answers = session.answers(session.ok(Step(1).apply {
+            added = listOf(Step.Added(1, "sum"), Step.Added(2, "probe"))
+            due = listOf(1, 2)
+        }))
+        assertEquals(listOf(true, false), listOf(1, 2).map { answers.getValue(it).second != null })
+    }
+
+    @Test
+    fun `what programs print or log carries the node`() {
+        val out = System.out
+        val err = System.err
+        try {
+            HostLog.install(shim)
+            val session = session(program = "probe")
+            session.ok(Step(1).apply {
+                added = nodes(4, 5)
+                due = listOf(4, 5)
+                sensors = listOf(Step.Sensor(0, "print"), Step.Sensor(0, "log"))
+            })
+            println("outside")
+        } finally {
+            System.setOut(out)
+            System.setErr(err)
+        }
+        val logs = shim.logs.toList()
+        assertContains(logs, LogLevel.INFO to "[node 4] hello")
+        assertContains(logs, LogLevel.WARNING to "[node 4] careful")
+        assertContains(logs, LogLevel.WARNING to "[node 5] probe: watch out")
+        assertContains(logs, LogLevel.INFO to "outside")
+    }
+}

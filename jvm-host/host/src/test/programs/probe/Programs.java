@@ -1,0 +1,62 @@
+package probe;
+
+import it.unibo.collektive.aggregate.Field;
+import it.unibo.collektive.aggregate.FieldEntry;
+import it.unibo.collektive.aggregate.api.Aggregate;
+import it.unibo.collektive.aggregate.api.InMemory;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.logging.Logger;
+import org.collektive.api.Device;
+import org.collektive.api.Program;
+
+/** Programs that do well, or as badly as their sensors say. */
+public final class Programs {
+  private Programs() {}
+
+  /** Own value and those of the neighbours, the number of good rounds, a random number, the wind. */
+  @Program(name = "sum")
+  public static ActuatorDataT sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
+    long sum = sensors.value();
+    int rounds = aggregate.alignedOn("rounds", () -> aggregate.<Integer>evolve(0, n -> n + 1));
+    Field<Integer, Integer> near = aggregate.neighboring(sensors.value(), InMemory.INSTANCE);
+    for (FieldEntry<Integer, Integer> entry : near.getNeighbors().getList()) sum = sum * 31 + entry.getValue();
+    GlobalData globals = (GlobalData) device.getGlobals();
+    ActuatorDataT result = new ActuatorDataT();
+    result.setValue(sum);
+    result.setText(rounds + "/" + device.getRandom().nextInt() + "/" + (globals == null ? "calm" : globals.wind()));
+    return result;
+  }
+
+  @Program(name = "probe")
+  public static ActuatorDataT probe(Aggregate<Integer> aggregate, SensorData sensors) {
+    ActuatorDataT result = new ActuatorDataT();
+    result.setValue(aggregate.alignedOn("rounds", () -> aggregate.<Integer>evolve(0, n -> n + 1)));
+    String label = sensors.label() == null ? "" : sensors.label();
+    if (label.startsWith("text:")) result.setText("x".repeat(Integer.parseInt(label.substring(5))));
+    switch (label) {
+      case "throw": throw new IllegalStateException("broken\nin two lines");
+      case "recurse": return recurse(aggregate, sensors);
+      case "memory": return exhaust();
+      case "null": return null;
+      case "surrogate": result.setText("\ud800"); break;
+      case "share-view": aggregate.neighboring(sensors, InMemory.INSTANCE); break;
+      case "keep-view": aggregate.evolve(sensors, old -> sensors); break;
+      case "print": System.out.println("hello"); System.err.print("care"); System.err.println("ful"); break;
+      case "log": Logger.getLogger("probe").warning("watch out"); break;
+      case "exit": throw new SecurityException("System.exit is refused");
+      case "loop": while (true) { Thread.onSpinWait(); }
+      default: break;
+    }
+    return result;
+  }
+
+  private static ActuatorDataT recurse(Aggregate<Integer> aggregate, SensorData sensors) {
+    return aggregate.alignedOn("deeper", () -> recurse(aggregate, sensors));
+  }
+
+  private static ActuatorDataT exhaust() {
+    List<long[]> all = new ArrayList<>();
+    while (true) all.add(new long[1 << 20]);
+  }
+}
