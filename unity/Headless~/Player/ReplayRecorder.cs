@@ -49,6 +49,7 @@ namespace Collektive.Headless
 
         private void Describe(ReplayMetadata metadata)
         {
+            Physics.SyncTransforms();
             var colliders = new List<Collider>();
             foreach (var root in SceneManager.GetActiveScene().GetRootGameObjects()) colliders.AddRange(root.GetComponentsInChildren<Collider>());
             var floor = FindFloor(colliders);

@@ -1,3 +1,4 @@
+using System;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -11,6 +12,9 @@ namespace Collektive.Unity
     {
         /// <summary>Links whose length changed by less than this many metres are not sent again.</summary>
         private const float LengthTolerance = 0.05f;
+
+        /// <summary>By node id: 1 + place among the wanted, 0 for all others. Scratch of one update; main thread only.</summary>
+        private static int[] places = new int[64];
 
         [SerializeField]
         [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
@@ -27,6 +31,7 @@ namespace Collektive.Unity
             internal LinkHandle Out;
             internal LinkHandle In;
             internal bool BothWays;
+            internal bool IsHeld;
         }
 
         /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
@@ -46,25 +51,29 @@ namespace Collektive.Unity
 
         internal void UpdateLinks(SimulationManager manager)
         {
-            FindNeighbours(manager);
-            Sort(wanted);
-            var links = manager.Links;
-            var w = 0;
-            var h = 0;
-            while (w < wanted.Count || h < held.Count)
+            try
             {
-                if (h == held.Count || w < wanted.Count && wanted.Items[w].Id < held.Items[h].Id)
-                {
-                    Hold(links, ref wanted.Items[w++]);
-                }
-                else if (w == wanted.Count || held.Items[h].Id < wanted.Items[w].Id)
-                {
-                    Release(links, held.Items[h++]);
-                }
-                else
-                {
-                    Keep(links, held.Items[h++], ref wanted.Items[w++]);
-                }
+                FindNeighbours(manager);
+            }
+            catch
+            {
+                // The links stay as they were.
+                for (var w = 0; w < wanted.Count; w++) places[wanted.Items[w].Id] = 0;
+                wanted.Clear();
+                throw;
+            }
+            var links = manager.Links;
+            for (var h = 0; h < held.Count; h++)
+            {
+                ref var before = ref held.Items[h];
+                var place = places[before.Id];
+                if (place == 0 || !Keep(links, before, ref wanted.Items[place - 1])) Release(links, before);
+            }
+            for (var w = 0; w < wanted.Count; w++)
+            {
+                ref var neighbour = ref wanted.Items[w];
+                places[neighbour.Id] = 0;
+                if (!neighbour.IsHeld) Hold(links, ref neighbour);
             }
             held.Clear();
             var free = held;
@@ -88,12 +97,15 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Names a neighbour, at most once a tick, with the link's length in metres and attenuation (0 = clear). A node that takes
-        /// no part in the simulation, and the node itself, are passed over.
+        /// Names a neighbour with the link's length in metres and attenuation (0 = clear). A node that takes no part in the simulation, the
+        /// node itself, and a node named before are passed over.
         /// </summary>
         protected void Connect(Node other, float length, float attenuation)
         {
             if (other.Id < 0 || ReferenceEquals(other, Node)) return;
+            if (other.Id >= places.Length) Array.Resize(ref places, Math.Max(other.Id + 1, places.Length * 2));
+            if (places[other.Id] != 0) return;
+            places[other.Id] = wanted.Count + 1;
             wanted.Add(new Neighbour { Id = other.Id, Length = length, Attenuation = attenuation });
         }
 
@@ -102,38 +114,25 @@ namespace Collektive.Unity
             neighbour.Out = links.Hold(Node.Id, neighbour.Id, neighbour.Length, neighbour.Attenuation);
             neighbour.BothWays = !directed;
             if (neighbour.BothWays) neighbour.In = links.Hold(neighbour.Id, Node.Id, neighbour.Length, neighbour.Attenuation);
+            neighbour.IsHeld = true;
         }
 
-        private void Keep(LinkTable links, in Neighbour before, ref Neighbour now)
+        /// <returns>False when the link is gone, because the other node left and came back.</returns>
+        private static bool Keep(LinkTable links, in Neighbour before, ref Neighbour now)
         {
-            if (!links.Update(before.Out, now.Length, now.Attenuation, LengthTolerance))
-            {
-                Hold(links, ref now);
-                return;
-            }
+            if (!links.Update(before.Out, now.Length, now.Attenuation, LengthTolerance)) return false;
             now.Out = before.Out;
             now.In = before.In;
             now.BothWays = before.BothWays;
+            now.IsHeld = true;
             if (now.BothWays) links.Update(now.In, now.Length, now.Attenuation, LengthTolerance);
+            return true;
         }
 
         private static void Release(LinkTable links, in Neighbour neighbour)
         {
             links.Release(neighbour.Out);
             if (neighbour.BothWays) links.Release(neighbour.In);
-        }
-
-        /// <summary>Neighbours come nearly in order from tick to tick, and are few: insertion sort.</summary>
-        private static void Sort(GrowingArray<Neighbour> neighbours)
-        {
-            var items = neighbours.Items;
-            for (var i = 1; i < neighbours.Count; i++)
-            {
-                var item = items[i];
-                var place = i;
-                for (; place > 0 && items[place - 1].Id > item.Id; place--) items[place] = items[place - 1];
-                items[place] = item;
-            }
         }
     }
 }
