@@ -45,7 +45,7 @@ find_jdk() {
 }
 
 setup_flatbuffers() {
-  once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers/Cargo.toml")" fetch_flatbuffers
+  once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers/Cargo.toml") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers
 }
 
 fetch_flatbuffers() {
