@@ -9,8 +9,8 @@ namespace UnityEngine
         internal readonly List<Component> components = new List<Component>();
         /// The active body, first, and colliders; null until there was one.
         internal List<Component> physicsParts;
-        /// Some script here has ever answered to such messages.
-        internal bool hearsTriggers, hearsCollisions;
+        /// What scripts here have ever answered to.
+        internal TouchMessages hears;
 
         readonly Transform ownTransform;
         int ownLayer;
@@ -102,9 +102,7 @@ namespace UnityEngine
         {
             component.owner = this;
             components.Add(component);
-            if (!(component is MonoBehaviour script)) return;
-            hearsTriggers |= script.messages.HearsTriggers;
-            hearsCollisions |= script.messages.HearsCollisions;
+            if (component is MonoBehaviour script) hears |= script.messages.Touches;
         }
 
         internal void AddPhysics(Component part)

@@ -16,8 +16,7 @@ namespace UnityEngine
         public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
         public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
 
-        public bool HearsTriggers => OnTriggerEnter != null || OnTriggerStay != null || OnTriggerExit != null;
-        public bool HearsCollisions => OnCollisionEnter != null || OnCollisionStay != null || OnCollisionExit != null;
+        public readonly TouchMessages Touches;
 
         Messages(Type type)
         {
@@ -37,6 +36,10 @@ namespace UnityEngine
             OnCollisionEnter = Compile<Collision>(type, nameof(OnCollisionEnter));
             OnCollisionStay = Compile<Collision>(type, nameof(OnCollisionStay));
             OnCollisionExit = Compile<Collision>(type, nameof(OnCollisionExit));
+            if (OnTriggerEnter != null || OnTriggerExit != null) Touches |= TouchMessages.TriggerChange;
+            if (OnTriggerStay != null) Touches |= TouchMessages.TriggerStay;
+            if (OnCollisionEnter != null || OnCollisionExit != null) Touches |= TouchMessages.CollisionChange;
+            if (OnCollisionStay != null) Touches |= TouchMessages.CollisionStay;
         }
 
         public static Messages Of(Type type)

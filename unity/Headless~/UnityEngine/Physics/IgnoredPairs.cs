@@ -8,8 +8,10 @@ namespace UnityEngine
         readonly int[] layers = new int[32]; // bit j of row i: layers i and j
         readonly HashSet<ulong> colliders = new HashSet<ulong>();
 
-        /// One number for a pair, whatever its order.
-        public static ulong Key(Collider a, Collider b) => a.id < b.id ? (ulong)a.id << 32 | (uint)b.id : (ulong)b.id << 32 | (uint)a.id;
+        /// One number for a pair, whatever its order. The odd factor keeps it unique and spreads the hash codes, which for plain pairs of near
+        /// ids would nearly all be the same.
+        public static ulong Key(Collider a, Collider b) =>
+            (a.id < b.id ? (ulong)a.id << 32 | (uint)b.id : (ulong)b.id << 32 | (uint)a.id) * 0x9E3779B97F4A7C15UL;
 
         public void Set(Collider a, Collider b, bool ignore)
         {

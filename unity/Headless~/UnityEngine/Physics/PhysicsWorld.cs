@@ -174,28 +174,32 @@ namespace UnityEngine
             foreach (var body in Bodies)
                 foreach (var collider in body.Colliders)
                 {
-                    var candidates = grid.InBox(collider.Min, collider.Max);
+                    var isSphere = collider.World.IsSphere;
+                    var candidates = isSphere ? grid.InSphere(collider.World.Center, collider.World.Radius) : grid.InBox(collider.Min, collider.Max);
                     for (var index = 0; index < candidates; index++)
                     {
                         var other = grid.Found(index);
-                        if (other.IsStatic) Examine(collider, other);
-                        else if (collider.id < other.id && !ReferenceEquals(other.Body, body)) Examine(collider, other);
+                        if (!other.IsStatic && (collider.id >= other.id || ReferenceEquals(other.Body, body))) continue;
+                        Examine(collider, other, isSphere);
                     }
                 }
         }
 
-        static void Examine(Collider a, Collider b)
+        /// `surelyTouch`: the shapes were compared already, not only the boxes around them.
+        static void Examine(Collider a, Collider b, bool surelyTouch)
         {
             var trigger = a.isTrigger || b.isTrigger;
             var solid = !trigger && (IsPushable(a) || IsPushable(b));
             var heard = trigger ? HearsTriggers(a) || HearsTriggers(b) : solid && (HearsCollisions(a) || HearsCollisions(b));
             if (!solid && !heard || Ignored.Contains(a, b)) return;
-            if (b.World.IsSphere ? !a.World.TouchesSphere(b.World.Center, b.World.Radius) : a.World.IsSphere && !b.World.TouchesSphere(a.World.Center, a.World.Radius))
-                return;
+            if (!surelyTouch && b.World.IsSphere)
+            {
+                if (!a.World.TouchesSphere(b.World.Center, b.World.Radius)) return;
+                surelyTouch = true;
+            }
             if (trigger)
             {
                 Ode.ContactGeometry any;
-                var surelyTouch = a.World.IsSphere || b.World.IsSphere;
                 if (surelyTouch || Ode.dCollide(a.Geom, b.Geom, 1, &any, sizeof(Ode.ContactGeometry)) > 0) Touching.AddTrigger(a, b);
                 return;
             }
@@ -228,7 +232,8 @@ namespace UnityEngine
         }
 
         static bool IsPushable(Collider collider) => !collider.IsStatic && !collider.Body.isKinematic;
-        static bool HearsTriggers(Collider collider) => collider.owner.hearsTriggers || !collider.IsStatic && collider.Body.owner.hearsTriggers;
-        static bool HearsCollisions(Collider collider) => (collider.IsStatic ? collider.owner : collider.Body.owner).hearsCollisions;
+        static bool HearsTriggers(Collider collider) =>
+            (collider.owner.hears & TouchMessages.Triggers) != 0 || !collider.IsStatic && (collider.Body.owner.hears & TouchMessages.Triggers) != 0;
+        static bool HearsCollisions(Collider collider) => ((collider.IsStatic ? collider.owner : collider.Body.owner).hears & TouchMessages.Collisions) != 0;
     }
 }

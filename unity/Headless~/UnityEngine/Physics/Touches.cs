@@ -125,6 +125,8 @@ namespace UnityEngine
             ordered.RemoveRange(kept, ordered.Count - kept);
         }
 
+        bool IsStay(Touch touch) => touch.FirstStep != step && touch.LastStep == step;
+
         void Forget(Touch touch)
         {
             if (touch.Key != 0) byPair.Remove(touch.Key);
@@ -147,7 +149,7 @@ namespace UnityEngine
 
         void SendTrigger(Touch touch, GameObject to, Collider other)
         {
-            if (!to.hearsTriggers) return;
+            if ((to.hears & (IsStay(touch) ? TouchMessages.TriggerStay : TouchMessages.TriggerChange)) == 0) return;
             for (var index = 0; index < to.components.Count && to.activeInHierarchy; index++)
             {
                 if (!(to.components[index] is MonoBehaviour script) || !script.didAwake) continue;
@@ -165,7 +167,7 @@ namespace UnityEngine
         void SendCollision(Touch touch, Collider to, Collider other, float sign, float duration)
         {
             var target = to.IsStatic ? to.owner : to.Body.owner;
-            if (!target.hearsCollisions) return;
+            if ((target.hears & (IsStay(touch) ? TouchMessages.CollisionStay : TouchMessages.CollisionChange)) == 0) return;
             Fill(touch, to, other, sign, duration);
             for (var index = 0; index < target.components.Count && target.activeInHierarchy; index++)
             {
