@@ -39,7 +39,7 @@ class AllocationTest {
         }
     }
 
-    /** Bytes that the engine's thread and those of its pool allocate; the least of several runs, since the JIT allocates too. */
+    /** Bytes that the engine's thread and those of its pool allocate; the least of several runs, since code that is not compiled yet allocates more. */
     private fun bytesPerTick(schedule: Schedule, allocates: Boolean): Long {
         Engine(EngineSettings(1, 2, schedule), AggregateRuntimes()).use { engine ->
             val tick = Tick()
@@ -57,7 +57,7 @@ class AllocationTest {
             repeat(WARM_UP) { step() }
             val own = Thread.getAllStackTraces().keys.filter { it is RoundThread || it === Thread.currentThread() }
             val ids = own.map { it.id }.toLongArray()
-            return (1..5).minOf {
+            return (1..RUNS).minOf {
                 val before = threads.getThreadAllocatedBytes(ids).sum()
                 repeat(TICKS) { step() }
                 (threads.getThreadAllocatedBytes(ids).sum() - before) / TICKS
@@ -68,6 +68,7 @@ class AllocationTest {
     private companion object {
         const val NODES = 500
         const val WARM_UP = 500
-        const val TICKS = 2000
+        const val TICKS = 1000
+        const val RUNS = 20
     }
 }

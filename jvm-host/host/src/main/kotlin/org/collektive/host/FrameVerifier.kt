@@ -1,5 +1,6 @@
 package org.collektive.host
 
+import com.google.flatbuffers.Utf8
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
@@ -78,6 +79,11 @@ internal class FrameVerifier {
     private fun string(position: Int, path: String) {
         val length = vector(position, 1, path)
         if (length > MAX_STRING) damaged(path, "is a string of $length bytes, more than $MAX_STRING")
+        try {
+            Utf8.getDefault().decodeUtf8(frame, position + OFFSET, length)
+        } catch (_: IllegalArgumentException) {
+            damaged(path, "is a string that is not UTF-8")
+        }
     }
 
     private fun vector(position: Int, elementSize: Int, path: String): Int {

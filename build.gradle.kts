@@ -1,0 +1,155 @@
+// Builds the modules of jvm-host for those who live in Gradle or IntelliJ; CI and ./collektive use jvm-host/pom.xml.
+// FlatBuffers (flatc and the Java runtime) comes from `./collektive setup`.
+import org.jetbrains.kotlin.gradle.dsl.JvmTarget
+import org.jetbrains.kotlin.gradle.dsl.KotlinJvmProjectExtension
+
+plugins {
+    id("org.jetbrains.kotlin.jvm") apply false
+}
+
+fun properties(pom: String): Map<String, String> =
+    Regex("<([a-z.-]+)>([^<]+)</\\1>").findAll(file(pom).readText()).associate { it.groupValues[1] to it.groupValues[2] }
+
+val parent = properties("jvm-host/pom.xml")
+val release = parent.getValue("java.release").toInt()
+val kotlinVersion = parent.getValue("kotlin.version")
+val flatc = file("build/flatc")
+val flatbuffersSources = file("build/flatbuffers/java/src/main/java")
+
+fun requireSetup() {
+    if (!flatc.exists() || !flatbuffersSources.exists()) throw GradleException("FlatBuffers is missing: run ./collektive setup")
+}
+
+/** Makes [name] a step that fills [folder] with Java sources of this module. */
+fun Project.generatedJava(name: String, folder: Provider<Directory>, inputs: Any, configure: Exec.() -> Unit) {
+    val task = tasks.register<Exec>(name) {
+        this.inputs.files(inputs)
+        outputs.dir(folder)
+        doFirst { requireSetup() }
+        configure()
+    }
+    extensions.getByType<SourceSetContainer>()["main"].java.srcDir(folder)
+    for (user in listOf("compileKotlin", "compileJava", "processResources")) tasks.named(user) { dependsOn(task) }
+}
+
+subprojects {
+    apply(plugin = "java-library")
+    apply(plugin = "org.jetbrains.kotlin.jvm")
+    group = "org.collektive"
+    version = parent.getValue("version")
+    // Beside Maven's output, out of git's sight.
+    layout.buildDirectory.set(file("target/gradle"))
+
+    extensions.configure<KotlinJvmProjectExtension> {
+        explicitApi()
+        compilerOptions {
+            jvmTarget.set(JvmTarget.fromTarget("$release"))
+            freeCompilerArgs.add("-Xjdk-release=$release")
+            allWarningsAsErrors.set(true)
+        }
+    }
+    tasks.withType<JavaCompile>().configureEach {
+        options.release.set(release)
+        options.compilerArgs.add("-Xlint:none")
+    }
+    tasks.withType<Test>().configureEach {
+        useJUnitPlatform()
+        maxHeapSize = "384m"
+        systemProperty("collektive.root", rootDir.path)
+        systemProperty("collektive.flatc", flatc.path)
+    }
+    dependencies {
+        "implementation"("org.jetbrains.kotlin:kotlin-stdlib:$kotlinVersion")
+        "testImplementation"("org.jetbrains.kotlin:kotlin-test-junit5:$kotlinVersion")
+        "testImplementation"(platform("org.junit:junit-bom:${parent.getValue("junit.version")}"))
+        "testImplementation"("org.junit.jupiter:junit-jupiter")
+        "testRuntimeOnly"("org.junit.platform:junit-platform-launcher")
+    }
+}
+
+project(":flatbuffers") {
+    extensions.getByType<SourceSetContainer>()["main"].java.srcDir(flatbuffersSources)
+    tasks.named("compileJava") { doFirst { requireSetup() } }
+}
+
+project(":runtime") {
+    dependencies { "api"(project(":dsl")) }
+}
+
+project(":api") {
+    dependencies {
+        "api"(project(":flatbuffers"))
+        "api"(project(":dsl"))
+    }
+    val folder = layout.buildDirectory.dir("generated/flatbuffers")
+    generatedJava("coreTypes", folder, file("$rootDir/schema/types.fbs")) {
+        commandLine(flatc.path, "--java", "--gen-object-api", "-o", folder.get().asFile.path, "$rootDir/schema/types.fbs")
+    }
+}
+
+project(":generator") {
+    dependencies {
+        "implementation"(project(":flatbuffers"))
+        "implementation"("com.samskivert:jmustache:${properties("jvm-host/generator/pom.xml").getValue("jmustache.version")}")
+        "testImplementation"(project(":api"))
+    }
+    tasks.named<ProcessResources>("processResources") {
+        from("$rootDir/schema/templates") { into("org/collektive/generator") }
+    }
+}
+
+project(":engine") {
+    dependencies {
+        "api"(project(":api"))
+        "api"(project(":runtime"))
+    }
+}
+
+project(":host") {
+    dependencies {
+        "api"(project(":engine"))
+        "testImplementation"(project(":generator"))
+    }
+    val folder = layout.buildDirectory.dir("generated/flatbuffers")
+    generatedJava("frames", folder, file("$rootDir/schema/frame.fbs")) {
+        commandLine(flatc.path, "--java", "-o", folder.get().asFile.path, "$rootDir/schema/frame.fbs")
+    }
+    // One jar: the JVM's class path in Unity, and the compile class path of programs.
+    val hostJar = tasks.register<Jar>("hostJar") {
+        archiveFileName.set("collektive-host.jar")
+        destinationDirectory.set(file("target"))
+        duplicatesStrategy = DuplicatesStrategy.EXCLUDE
+        from(extensions.getByType<SourceSetContainer>()["main"].output)
+        val libraries = configurations["runtimeClasspath"]
+        dependsOn(libraries)
+        from({ libraries.map { if (it.isDirectory) it else zipTree(it) } })
+        exclude("META-INF/MANIFEST.MF", "META-INF/versions/**", "META-INF/maven/**")
+    }
+    tasks.named("assemble") { dependsOn(hostJar) }
+}
+
+project(":programs") {
+    val generator = configurations.create("generator")
+    dependencies {
+        "compileOnly"(project(":host"))
+        "testImplementation"(project(":host"))
+        "generator"(project(":generator"))
+    }
+    val schema = "$rootDir/unity/Samples~/GradientAscent/gradient_ascent.fbs"
+    val folder = layout.buildDirectory.dir("generated/schema")
+    generatedJava("schema", folder, files(schema, generator)) {
+        doFirst {
+            commandLine(
+                "${System.getProperty("java.home")}/bin/java", "-cp", generator.asPath, "org.collektive.generator.MainKt",
+                "--flatc", flatc.path, "--schema", schema, "--include", "$rootDir/schema", "--java", folder.get().asFile.path,
+            )
+        }
+    }
+    tasks.named<ProcessResources>("processResources") {
+        from(folder) { include("META-INF/**") }
+    }
+    tasks.named<Jar>("jar") {
+        archiveFileName.set("collektive-programs.jar")
+        destinationDirectory.set(file("target"))
+    }
+}

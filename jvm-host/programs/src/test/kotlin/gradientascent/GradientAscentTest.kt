@@ -1,0 +1,96 @@
+package gradientascent
+
+import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.api.Philox
+import org.collektive.runtime.AggregateRuntimes
+import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Inbox
+import org.collektive.schema.Vector3T
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+
+/** Worked out by hand: 0 at the origin, 1 five metres away at (3, 1, 4), sensing 10 and 20. */
+class GradientAscentTest {
+    private val runtimes = AggregateRuntimes()
+    private val devices = List(2) { runtimes.device(it) }
+
+    private fun round(id: Int, neighbor: Int?, sensors: SensorData, step: String = "1.0"): List<Float> {
+        val target = (devices[id].round(inbox(neighbor)) { it.gradientAscent(sensors, device(id, step)) } as ActuatorDataT).target
+        devices[id].commit()
+        return listOf(target.x, target.y, target.z)
+    }
+
+    private val low = sensors(10f, vector(0f, 1f, 0f))
+    private val high = sensors(20f, vector(3f, 1f, 4f))
+
+    @Test
+    fun `both climb, the one in front too`() {
+        round(0, null, low)
+        assertEquals(listOf(3.6f, 1f, 4.8f), round(1, 0, high), "away from the lower one")
+        assertEquals(listOf(0.6f, 1f, 0.8f), round(0, 1, low), "towards the higher one")
+    }
+
+    @Test
+    fun `alone and free it stays`() = assertEquals(listOf(3f, 1f, 4f), round(1, null, high))
+
+    @Test
+    fun `the step is the node's own`() {
+        round(1, null, high)
+        assertEquals(listOf(0.3f, 1f, 0.4f), round(0, 1, low, step = "0.5"))
+    }
+
+    @Test
+    fun `an obstacle within a metre pushes away, one beyond does not`() {
+        assertEquals(listOf(-1f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(0.5f, 0f, 0f))))
+        assertEquals(listOf(0f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(1.5f, 0f, 0f))))
+    }
+
+    @Test
+    fun `pull and push add up`() {
+        round(1, null, high)
+        // The neighbour pulls by 10 along (0.6, 0.8), the obstacle pushes by 2 / 0.25 = 8 along -z: (6, 0).
+        assertEquals(listOf(1f, 1f, 0f), round(0, 1, sensors(10f, vector(0f, 1f, 0f), vector(0f, 0f, 0.5f))))
+    }
+
+    @Test
+    fun `a neighbour or an obstacle at the very same place has no direction`() {
+        round(1, null, sensors(20f, vector(0f, 1f, 0f)))
+        assertEquals(listOf(0f, 1f, 0f), round(0, 1, sensors(10f, vector(0f, 1f, 0f), vector(0f, 0f, 0f))))
+    }
+
+    private fun inbox(neighbor: Int?): Inbox = object : Inbox {
+        override val size = if (neighbor == null) 0 else 1
+        override val ids: Array<Any> = if (neighbor == null) emptyArray() else arrayOf(neighbor)
+
+        override fun sender(index: Int): DeviceRuntime = devices[checkNotNull(neighbor)]
+
+        override fun wasKnown(index: Int) = true
+    }
+
+    private fun device(id: Int, step: String): Device = object : Device {
+        override val id = id
+        override val time = 0.0
+        override val deltaTime = 0.05
+        override val random = Philox(1, id, 0)
+        override val parameters = Parameters(mapOf("step" to step))
+        override val globals: Any? = null
+    }
+
+    private fun vector(x: Float, y: Float, z: Float) = Vector3T().also {
+        it.x = x
+        it.y = y
+        it.z = z
+    }
+
+    private fun sensors(intensity: Float, position: Vector3T, vararg obstacles: Vector3T): SensorData {
+        val builder = FlatBufferBuilder()
+        val data = SensorDataT()
+        data.intensity = intensity
+        data.position = position
+        data.obstacles = arrayOf(*obstacles)
+        builder.finish(SensorData.pack(builder, data))
+        return SensorData.getRootAsSensorData(builder.dataBuffer())
+    }
+}
