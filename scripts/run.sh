@@ -98,8 +98,8 @@ cmd_run() {
   schema=$(planned "$plan" schema)
   programs=$(planned "$plan" programs)
   scripts=$(planned "$plan" scripts)
-  jar=$(programs_jar "$schema" "$programs")
-  dll=$(scripts_dll "$schema" "$scripts")
+  jar=$(programs_jar "$schema" "$programs") || exit 1
+  dll=$(scripts_dll "$schema" "$scripts") || exit 1
   if [ "$(planned "$plan" replay)" = yes ]; then
     build_replay_page
     template=(--template "$BUILD/replay.html")

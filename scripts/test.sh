@@ -93,8 +93,10 @@ generate_test_schemas() {
 
 # csharp_tests RUNTIME JDK: all C# tests on one runtime and one JVM.
 csharp_tests() {
+  local jar
+  jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") || return 1
   cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
-  COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") \
+  COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
     managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll"
 }
 

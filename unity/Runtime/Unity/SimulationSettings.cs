@@ -64,7 +64,7 @@ namespace Collektive.Unity
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
-            if (jars.Count == 0) return "no jar with programs is named: add the path of one to the settings";
+            if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace)) return "no jar with programs is named, or one has no path: add the path to the settings";
             return null;
         }
     }

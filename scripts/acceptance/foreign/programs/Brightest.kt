@@ -10,9 +10,9 @@ public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorDataT {
     val mine = sensors.brightness()
     val heard = mutableListOf<Int>()
     val best = share(mine) { field ->
-        val values = field.neighbors.toMap()
-        heard += values.keys
-        maxOf(mine, values.values.maxOrNull() ?: mine)
+        val values = field.neighbors.list
+        heard += values.map { it.id }
+        maxOf(mine, values.maxOfOrNull { it.value } ?: mine)
     }
     return ActuatorDataT().also {
         it.brightest = best

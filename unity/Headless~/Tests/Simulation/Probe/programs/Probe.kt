@@ -1,7 +1,6 @@
 package probe
 
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.evolve
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import org.collektive.api.Device
@@ -18,7 +17,7 @@ public fun Aggregate<Int>.double(sensors: SensorData): ActuatorDataT = answer(se
 
 @Program("sum")
 public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorDataT {
-    val heard = neighboring(sensors.value()).neighbors.toMap().values
+    val heard = neighboring(sensors.value()).neighbors.list.map { it.value }
     return answer(heard.sum(), heard.size)
 }
 
@@ -28,7 +27,7 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
     val unknown = Int.MAX_VALUE
     val source = sensors.value() == 0f
     val hops = share(unknown) { field ->
-        val nearest = field.neighbors.toMap().values.minOrNull() ?: unknown
+        val nearest = field.neighbors.list.map { it.value }.minOrNull() ?: unknown
         if (source) 0 else if (nearest == unknown) unknown else nearest + 1
     }
     return answer(if (hops == unknown) -1f else hops.toFloat())
