@@ -65,8 +65,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
-        for (index in 0 until tick.linksRemoved.size step 2) {
-            unlink(existing(tick.linksRemoved[index]), existing(tick.linksRemoved[index + 1]))
+        for (index in 0 until tick.linksRemoved.size / 2) {
+            unlink(existing(tick.linksRemoved[2 * index]), existing(tick.linksRemoved[2 * index + 1]))
         }
         val links = tick.links
         for (index in 0 until links.size) {

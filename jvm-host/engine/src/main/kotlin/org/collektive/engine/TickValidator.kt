@@ -64,9 +64,9 @@ internal class TickValidator(private val nodes: Peers) {
 
     private fun checkLinksRemoved(tick: Tick) {
         val list = tick.linksRemoved
-        for (index in 0 until list.size step 2) {
-            val from = list[index]
-            val to = list[index + 1]
+        for (index in 0 until list.size / 2) {
+            val from = list[2 * index]
+            val to = list[2 * index + 1]
             val links = staying(to)?.incoming
             val link = if (links == null || staying(from) == null) -1 else links.indexOf(from)
             if (links == null || link < 0) refuse(tick, "link $from -> $to cannot be removed: there is none")

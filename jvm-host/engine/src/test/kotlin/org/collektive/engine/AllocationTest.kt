@@ -49,7 +49,7 @@ class AllocationTest {
                 tick.number++
                 tick.time += 0.1
                 for (id in 0 until NODES) tick.due.add(id)
-                for (id in 1 until NODES step 10) tick.links.add(id - 1, id, tick.time.toFloat(), 0f)
+                for (part in 1 until NODES / 10) tick.links.add(10 * part - 1, 10 * part, tick.time.toFloat(), 0f)
                 engine.step(tick, NoData, System.nanoTime() + TimeUnit.SECONDS.toNanos(10))
                 tick.clear()
             }
