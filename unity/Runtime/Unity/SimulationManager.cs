@@ -21,6 +21,9 @@ namespace Collektive.Unity
         /// <summary>A frame that took long makes at most this many ticks; the rest of its time is dropped.</summary>
         private const int MaxTicksPerFrame = 4;
 
+        /// <summary>Frame times are floats: ten of 0.02 s make two ticks of 0.1 s, not one.</summary>
+        private const double Almost = 1 - 1e-6;
+
         /// <summary>Ids index arrays.</summary>
         private const int MaxId = (1 << 24) - 1;
 
@@ -267,7 +270,7 @@ namespace Collektive.Unity
             DrainLog();
             if (paused) return;
             accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
-            while (accumulated >= settings.deltaTime && isActiveAndEnabled && !paused)
+            while (accumulated >= settings.deltaTime * Almost && isActiveAndEnabled && !paused)
             {
                 accumulated -= settings.deltaTime;
                 Step();

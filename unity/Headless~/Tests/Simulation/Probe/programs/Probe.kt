@@ -58,7 +58,7 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         16 -> System.exit(3)
         17 -> Runtime.getRuntime().halt(3)
         18 -> generateSequence { LongArray(1 shl 26) }.toList()
-        19 -> neighboring(sensors)
+        19 -> alignedOn("view") { neighboring(sensors) }
         20 -> println("a line from the program")
     }
     return answer(rounds.toFloat())
