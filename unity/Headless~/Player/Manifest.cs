@@ -49,8 +49,9 @@ namespace Collektive.Headless
         }
 
         /// <summary>Quantiles over all ticks, in milliseconds.</summary>
-        internal void AddTimes(List<double> step, List<double> total)
+        internal void AddTimes(List<double> rounds, List<double> step, List<double> total)
         {
+            root.Add("rounds_ms_median", Math.Round(Quantiles.Of(rounds, 0.5), 4));
             root.Add("step_ms_median", Math.Round(Quantiles.Of(step, 0.5), 4));
             root.Add("step_ms_p99", Math.Round(Quantiles.Of(step, 0.99), 4));
             root.Add("tick_ms_median", Math.Round(Quantiles.Of(total, 0.5), 4));

@@ -21,6 +21,7 @@ namespace Collektive.Headless
         private readonly Options options;
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
+        private readonly List<double> roundTimes = new List<double>();
 
         internal ScenarioRun(Scenario scenario, Options options)
         {
@@ -105,6 +106,7 @@ namespace Collektive.Headless
                     metrics.Add(manager.Times);
                     stepTimes.Add(manager.Times.Step);
                     totalTimes.Add(manager.Times.Total);
+                    roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
                     if (manager.SimulatedTime - replayed >= 1 / ReplayRate - 1e-6)
                     {
                         replayed = manager.SimulatedTime;
@@ -117,7 +119,7 @@ namespace Collektive.Headless
                 scene.Measure((double[])metrics.Values);
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 var manifest = new Manifest(scenario, options, manager, scene, start, metrics.Values, progress.Seconds);
-                manifest.AddTimes(stepTimes, totalTimes);
+                manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.Write(Path.Combine(options.Out, "manifest.json"));
             }
             if (manager.ErrorCount == 0) return 0;
