@@ -39,8 +39,12 @@ public object Host {
         if (session in sessions) throw HostException(HostError.ARGUMENT, "session $session is open already")
         val frame = FrameVerifier.frame(request, offset, length)
         val opened = Session.open(frame, shim)
-        sessions[session] = opened
-        opened.answerOpen(slot, answer)
+        try {
+            opened.answerOpen(slot, answer).also { sessions[session] = opened }
+        } catch (e: Throwable) {
+            opened.close()
+            throw e
+        }
     }
 
     /** Runs the tick of the `StepRequest` in [request]. */

@@ -108,8 +108,8 @@ internal fun direct(builder: FlatBufferBuilder): ByteBuffer {
 }
 
 /** A session of the real [Host], driven as the shim does. */
-internal class TestSession(private val shim: TestShim, private val id: Long = next++) {
-    private var answer = ByteBuffer.allocateDirect(1024)
+internal class TestSession(private val shim: TestShim, private val id: Long = next++, answerBytes: Int = 1024) {
+    private var answer = ByteBuffer.allocateDirect(answerBytes)
 
     fun open(
         jars: List<String> = listOf(ProbeJars.programs.toString()),
