@@ -7,10 +7,11 @@ plugins {
     id("org.jetbrains.kotlin.jvm") apply false
 }
 
-fun properties(pom: String): Map<String, String> =
-    Regex("<([a-z.-]+)>([^<]+)</\\1>").findAll(file(pom).readText()).associate { it.groupValues[1] to it.groupValues[2] }
+/** The simple elements of a POM; of several with one name the first, which is the project's own. */
+fun pomValues(pom: String): Map<String, String> =
+    Regex("<([a-z.-]+)>([^<]+)</\\1>").findAll(file(pom).readText()).toList().asReversed().associate { it.groupValues[1] to it.groupValues[2] }
 
-val parent = properties("jvm-host/pom.xml")
+val parent = pomValues("jvm-host/pom.xml")
 val release = parent.getValue("java.release").toInt()
 val kotlinVersion = parent.getValue("kotlin.version")
 val flatc = file("build/flatc")
@@ -90,7 +91,7 @@ project(":api") {
 project(":generator") {
     dependencies {
         "implementation"(project(":flatbuffers"))
-        "implementation"("com.samskivert:jmustache:${properties("jvm-host/generator/pom.xml").getValue("jmustache.version")}")
+        "implementation"("com.samskivert:jmustache:${pomValues("jvm-host/generator/pom.xml").getValue("jmustache.version")}")
         "testImplementation"(project(":api"))
     }
     tasks.named<ProcessResources>("processResources") {
