@@ -152,8 +152,14 @@ namespace Collektive.Unity
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances)
         {
-            if (radius > searchRadius) searchRadius = radius;
-            grid.Find(centre, radius, found, distances);
+            found.Clear();
+            distances.Clear();
+            var hits = Search(centre, radius);
+            for (var i = 0; i < hits.Length; i++)
+            {
+                found.Add(grid.NodeAt(hits[i]));
+                distances.Add(hits[i].Distance);
+            }
         }
 
         /// <summary>Does one tick now, paused or not.</summary>
@@ -188,6 +194,12 @@ namespace Collektive.Unity
             Failure = message;
             Debug.LogError("Simulation stopped: " + message, this);
             enabled = false;
+        }
+
+        internal ReadOnlySpan<NodeGrid.Hit> Search(Vector3 centre, float radius)
+        {
+            if (radius > searchRadius) searchRadius = radius;
+            return grid.Find(centre, radius);
         }
 
         internal void Join(Node node)

@@ -72,18 +72,20 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void A_length_is_sent_again_only_when_it_changed_by_more_than_the_tolerance()
+        public void Values_are_sent_again_only_when_they_changed_enough_to_matter()
         {
             var table = new LinkTable();
             var handle = table.Hold(0, 1, 10, 0);
             var known = new[] { true, true };
             Assert.That(Sent(table, known), Is.EqualTo(1));
-            Assert.That(table.Update(handle, 10.04f, 0, 0.05f), Is.True);
-            Assert.That(Sent(table, known), Is.EqualTo(0));
-            table.Update(handle, 10.2f, 0, 0.05f);
-            Assert.That(Sent(table, known), Is.EqualTo(1));
+            Assert.That(table.Update(handle, 10.9f, 0), Is.True);
+            Assert.That(Sent(table, known), Is.EqualTo(0), "less than a tenth");
+            table.Update(handle, 11.1f, 0);
+            Assert.That(Sent(table, known), Is.EqualTo(1), "more than a tenth");
+            table.Update(handle, 11.1f, 0.5f);
+            Assert.That(Sent(table, known), Is.EqualTo(1), "any change of the attenuation");
             table.Release(handle);
-            Assert.That(table.Update(handle, 1, 0, 0), Is.False);
+            Assert.That(table.Update(handle, 1, 0), Is.False);
         }
 
         private static int Sent(LinkTable table, bool[] known)

@@ -5,22 +5,22 @@ namespace Collektive.Bridge
     /// <summary>A list that shows its array, so that it can be written as one block. Clearing keeps the memory.</summary>
     public sealed class GrowingArray<T>
     {
+        private T[] items = new T[16];
+
         /// <summary>The elements; only the first <see cref="Count"/> count.</summary>
-        public T[] Items { get; private set; } = new T[16];
+        public T[] Items => items;
 
         /// <summary>How many elements there are.</summary>
         public int Count { get; private set; }
 
         /// <summary>Appends an element.</summary>
-        public void Add(T item)
+        public void Add(T item) => Add() = item;
+
+        /// <summary>Appends an element that holds what was there before; valid until the next one is appended.</summary>
+        public ref T Add()
         {
-            if (Count == Items.Length)
-            {
-                var items = Items;
-                Array.Resize(ref items, Count * 2);
-                Items = items;
-            }
-            Items[Count++] = item;
+            if (Count == items.Length) Array.Resize(ref items, Count * 2);
+            return ref items[Count++];
         }
 
         /// <summary>Makes it empty.</summary>

@@ -11,6 +11,10 @@ namespace Collektive.Unity
     {
         private const int None = -1;
 
+        /// <summary>A link's new length is sent when it differs from the one sent last by more than this part of it, and this many metres.</summary>
+        private const float RelativeTolerance = 0.1f;
+        private const float AbsoluteTolerance = 0.05f;
+
         private struct Entry
         {
             internal LinkRecord Link;
@@ -63,16 +67,21 @@ namespace Collektive.Unity
                 Count++;
                 Touch(index);
             }
-            SetValues(index, length, attenuation, 0);
+            SetValues(index, length, attenuation);
             return new LinkHandle(index, entry.Generation);
         }
 
-        /// <summary>Gives a held link new values where they differ by more than the tolerance (metres).</summary>
+        /// <summary>Gives a held link new values, where they differ enough to matter.</summary>
         /// <returns>False when the link is gone, because one of its nodes left.</returns>
-        internal bool Update(LinkHandle handle, float length, float attenuation, float tolerance)
+        internal bool Update(LinkHandle handle, float length, float attenuation)
         {
-            if (!Alive(handle)) return false;
-            SetValues(handle.Index, length, attenuation, tolerance);
+            ref var entry = ref entries[handle.Index];
+            if (entry.Generation != handle.Generation || entry.Holders == 0) return false;
+            var change = Math.Abs(entry.Link.Length - length);
+            if ((change > AbsoluteTolerance && change > RelativeTolerance * entry.Link.Length) || entry.Link.Attenuation != attenuation)
+            {
+                SetValues(handle.Index, length, attenuation);
+            }
             return true;
         }
 
@@ -92,7 +101,7 @@ namespace Collektive.Unity
             var index = Find(from, to);
             if (index != None && entries[index].ByScript)
             {
-                SetValues(index, length, attenuation, 0);
+                SetValues(index, length, attenuation);
                 return;
             }
             entries[Hold(from, to, length, attenuation).Index].ByScript = true;
@@ -167,10 +176,10 @@ namespace Collektive.Unity
             return entry.Generation == handle.Generation && entry.Holders > 0;
         }
 
-        private void SetValues(int index, float length, float attenuation, float tolerance)
+        private void SetValues(int index, float length, float attenuation)
         {
             ref var link = ref entries[index].Link;
-            if (Math.Abs(link.Length - length) <= tolerance && Math.Abs(link.Attenuation - attenuation) <= tolerance) return;
+            if (link.Length == length && link.Attenuation == attenuation) return;
             link.Length = length;
             link.Attenuation = attenuation;
             Touch(index);

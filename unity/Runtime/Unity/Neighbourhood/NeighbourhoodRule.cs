@@ -10,9 +10,6 @@ namespace Collektive.Unity
     /// </summary>
     public abstract class NeighbourhoodRule : NodePart
     {
-        /// <summary>Links whose length changed by less than this many metres are not sent again.</summary>
-        private const float LengthTolerance = 0.05f;
-
         /// <summary>By node id: 1 + place among the wanted, 0 for all others. Scratch of one update; main thread only.</summary>
         private static int[] places = new int[64];
 
@@ -102,11 +99,20 @@ namespace Collektive.Unity
         /// </summary>
         protected void Connect(Node other, float length, float attenuation)
         {
-            if (other.Id < 0 || ReferenceEquals(other, Node)) return;
-            if (other.Id >= places.Length) Array.Resize(ref places, Math.Max(other.Id + 1, places.Length * 2));
-            if (places[other.Id] != 0) return;
-            places[other.Id] = wanted.Count + 1;
-            wanted.Add(new Neighbour { Id = other.Id, Length = length, Attenuation = attenuation });
+            Connect(other.Id, length, attenuation);
+        }
+
+        internal void Connect(int id, float length, float attenuation)
+        {
+            if (id < 0 || id == Node.Id) return;
+            if (id >= places.Length) Array.Resize(ref places, Math.Max(id + 1, places.Length * 2));
+            if (places[id] != 0) return;
+            ref var neighbour = ref wanted.Add();
+            neighbour.Id = id;
+            neighbour.Length = length;
+            neighbour.Attenuation = attenuation;
+            neighbour.IsHeld = false;
+            places[id] = wanted.Count;
         }
 
         private void Hold(LinkTable links, ref Neighbour neighbour)
@@ -120,12 +126,12 @@ namespace Collektive.Unity
         /// <returns>False when the link is gone, because the other node left and came back.</returns>
         private static bool Keep(LinkTable links, in Neighbour before, ref Neighbour now)
         {
-            if (!links.Update(before.Out, now.Length, now.Attenuation, LengthTolerance)) return false;
+            if (!links.Update(before.Out, now.Length, now.Attenuation)) return false;
             now.Out = before.Out;
             now.In = before.In;
             now.BothWays = before.BothWays;
             now.IsHeld = true;
-            if (now.BothWays) links.Update(now.In, now.Length, now.Attenuation, LengthTolerance);
+            if (now.BothWays) links.Update(now.In, now.Length, now.Attenuation);
             return true;
         }
 

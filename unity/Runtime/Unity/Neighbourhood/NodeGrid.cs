@@ -14,8 +14,11 @@ namespace Collektive.Unity
         private Cell[] cells = new Cell[64];
         private int[] order = new int[64];
         private int[] starts = new int[129];
-        private IReadOnlyList<Node> nodes = Array.Empty<Node>();
+        private int[] ids = new int[64];
+        private Node[] nodes = new Node[64];
         private int count;
+        private Hit[] hits = new Hit[64];
+        private int hitCount;
         private int mask;
         private float cellSize = 1;
 
@@ -27,10 +30,17 @@ namespace Collektive.Unity
             internal int Bucket;
         }
 
-        /// <summary>Takes the positions of all nodes, for searches of about <paramref name="radius"/> metres.</summary>
-        internal void Build(IReadOnlyList<Node> all, float radius)
+        /// <summary>A node near a point.</summary>
+        internal struct Hit
         {
-            nodes = all;
+            internal int Place;
+            internal int Id;
+            internal float Distance;
+        }
+
+        /// <summary>Takes the positions of all nodes, for searches of about <paramref name="radius"/> metres.</summary>
+        internal void Build(List<Node> all, float radius)
+        {
             count = all.Count;
             cellSize = Math.Max(radius, 1e-3f);
             EnsureCapacity();
@@ -38,6 +48,8 @@ namespace Collektive.Unity
             for (var i = 0; i < count; i++)
             {
                 var position = all[i].Body.position;
+                nodes[i] = all[i];
+                ids[i] = all[i].Id;
                 positions[i] = position;
                 cells[i] = CellOf(position);
                 starts[cells[i].Bucket + 1]++;
@@ -49,41 +61,46 @@ namespace Collektive.Unity
             starts[mask + 1] = count;
         }
 
-        /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order, with their distances.</summary>
-        internal void Find(Vector3 centre, float radius, List<Node> found, List<float> distances)
+        /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order; valid until the next search.</summary>
+        internal ReadOnlySpan<Hit> Find(Vector3 centre, float radius)
         {
-            found.Clear();
-            distances.Clear();
+            hitCount = 0;
             var reach = (int)Math.Ceiling(radius / cellSize);
             var middle = CellOf(centre);
             for (var x = middle.X - reach; x <= middle.X + reach; x++)
             {
                 for (var y = middle.Y - reach; y <= middle.Y + reach; y++)
                 {
-                    for (var z = middle.Z - reach; z <= middle.Z + reach; z++)
-                    {
-                        FindInCell(x, y, z, centre, radius, found, distances);
-                    }
+                    for (var z = middle.Z - reach; z <= middle.Z + reach; z++) FindInCell(x, y, z, centre, radius * radius);
                 }
             }
+            return new ReadOnlySpan<Hit>(hits, 0, hitCount);
         }
 
-        private void FindInCell(
-            int x, int y, int z, Vector3 centre, float radius, List<Node> found, List<float> distances)
+        /// <summary>The node of a hit.</summary>
+        internal Node NodeAt(in Hit hit) => nodes[hit.Place];
+
+        private void FindInCell(int x, int y, int z, Vector3 centre, float squaredRadius)
         {
             var bucket = Bucket(x, y, z);
-            for (var i = starts[bucket]; i < starts[bucket + 1]; i++)
+            var end = starts[bucket + 1];
+            for (var i = starts[bucket]; i < end; i++)
             {
-                var index = order[i];
+                var place = order[i];
+                ref var cell = ref cells[place];
                 // Other cells may share the bucket.
-                if (cells[index].X != x || cells[index].Y != y || cells[index].Z != z) continue;
-                var dx = positions[index].x - centre.x;
-                var dy = positions[index].y - centre.y;
-                var dz = positions[index].z - centre.z;
+                if (cell.X != x || cell.Z != z || cell.Y != y) continue;
+                ref var position = ref positions[place];
+                var dx = position.x - centre.x;
+                var dy = position.y - centre.y;
+                var dz = position.z - centre.z;
                 var squared = dx * dx + dy * dy + dz * dz;
-                if (squared > radius * radius) continue;
-                found.Add(nodes[index]);
-                distances.Add((float)Math.Sqrt(squared));
+                if (squared > squaredRadius) continue;
+                if (hitCount == hits.Length) Array.Resize(ref hits, hitCount * 2);
+                ref var hit = ref hits[hitCount++];
+                hit.Place = place;
+                hit.Id = ids[place];
+                hit.Distance = (float)Math.Sqrt(squared);
             }
         }
 
@@ -113,6 +130,8 @@ namespace Collektive.Unity
                 positions = new Vector3[capacity];
                 cells = new Cell[capacity];
                 order = new int[capacity];
+                ids = new int[capacity];
+                nodes = new Node[capacity];
             }
             var buckets = starts.Length - 1;
             while (buckets < 2 * count) buckets *= 2;

@@ -1,4 +1,3 @@
-using System.Collections.Generic;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -7,9 +6,6 @@ namespace Collektive.Unity
     [AddComponentMenu("Collektive/Neighbourhoods/Radius Neighbourhood")]
     public sealed class RadiusNeighbourhood : NeighbourhoodRule
     {
-        private static readonly List<Node> Found = new List<Node>();
-        private static readonly List<float> Distances = new List<float>();
-
         [SerializeField]
         [Min(0)]
         [Tooltip("Metres.")]
@@ -25,8 +21,8 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(SimulationManager manager)
         {
-            manager.FindNodes(Node.Body.position, radius, Found, Distances);
-            for (var i = 0; i < Found.Count; i++) Connect(Found[i], Distances[i], 0);
+            var hits = manager.Search(Node.Body.position, radius);
+            for (var i = 0; i < hits.Length; i++) Connect(hits[i].Id, hits[i].Distance, 0);
         }
     }
 }
