@@ -153,7 +153,8 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
                                .answer = own,
                                .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms};
     int32_t result = run(work_call, deadline);
-    if (result == CLK_JVM_LOST) return result; /* the blocks stay pinned: Java may still write to them */
+    /* The blocks stay pinned, never to be used again: a round that does not end may still read them, or Java write to them. */
+    if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED) return result;
     if (result == CLK_OK) {
         answer->offset = call->answer_offset;
         answer->length = call->answer_length;

@@ -62,7 +62,7 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \
     X(environment_is_ignored) X(second_start) X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \
     X(echo_of_random_data) X(answers_grow) X(session_handles) X(many_sessions_one_after_the_other) X(too_many_sessions) \
-    X(call_arguments) X(host_errors) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
+    X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
     X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
     X(stop_ends_all) X(stop_without_start) X(stop_times_out) X(logs_are_bounded) X(signal_handlers_are_repaired) \

@@ -151,6 +151,23 @@ void host_errors(void) {
     CHECK(stats().sessions == 1 && stats().slots == 2);
 }
 
+/* The round that did not end may read its frame for ever: that memory must not come back to anybody. */
+void failed_session_keeps_its_memory(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    const uint8_t *read_for_ever = request_memory.address;
+    int32_t capacity = request_memory.capacity;
+    CHECK_CODE(CLK_SESSION_FAILED, NULL, step(session, FAIL, CLK_SESSION_FAILED, 1000));
+    CHECK_CODE(CLK_ARGUMENT, "in use", clk_slot_grow(request, capacity * 2, 0, &request_memory));
+    CHECK_OK(clk_session_close(session, 1000));
+    CHECK_OK(clk_slot_release(request));
+    for (int i = 0; i < 100; i++) {
+        CHECK_OK(clk_slot_acquire(capacity, &request, &request_memory));
+        CHECK(request_memory.address != read_for_ever);
+    }
+}
+
 void exceptions(void) {
     clk_session session;
     start_plain();

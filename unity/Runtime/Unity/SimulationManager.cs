@@ -196,7 +196,7 @@ namespace Collektive.Unity
             enabled = false;
         }
 
-        internal ReadOnlySpan<NodeGrid.Hit> Search(Vector3 centre, float radius)
+        internal Span<NodeGrid.Hit> Search(Vector3 centre, float radius)
         {
             if (radius > searchRadius) searchRadius = radius;
             return grid.Find(centre, radius);

@@ -62,7 +62,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order; valid until the next search.</summary>
-        internal ReadOnlySpan<Hit> Find(Vector3 centre, float radius)
+        internal Span<Hit> Find(Vector3 centre, float radius)
         {
             hitCount = 0;
             var reach = (int)Math.Ceiling(radius / cellSize);
@@ -74,7 +74,7 @@ namespace Collektive.Unity
                     for (var z = middle.Z - reach; z <= middle.Z + reach; z++) FindInCell(x, y, z, centre, radius * radius);
                 }
             }
-            return new ReadOnlySpan<Hit>(hits, 0, hitCount);
+            return new Span<Hit>(hits, 0, hitCount);
         }
 
         /// <summary>The node of a hit.</summary>
