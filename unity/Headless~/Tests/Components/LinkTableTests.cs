@@ -71,19 +71,27 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(engine, Is.EquivalentTo(model.Keys));
         }
 
+        [TestCase(10, 0, 10.9f, 0, false, TestName = "A tenth of the length does not matter")]
+        [TestCase(10, 0, 11.1f, 0, true, TestName = "More than a tenth of the length does")]
+        [TestCase(0.1f, 0, 0.14f, 0, false, TestName = "Five centimetres do not matter")]
+        [TestCase(10, 0, 10, 0.5f, true, TestName = "Any attenuation does")]
+        public void Values_differ_when_they_changed_enough_to_matter(float length, float attenuation, float newLength, float newAttenuation, bool differ)
+        {
+            Assert.That(LinkTable.Differ(length, attenuation, newLength, newAttenuation), Is.EqualTo(differ));
+        }
+
         [Test]
-        public void Values_are_sent_again_only_when_they_changed_enough_to_matter()
+        public void New_values_are_sent_once()
         {
             var table = new LinkTable();
             var handle = table.Hold(0, 1, 10, 0);
             var known = new[] { true, true };
             Assert.That(Sent(table, known), Is.EqualTo(1));
-            Assert.That(table.Update(handle, 10.9f, 0), Is.True);
-            Assert.That(Sent(table, known), Is.EqualTo(0), "less than a tenth");
-            table.Update(handle, 11.1f, 0);
-            Assert.That(Sent(table, known), Is.EqualTo(1), "more than a tenth");
-            table.Update(handle, 11.1f, 0.5f);
-            Assert.That(Sent(table, known), Is.EqualTo(1), "any change of the attenuation");
+            Assert.That(Sent(table, known), Is.EqualTo(0));
+            Assert.That(table.Update(handle, 12, 0), Is.True);
+            Assert.That(Sent(table, known), Is.EqualTo(1));
+            Assert.That(table.Update(handle, 12, 0), Is.True);
+            Assert.That(Sent(table, known), Is.EqualTo(0));
             table.Release(handle);
             Assert.That(table.Update(handle, 1, 0), Is.False);
         }

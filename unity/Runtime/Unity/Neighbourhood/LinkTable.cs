@@ -71,17 +71,22 @@ namespace Collektive.Unity
             return new LinkHandle(index, entry.Generation);
         }
 
-        /// <summary>Gives a held link new values, where they differ enough to matter.</summary>
+        /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
+        internal int Drops { get; private set; }
+
+        /// <summary>Whether values differ enough from those of a link to be sent.</summary>
+        internal static bool Differ(float length, float attenuation, float newLength, float newAttenuation)
+        {
+            var change = Math.Abs(length - newLength);
+            return (change > AbsoluteTolerance && change > RelativeTolerance * length) || attenuation != newAttenuation;
+        }
+
+        /// <summary>Gives a held link new values.</summary>
         /// <returns>False when the link is gone, because one of its nodes left.</returns>
         internal bool Update(LinkHandle handle, float length, float attenuation)
         {
-            ref var entry = ref entries[handle.Index];
-            if (entry.Generation != handle.Generation || entry.Holders == 0) return false;
-            var change = Math.Abs(entry.Link.Length - length);
-            if ((change > AbsoluteTolerance && change > RelativeTolerance * entry.Link.Length) || entry.Link.Attenuation != attenuation)
-            {
-                SetValues(handle.Index, length, attenuation);
-            }
+            if (!Alive(handle)) return false;
+            SetValues(handle.Index, length, attenuation);
             return true;
         }
 
@@ -121,6 +126,7 @@ namespace Collektive.Unity
         /// <summary>Drops all links of nodes that left (<paramref name="isGone"/> by id); the JVM drops its own with the node.</summary>
         internal void DropLinksOf(bool[] isGone)
         {
+            Drops++;
             for (var index = 0; index < Capacity; index++)
             {
                 ref var entry = ref entries[index];

@@ -20,6 +20,8 @@ namespace Collektive.Unity
         private GrowingArray<Neighbour> wanted = new GrowingArray<Neighbour>();
         private GrowingArray<Neighbour> held = new GrowingArray<Neighbour>();
 
+        private int drops;
+
         private struct Neighbour
         {
             internal int Id;
@@ -60,11 +62,13 @@ namespace Collektive.Unity
                 throw;
             }
             var links = manager.Links;
+            var dropped = links.Drops != drops;
+            drops = links.Drops;
             for (var h = 0; h < held.Count; h++)
             {
                 ref var before = ref held.Items[h];
                 var place = places[before.Id];
-                if (place == 0 || !Keep(links, before, ref wanted.Items[place - 1])) Release(links, before);
+                if (place == 0 || !Keep(links, before, ref wanted.Items[place - 1], dropped)) Release(links, before);
             }
             for (var w = 0; w < wanted.Count; w++)
             {
@@ -124,14 +128,17 @@ namespace Collektive.Unity
         }
 
         /// <returns>False when the link is gone, because the other node left and came back.</returns>
-        private static bool Keep(LinkTable links, in Neighbour before, ref Neighbour now)
+        private static bool Keep(LinkTable links, in Neighbour before, ref Neighbour now, bool dropped)
         {
-            if (!links.Update(before.Out, now.Length, now.Attenuation)) return false;
+            // Most links of most ticks go the short way: nothing to look up, nothing to send.
+            var differs = LinkTable.Differ(before.Length, before.Attenuation, now.Length, now.Attenuation);
+            if (!differs) now.Length = before.Length;
+            if ((differs || dropped) && !links.Update(before.Out, now.Length, now.Attenuation)) return false;
+            if ((differs || dropped) && before.BothWays) links.Update(before.In, now.Length, now.Attenuation);
             now.Out = before.Out;
             now.In = before.In;
             now.BothWays = before.BothWays;
             now.IsHeld = true;
-            if (now.BothWays) links.Update(now.In, now.Length, now.Attenuation);
             return true;
         }
 
