@@ -13,6 +13,9 @@ internal open class Peers {
     fun indexOf(id: Int): Int {
         // Ids often come in order, and then belong at the end.
         if (size == 0 || keys[size - 1] < id) return -size - 1
+        // Ids are often dense, and then each stands as far from the first as it is greater.
+        val guess = id - keys[0]
+        if (guess in 0 until size && keys[guess] == id) return guess
         return keys.binarySearch(id, 0, size)
     }
 
