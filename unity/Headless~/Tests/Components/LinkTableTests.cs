@@ -71,15 +71,6 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(engine, Is.EquivalentTo(model.Keys));
         }
 
-        [TestCase(10, 0, 10.9f, 0, false, TestName = "A tenth of the length does not matter")]
-        [TestCase(10, 0, 11.1f, 0, true, TestName = "More than a tenth of the length does")]
-        [TestCase(0.1f, 0, 0.14f, 0, false, TestName = "Five centimetres do not matter")]
-        [TestCase(10, 0, 10, 0.5f, true, TestName = "Any attenuation does")]
-        public void Values_differ_when_they_changed_enough_to_matter(float length, float attenuation, float newLength, float newAttenuation, bool differ)
-        {
-            Assert.That(LinkTable.Differ(length, attenuation, newLength, newAttenuation), Is.EqualTo(differ));
-        }
-
         [Test]
         public void New_values_are_sent_once()
         {

@@ -11,10 +11,6 @@ namespace Collektive.Unity
     {
         private const int None = -1;
 
-        /// <summary>A link's new length is sent when it differs from the one sent last by more than this part of it, and this many metres.</summary>
-        private const float RelativeTolerance = 0.1f;
-        private const float AbsoluteTolerance = 0.05f;
-
         private struct Entry
         {
             internal LinkRecord Link;
@@ -73,13 +69,6 @@ namespace Collektive.Unity
 
         /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
         internal int Drops { get; private set; }
-
-        /// <summary>Whether values differ enough from those of a link to be sent.</summary>
-        internal static bool Differ(float length, float attenuation, float newLength, float newAttenuation)
-        {
-            var change = Math.Abs(length - newLength);
-            return (change > AbsoluteTolerance && change > RelativeTolerance * length) || attenuation != newAttenuation;
-        }
 
         /// <summary>Gives a held link new values.</summary>
         /// <returns>False when the link is gone, because one of its nodes left.</returns>

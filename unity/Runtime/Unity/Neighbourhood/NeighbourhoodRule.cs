@@ -17,6 +17,11 @@ namespace Collektive.Unity
         [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
         private bool directed;
 
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
+        private float lengthTolerance = 0.25f;
+
         private GrowingArray<Neighbour> wanted = new GrowingArray<Neighbour>();
         private GrowingArray<Neighbour> held = new GrowingArray<Neighbour>();
 
@@ -38,6 +43,16 @@ namespace Collektive.Unity
         {
             get => directed;
             set => directed = value;
+        }
+
+        /// <summary>
+        /// Metres, 0 or greater. A link's length is sent to the JVM when it is made, and again when it changed by more than this: in a
+        /// swarm all lengths change a little in each tick, and sending them costs more than the rounds.
+        /// </summary>
+        public float LengthTolerance
+        {
+            get => lengthTolerance;
+            set => lengthTolerance = value;
         }
 
         internal sealed override void Attach(Node node) => node.Rules.Add(this);
@@ -128,10 +143,10 @@ namespace Collektive.Unity
         }
 
         /// <returns>False when the link is gone, because the other node left and came back.</returns>
-        private static bool Keep(LinkTable links, in Neighbour before, ref Neighbour now, bool dropped)
+        private bool Keep(LinkTable links, in Neighbour before, ref Neighbour now, bool dropped)
         {
             // Most links of most ticks go the short way: nothing to look up, nothing to send.
-            var differs = LinkTable.Differ(before.Length, before.Attenuation, now.Length, now.Attenuation);
+            var differs = Math.Abs(before.Length - now.Length) > lengthTolerance || before.Attenuation != now.Attenuation;
             if (!differs) now.Length = before.Length;
             if ((differs || dropped) && !links.Update(before.Out, now.Length, now.Attenuation)) return false;
             if ((differs || dropped) && before.BothWays) links.Update(before.In, now.Length, now.Attenuation);
