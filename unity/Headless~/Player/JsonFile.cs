@@ -96,7 +96,8 @@ namespace Collektive.Headless
             return strings.ToArray();
         }
 
-        private static string NameOf(Type type)
+        /// <summary>A type in the words of a user.</summary>
+        internal static string NameOf(Type type)
         {
             if (type == typeof(int) || type == typeof(ulong)) return "whole number";
             if (type == typeof(float) || type == typeof(double)) return "number";

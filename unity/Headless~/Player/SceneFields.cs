@@ -56,7 +56,7 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is JsonReaderException || error is ArgumentOutOfRangeException)
             {
-                throw new ScenarioException("--set " + field.Name + "=" + text + ": not a value of type " + field.FieldType.Name);
+                throw new ScenarioException("--set " + field.Name + "=" + text + ": it must be of type " + JsonFile.NameOf(field.FieldType));
             }
         }
     }

@@ -10,7 +10,7 @@ namespace Collektive.Unity
     public sealed class SimulationSettings
     {
         /// <summary>Full name of the generated schema class; empty when the project has only one.</summary>
-        [Tooltip("Full name of the generated schema class, for instance gradientascent.GradientAscentSchema. Empty: the only one.")]
+        [Tooltip("Full name of the generated schema class, for instance swarm.SwarmSchema. Empty: the only one.")]
         public string schema = "";
 
         /// <summary>Jars with programs; relative paths start at the project's folder.</summary>

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.GradientAscent
 {
     /// <summary>
-    /// A flat arena of 100 x 60 m. A swarm climbs towards a source; four obstacles stand across the straight way. Each node perceives
+    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles stand across the straight way. Each node perceives
     /// the intensity where it is and what is around it, and talks to the nodes within its range.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent Scene")]
@@ -79,6 +79,10 @@ namespace Collektive.Samples.GradientAscent
             intensity = new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
             MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(100, 1, 60)).layer = IgnoreRaycastLayer;
+            MakeBox("Rim", new Vector3(0, 0.5f, 30.25f), new Vector3(101, 1, 0.5f));
+            MakeBox("Rim", new Vector3(0, 0.5f, -30.25f), new Vector3(101, 1, 0.5f));
+            MakeBox("Rim", new Vector3(50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
+            MakeBox("Rim", new Vector3(-50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
             if (obstacles)
             {
                 foreach (var place in ObstaclePlaces) MakeBox("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
