@@ -1,0 +1,24 @@
+@file:OptIn(ExperimentalCompilerApi::class)
+
+package org.collektive.compiler
+
+import org.collektive.compiler.alignment.AlignmentExtension
+import org.collektive.compiler.checks.AggregateChecks
+import org.jetbrains.kotlin.backend.common.extensions.IrGenerationExtension
+import org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar
+import org.jetbrains.kotlin.compiler.plugin.ExperimentalCompilerApi
+import org.jetbrains.kotlin.config.CompilerConfiguration
+import org.jetbrains.kotlin.fir.extensions.FirExtensionRegistrarAdapter
+
+/** The plugin's entry point: the compiler finds it as a service. */
+public class CollektivePlugin : CompilerPluginRegistrar() {
+    override val pluginId: String get() = CollektiveOptions.PLUGIN_ID
+
+    override val supportsK2: Boolean get() = true
+
+    override fun ExtensionStorage.registerExtensions(configuration: CompilerConfiguration) {
+        if (!configuration.get(CollektiveOptions.ENABLED, true)) return
+        FirExtensionRegistrarAdapter.registerExtension(AggregateChecks())
+        IrGenerationExtension.registerExtension(AlignmentExtension())
+    }
+}

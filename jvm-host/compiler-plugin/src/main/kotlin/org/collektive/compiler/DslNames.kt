@@ -1,0 +1,29 @@
+package org.collektive.compiler
+
+import org.jetbrains.kotlin.name.CallableId
+import org.jetbrains.kotlin.name.ClassId
+import org.jetbrains.kotlin.name.FqName
+import org.jetbrains.kotlin.name.Name
+
+/** The names of the DSL that the plugin knows. */
+internal object DslNames {
+    private val aggregatePackage = FqName("it.unibo.collektive.aggregate")
+    val apiPackage = FqName("it.unibo.collektive.aggregate.api")
+    private val implPackage = FqName("it.unibo.collektive.aggregate.api.impl")
+
+    val field = ClassId(aggregatePackage, Name.identifier("Field"))
+    val aggregate = ClassId(apiPackage, Name.identifier("Aggregate"))
+    val ignore = ClassId(apiPackage, Name.identifier("CollektiveIgnore"))
+    val yieldingContext = ClassId(apiPackage, Name.identifier("YieldingContext"))
+
+    val align = Name.identifier("align")
+    val dealign = Name.identifier("dealign")
+    val alignedOn = Name.identifier("alignedOn")
+    val neighboring = Name.identifier("neighboring")
+    val context = Name.identifier("context")
+    val local = Name.identifier("local")
+
+    val pushToken = CallableId(implPackage, Name.identifier("pushToken"))
+    val popToken = CallableId(implPackage, Name.identifier("popToken"))
+    val project = CallableId(implPackage, Name.identifier("project"))
+}

@@ -1,0 +1,89 @@
+@file:OptIn(UnsafeDuringIrConstructionAPI::class)
+
+package org.collektive.compiler.alignment
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.ir.IrElement
+import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.declarations.IrVariable
+import org.jetbrains.kotlin.ir.expressions.IrCallableReference
+import org.jetbrains.kotlin.ir.expressions.IrExpression
+import org.jetbrains.kotlin.ir.expressions.IrFunctionAccessExpression
+import org.jetbrains.kotlin.ir.expressions.IrFunctionExpression
+import org.jetbrains.kotlin.ir.expressions.IrFunctionReference
+import org.jetbrains.kotlin.ir.expressions.IrGetValue
+import org.jetbrains.kotlin.ir.expressions.IrSpreadElement
+import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
+import org.jetbrains.kotlin.ir.expressions.IrVararg
+import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
+import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
+import org.jetbrains.kotlin.ir.util.isLocal
+import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
+import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
+import org.jetbrains.kotlin.ir.visitors.acceptVoid
+
+/**
+ * Decides which calls can lead to a primitive: those that are given an Aggregate, a Field, or a function that may use one. Only these are
+ * aligned; all others (`sqrt`, `listOf`, getters of a field) cannot tell whether they were.
+ */
+internal class AggregateReach(private val dsl: DslSymbols) {
+    private val known = HashMap<IrFunction, Boolean>()
+
+    /** Whether [call], inside an aggregate function, must have a place of its own in the path. */
+    fun mustAlign(call: IrFunctionAccessExpression): Boolean {
+        val callee = call.symbol.owner
+        return when {
+            dsl.isManualAlignment(callee) -> false
+            isPlainMember(callee) -> false
+            callee.isLocal && leadsToPrimitive(callee) -> true
+            else -> call.arguments.any { it != null && carries(it) }
+        }
+    }
+
+    /** Members of Aggregate and Field that run no code of the program and are no primitives: `localId`, `local`, `get`, `equals`... */
+    private fun isPlainMember(callee: IrFunction): Boolean {
+        if (!dsl.isFieldMember(callee) && !dsl.isAggregateMember(callee)) return false
+        return callee.name != DslNames.neighboring && callee.parameters.none { it.type.isFunctionTypeOrSubtype() }
+    }
+
+    private fun carries(value: IrExpression): Boolean = when (value) {
+        is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)
+        is IrFunctionExpression -> leadsToPrimitive(value.function)
+        is IrFunctionReference -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) } ||
+            value.symbol.owner.let { it.isLocal && leadsToPrimitive(it) }
+        is IrCallableReference<*> -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) }
+        is IrVararg -> value.elements.any { carries(if (it is IrSpreadElement) it.expression else it as IrExpression) }
+        is IrGetValue -> functionIn(value)?.let(::leadsToPrimitive) ?: mayCarry(value)
+        else -> mayCarry(value)
+    }
+
+    /** What a function does that comes from elsewhere is not known, so it may lead anywhere. */
+    private fun mayCarry(value: IrExpression) = value.type.isFunctionTypeOrSubtype() || dsl.mentions(value.type)
+
+    /** The lambda that a `val` was made with. */
+    private fun functionIn(read: IrGetValue): IrFunction? {
+        val variable = read.symbol.owner as? IrVariable ?: return null
+        return if (variable.isVar) null else (variable.initializer as? IrFunctionExpression)?.function
+    }
+
+    private fun leadsToPrimitive(function: IrFunction): Boolean {
+        known[function]?.let { return it }
+        known[function] = false // for recursion: what else it does decides
+        val found = Finder().apply { function.acceptChildrenVoid(this) }.found
+        known[function] = found
+        return found
+    }
+
+    private inner class Finder : IrVisitorVoid() {
+        var found = false
+
+        override fun visitElement(element: IrElement) {
+            if (!found) element.acceptChildrenVoid(this)
+        }
+
+        override fun visitFunctionAccess(expression: IrFunctionAccessExpression) {
+            found = found || mustAlign(expression) || dsl.isManualAlignment(expression.symbol.owner)
+            visitElement(expression)
+        }
+    }
+}

@@ -1,0 +1,298 @@
+@file:OptIn(UnsafeDuringIrConstructionAPI::class)
+
+package org.collektive.compiler.alignment
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.backend.common.IrElementTransformerVoidWithContext
+import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
+import org.jetbrains.kotlin.backend.common.lower.DeclarationIrBuilder
+import org.jetbrains.kotlin.ir.IrStatement
+import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
+import org.jetbrains.kotlin.ir.builders.irBlock
+import org.jetbrains.kotlin.ir.builders.irCall
+import org.jetbrains.kotlin.ir.builders.irGet
+import org.jetbrains.kotlin.ir.builders.irString
+import org.jetbrains.kotlin.ir.builders.irTemporary
+import org.jetbrains.kotlin.ir.builders.irTry
+import org.jetbrains.kotlin.ir.declarations.IrAnnotationContainer
+import org.jetbrains.kotlin.ir.declarations.IrAnonymousInitializer
+import org.jetbrains.kotlin.ir.declarations.IrClass
+import org.jetbrains.kotlin.ir.declarations.IrConstructor
+import org.jetbrains.kotlin.ir.declarations.IrDeclaration
+import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
+import org.jetbrains.kotlin.ir.declarations.IrField
+import org.jetbrains.kotlin.ir.declarations.IrFile
+import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.declarations.IrParameterKind
+import org.jetbrains.kotlin.ir.declarations.IrProperty
+import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
+import org.jetbrains.kotlin.ir.declarations.IrValueDeclaration
+import org.jetbrains.kotlin.ir.declarations.IrValueParameter
+import org.jetbrains.kotlin.ir.declarations.IrVariable
+import org.jetbrains.kotlin.ir.expressions.IrBlock
+import org.jetbrains.kotlin.ir.expressions.IrBlockBody
+import org.jetbrains.kotlin.ir.expressions.IrCall
+import org.jetbrains.kotlin.ir.expressions.IrConst
+import org.jetbrains.kotlin.ir.expressions.IrConstructorCall
+import org.jetbrains.kotlin.ir.expressions.IrExpression
+import org.jetbrains.kotlin.ir.expressions.IrFunctionAccessExpression
+import org.jetbrains.kotlin.ir.expressions.IrFunctionExpression
+import org.jetbrains.kotlin.ir.expressions.IrGetObjectValue
+import org.jetbrains.kotlin.ir.expressions.IrGetValue
+import org.jetbrains.kotlin.ir.expressions.IrStatementContainer
+import org.jetbrains.kotlin.ir.expressions.IrStatementOrigin
+import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
+import org.jetbrains.kotlin.ir.expressions.IrWhen
+import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
+import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.isNothing
+import org.jetbrains.kotlin.ir.util.hasAnnotation
+import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
+import org.jetbrains.kotlin.ir.util.isNullable
+import org.jetbrains.kotlin.ir.util.parentAsClass
+import org.jetbrains.kotlin.ir.util.parentClassOrNull
+import org.jetbrains.kotlin.ir.util.primaryConstructor
+
+/**
+ * Rewrites the aggregate functions of one file:
+ * - a call that can lead to a primitive runs between push and pop of its token (its arguments run before);
+ * - so does each arm of a branch that has such a call or reads a field;
+ * - an arm, and the body of `alignedOn`, sees fields from outside only through `project`.
+ *
+ * Pops are in `finally`, so that no way out of a call (return, break, a caught exception) leaves a token behind.
+ */
+internal class AlignmentTransformer(
+    private val plugin: IrPluginContext,
+    private val dsl: DslSymbols,
+    private val reach: AggregateReach,
+    private val tokens: Tokens,
+) : IrElementTransformerVoidWithContext() {
+    /** The parameter that gives the running Aggregate; `null` outside aggregate functions. */
+    private var source: IrValueParameter? = null
+
+    /** Where neighbours are aligned alike: a function's body, an arm, the body of an `alignedOn`. */
+    private class Region(val outer: Region?)
+
+    private var region: Region? = null
+    private val regionOf = HashMap<IrValueDeclaration, Region?>()
+    private val alignedBodies = HashSet<IrFunction>()
+
+    /** Whether the arm being rewritten depends on its path. */
+    private var dependsOnPath = false
+
+    override fun visitFileNew(declaration: IrFile): IrFile =
+        if (isIgnored(declaration)) declaration else super.visitFileNew(declaration)
+
+    override fun visitClassNew(declaration: IrClass): IrStatement {
+        if (isIgnored(declaration)) return declaration
+        return super.visitClassNew(declaration)
+    }
+
+    override fun visitFieldNew(declaration: IrField): IrStatement =
+        withSourceOfConstructor(declaration) { super.visitFieldNew(declaration) }
+
+    override fun visitAnonymousInitializerNew(declaration: IrAnonymousInitializer): IrStatement =
+        withSourceOfConstructor(declaration) { super.visitAnonymousInitializerNew(declaration) }
+
+    /** Initialisers read the primary constructor's parameters. */
+    private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
+        val outer = source
+        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer
+        return visit().also { source = outer }
+    }
+
+    override fun visitPropertyNew(declaration: IrProperty): IrStatement =
+        if (isIgnored(declaration)) declaration else super.visitPropertyNew(declaration)
+
+    override fun visitFunctionNew(declaration: IrFunction): IrStatement {
+        if (isIgnored(declaration) || isForwarding(declaration)) return declaration
+        val outerSource = source
+        val outerRegion = region
+        // Nothing may be caught before the superclass's constructor was called.
+        source = if (declaration is IrConstructor) null else sourceIn(declaration) ?: outerSource
+        if (declaration in alignedBodies) region = Region(outerRegion)
+        for (parameter in declaration.parameters) regionOf[parameter] = region
+        val result = super.visitFunctionNew(declaration)
+        source = outerSource
+        region = outerRegion
+        return result
+    }
+
+    override fun visitVariable(declaration: IrVariable): IrStatement {
+        regionOf[declaration] = region
+        return super.visitVariable(declaration)
+    }
+
+    override fun visitBlockBody(body: IrBlockBody): IrBlockBody = body.also(::visitStatements)
+
+    override fun visitBlock(expression: IrBlock): IrExpression {
+        if (expression.origin == IrStatementOrigin.SAFE_CALL) plainBranches += expression.statements.filterIsInstance<IrWhen>()
+        return expression.also(::visitStatements)
+    }
+
+    /** The test for null of `?.`: not a branch of the program. */
+    private val plainBranches = HashSet<IrWhen>()
+
+    private fun visitStatements(container: IrStatementContainer) {
+        val outer = region
+        for (index in container.statements.indices) {
+            val statement = container.statements[index].transform(this, null) as IrStatement
+            container.statements[index] = statement
+            val callee = (statement as? IrCall)?.symbol?.owner ?: continue
+            if (source == null || !dsl.isManualAlignment(callee)) continue
+            region = if (callee.name == DslNames.align) Region(region) else region?.outer ?: outer
+        }
+        region = outer
+    }
+
+    override fun visitWhen(expression: IrWhen): IrExpression {
+        if (source == null || expression in plainBranches) return super.visitWhen(expression)
+        val outerRegion = region
+        val outerDepends = dependsOnPath
+        var depends = outerDepends
+        for ((index, branch) in expression.branches.withIndex()) {
+            branch.condition = branch.condition.transform(this, null)
+            depends = depends || dependsOnPath
+            dependsOnPath = false
+            region = Region(outerRegion)
+            val arm = branch.result.transform(this, null)
+            branch.result = if (dependsOnPath) aligned(arm, armName(expression, index)) else arm
+            depends = depends || dependsOnPath
+            dependsOnPath = outerDepends
+            region = outerRegion
+        }
+        dependsOnPath = depends
+        return expression
+    }
+
+    override fun visitGetValue(expression: IrGetValue): IrExpression {
+        val variable = expression.symbol.owner
+        val isOutside = region != null && regionOf[variable] !== region
+        if (source == null || !isOutside || !dsl.isField(expression.type)) return expression
+        dependsOnPath = true
+        return builderAt(expression).run {
+            irCall(dsl.project, expression.type).apply {
+                typeArguments.indices.forEach { typeArguments[it] = plugin.irBuiltIns.anyNType }
+                arguments[0] = expression
+                arguments[1] = irString(token(variable.name.asString().trim('<', '>'), expression))
+            }
+        }
+    }
+
+    override fun visitCall(expression: IrCall): IrExpression {
+        val callee = expression.symbol.owner
+        if (source == null) return super.visitCall(expression)
+        if (isLocalEntry(callee)) {
+            // The own entry is the same in every projection.
+            (expression.dispatchReceiver as? IrGetValue)?.let { return expression }
+        }
+        if (callee.name == DslNames.alignedOn && dsl.isAggregateMember(callee)) {
+            expression.arguments.forEach { (it as? IrFunctionExpression)?.let { body -> alignedBodies += body.function } }
+        }
+        if (dsl.isManualAlignment(callee)) dependsOnPath = true
+        return visitAccess(expression)
+    }
+
+    override fun visitConstructorCall(expression: IrConstructorCall): IrExpression =
+        if (source == null) super.visitConstructorCall(expression) else visitAccess(expression)
+
+    private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
+        val mustAlign = reach.mustAlign(call)
+        call.transformChildren(this, null)
+        return if (mustAlign) aligned(call) else call
+    }
+
+    /** `arguments; push; try { call } finally { pop }` */
+    private fun aligned(call: IrFunctionAccessExpression): IrExpression {
+        dependsOnPath = true
+        val callee = call.symbol.owner
+        val name = callName(call)
+        return builderAt(call).irBlock(resultType = call.type) {
+            for (parameter in callee.parameters) {
+                val argument = call.arguments[parameter] ?: continue
+                if (!isInlined(callee, parameter) && !isStable(argument)) {
+                    call.arguments[parameter] = irGet(irTemporary(argument, nameHint = parameter.name.asString()))
+                }
+            }
+            val given = call.arguments.firstOrNull { it is IrGetValue && dsl.isAggregate(it.type) } as IrGetValue?
+            align(call, token(name, call)) { if (given != null) irGet(given.symbol.owner, given.type) else current() }
+        }
+    }
+
+    private fun aligned(arm: IrExpression, name: String): IrExpression =
+        builderAt(arm).irBlock(resultType = arm.type) { align(arm, token(name, arm)) { current() } }
+
+    private fun IrBlockBuilder.align(body: IrExpression, token: String, aggregate: IrBlockBuilder.() -> IrExpression) {
+        val push = irCall(dsl.pushToken).apply {
+            arguments[0] = aggregate()
+            arguments[1] = irString(token)
+        }
+        val depth = irTemporary(push, nameHint = "depth")
+        val pop = irCall(dsl.popToken).apply {
+            arguments[0] = aggregate()
+            arguments[1] = irGet(depth)
+        }
+        +irTry(body.type, body, emptyList(), pop)
+    }
+
+    /** The Aggregate of the enclosing function. */
+    private fun IrBlockBuilder.current(): IrExpression {
+        val parameter = checkNotNull(source)
+        if (dsl.isAggregate(parameter.type)) return irGet(parameter)
+        return irCall(dsl.fieldContext, dsl.fieldContext.owner.returnType).apply { arguments[0] = irGet(parameter) }
+    }
+
+    /** A lambda here is put into the callee's body by the compiler, so it must stay a literal. */
+    private fun isInlined(callee: IrFunction, parameter: IrValueParameter) =
+        callee.isInline && !parameter.isNoinline && parameter.type.isFunctionTypeOrSubtype()
+
+    /** Whether evaluating [argument] later changes nothing. */
+    private fun isStable(argument: IrExpression): Boolean = when (argument) {
+        is IrConst, is IrFunctionExpression, is IrGetObjectValue -> true
+        is IrGetValue -> argument.symbol.owner.let { it is IrValueParameter || it is IrVariable && !it.isVar }
+        is IrTypeOperatorCall -> isStable(argument.argument)
+        else -> argument.type.isNothing()
+    }
+
+    private fun sourceIn(function: IrFunction): IrValueParameter? {
+        val candidates = function.parameters.filter { it.kind != IrParameterKind.DispatchReceiver }
+        return candidates.firstOrNull { dsl.isAggregate(it.type) } ?: candidates.firstOrNull { dsl.isField(it.type) && !it.type.isNullable() }
+    }
+
+    private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&
+        callee.correspondingPropertySymbol?.owner?.name.let { it == DslNames.local || it == DslNames.context }
+
+    private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
+
+    /** Bodies made by the compiler for `by`: they only pass calls on. */
+    private fun isForwarding(function: IrFunction) =
+        function.origin == IrDeclarationOrigin.DELEGATED_MEMBER || function is IrSimpleFunction && function.isFakeOverride
+
+    private fun callName(call: IrFunctionAccessExpression): String {
+        val callee = call.symbol.owner
+        val property = (callee as? IrSimpleFunction)?.correspondingPropertySymbol
+        val receiver = call.arguments.firstOrNull()
+        return when {
+            callee is IrConstructor -> callee.parentAsClass.name.asString()
+            property != null -> property.owner.name.asString()
+            receiver is IrGetValue && receiver.type.isFunctionTypeOrSubtype() -> receiver.symbol.owner.name.asString()
+            else -> callee.name.asString()
+        }.trim('<', '>')
+    }
+
+    private fun armName(branch: IrWhen, index: Int): String = when (branch.origin) {
+        IrStatementOrigin.ANDAND -> "&&"
+        IrStatementOrigin.OROR -> "||"
+        IrStatementOrigin.IF -> if (index == 0) "if" else "else"
+        IrStatementOrigin.WHEN -> "when ${index + 1}"
+        else -> "?:"
+    }
+
+    private fun token(what: String, at: IrExpression): String =
+        tokens.next(what, at.startOffset, currentScopeOwner())
+
+    private fun currentScopeOwner() = checkNotNull(currentScope).scope.scopeOwnerSymbol.owner as IrDeclaration
+
+    private fun builderAt(expression: IrExpression) =
+        DeclarationIrBuilder(plugin, checkNotNull(currentScope).scope.scopeOwnerSymbol, expression.startOffset, expression.endOffset)
+}

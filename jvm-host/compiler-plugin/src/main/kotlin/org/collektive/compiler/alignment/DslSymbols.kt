@@ -1,0 +1,58 @@
+@file:OptIn(UnsafeDuringIrConstructionAPI::class)
+
+package org.collektive.compiler.alignment
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
+import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.symbols.IrClassSymbol
+import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
+import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
+import org.jetbrains.kotlin.ir.types.IrSimpleType
+import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.typeOrNull
+import org.jetbrains.kotlin.ir.util.getPropertyGetter
+import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
+import org.jetbrains.kotlin.ir.util.parentClassOrNull
+
+/** The declarations of the DSL as the module under compilation sees them. */
+internal class DslSymbols private constructor(
+    val aggregate: IrClassSymbol,
+    val field: IrClassSymbol,
+    val fieldContext: IrSimpleFunctionSymbol,
+    val pushToken: IrSimpleFunctionSymbol,
+    val popToken: IrSimpleFunctionSymbol,
+    val project: IrSimpleFunctionSymbol,
+) {
+    fun isAggregate(type: IrType) = type.isSubtypeOfClass(aggregate)
+
+    fun isField(type: IrType) = type.isSubtypeOfClass(field)
+
+    /** Whether values of [type] are, or may hold, an Aggregate or a Field. */
+    fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
+        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true }
+
+    /** Whether [function] is a member of Aggregate, or of an implementation of it. */
+    fun isAggregateMember(function: IrFunction) = function.parentClassOrNull?.symbol?.isSubtypeOfClass(aggregate) == true
+
+    fun isFieldMember(function: IrFunction) = function.parentClassOrNull?.symbol == field
+
+    /** `align` or `dealign`: the program moves the stack itself. */
+    fun isManualAlignment(function: IrFunction) =
+        isAggregateMember(function) && (function.name == DslNames.align || function.name == DslNames.dealign)
+
+    companion object {
+        /** `null` when the DSL is not on the class path: there is nothing to align. */
+        fun find(finder: DeclarationFinder): DslSymbols? {
+            val field = finder.findClass(DslNames.field) ?: return null
+            return DslSymbols(
+                aggregate = finder.findClass(DslNames.aggregate) ?: return null,
+                field = field,
+                fieldContext = field.getPropertyGetter(DslNames.context.asString()) ?: return null,
+                pushToken = finder.findFunctions(DslNames.pushToken).singleOrNull() ?: return null,
+                popToken = finder.findFunctions(DslNames.popToken).singleOrNull() ?: return null,
+                project = finder.findFunctions(DslNames.project).singleOrNull() ?: return null,
+            )
+        }
+    }
+}

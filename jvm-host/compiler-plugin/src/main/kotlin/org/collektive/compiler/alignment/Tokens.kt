@@ -1,0 +1,51 @@
+package org.collektive.compiler.alignment
+
+import org.jetbrains.kotlin.ir.declarations.IrDeclaration
+import org.jetbrains.kotlin.ir.declarations.IrDeclarationWithName
+import org.jetbrains.kotlin.ir.declarations.IrFile
+import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.util.kotlinFqName
+import org.jetbrains.kotlin.ir.util.parents
+import org.jetbrains.kotlin.ir.util.render
+
+/**
+ * Makes the tokens of one [file]: `share@Swarm.kt:12#9c1d3a5e7f00b2d4`, what is called or chosen, where, and 64 bits that tell the place
+ * from all others (module, file, enclosing declarations with their parameters, and the place's number in them).
+ *
+ * The whole text is the identity, so that no two places can share one by chance, and errors need no table of names. It depends on the sources
+ * alone: all devices that run one jar agree on it.
+ */
+internal class Tokens(private val module: String, private val file: IrFile) {
+    private val placesIn = HashMap<String, Int>()
+
+    /** A new token for [what] at [offset] of the file, inside [owner]. */
+    fun next(what: String, offset: Int, owner: IrDeclaration): String {
+        val signature = signature(owner)
+        val place = placesIn.merge(signature, 1, Int::plus)
+        val hash = fnv1a("$module\n${file.kotlinFqNameAndName()}\n$signature\n$place")
+        val line = file.fileEntry.getLineNumber(offset) + 1
+        return "$what@${file.shortName()}:$line#${hash.toULong().toString(HEX).padStart(HEX, '0')}"
+    }
+
+    private fun IrFile.kotlinFqNameAndName() = "${packageFqName.asString()}/${shortName()}"
+
+    private fun IrFile.shortName() = fileEntry.name.substringAfterLast('/').substringAfterLast('\\')
+
+    private fun signature(owner: IrDeclaration): String = (sequenceOf(owner) + owner.parents.filterIsInstance<IrDeclaration>())
+        .joinToString("<") { declaration ->
+            val name = (declaration as? IrDeclarationWithName)?.name?.asString().orEmpty()
+            if (declaration is IrFunction) name + declaration.parameters.joinToString(",", "(", ")") { it.type.render() } else name
+        }
+
+    private fun fnv1a(text: String): Long {
+        var hash = FNV_BASIS
+        for (byte in text.encodeToByteArray()) hash = (hash xor (byte.toLong() and 0xff)) * FNV_PRIME
+        return hash
+    }
+
+    private companion object {
+        const val HEX = 16
+        const val FNV_BASIS = -0x340d631b7bdddcdbL
+        const val FNV_PRIME = 0x100000001b3L
+    }
+}

@@ -1,0 +1,83 @@
+package org.collektive.compiler.checks
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.diagnostics.DiagnosticReporter
+import org.jetbrains.kotlin.diagnostics.reportOn
+import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
+import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
+import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
+import org.jetbrains.kotlin.fir.declarations.FirAnonymousFunction
+import org.jetbrains.kotlin.fir.declarations.FirClass
+import org.jetbrains.kotlin.fir.declarations.FirFunction
+import org.jetbrains.kotlin.fir.expressions.FirAnonymousFunctionExpression
+import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
+import org.jetbrains.kotlin.fir.expressions.FirLoop
+import org.jetbrains.kotlin.fir.expressions.arguments
+import org.jetbrains.kotlin.fir.expressions.unwrapArgument
+import org.jetbrains.kotlin.fir.types.resolvedType
+
+/** An aggregate call in a loop, or in a lambda that a collection runs for each element, with no `alignedOn` between. */
+internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
+    context(context: CheckerContext, reporter: DiagnosticReporter)
+    override fun check(expression: FirFunctionCall) {
+        if (!isAggregateCall(expression) || !isAggregateCode()) return
+        if (repeats(expression)) {
+            val name = expression.calleeReference.name.asString()
+            reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name)
+        }
+    }
+
+    /** Walks outwards until something says whether [expression] runs once or many times per path. */
+    context(context: CheckerContext)
+    private fun repeats(expression: FirFunctionCall): Boolean {
+        var lambda: FirAnonymousFunction? = null
+        for (element in context.containingElements.asReversed()) {
+            when (element) {
+                expression -> Unit
+                is FirLoop -> return true
+                is FirAnonymousFunction -> lambda = element
+                is FirFunction, is FirClass -> return false
+                is FirFunctionCall -> {
+                    val isLambdaHere = lambda != null && element.takes(lambda)
+                    when {
+                        isLambdaHere && isAlignedOn(element) -> return false
+                        isLambdaHere && isPerElement(element) -> return true
+                        // The outer call is the one to report.
+                        isLambdaHere && isAggregateCall(element) -> return false
+                    }
+                    if (isLambdaHere) lambda = null
+                }
+            }
+        }
+        return false
+    }
+
+    private fun FirFunctionCall.takes(lambda: FirAnonymousFunction) =
+        arguments.any { (it.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction === lambda }
+
+    private fun isAlignedOn(call: FirFunctionCall) = call.callee?.isDsl(DslNames.alignedOn) == true
+
+    /** A call that is given the Aggregate, other than `align`, `dealign` and `alignedOn`. */
+    context(context: CheckerContext)
+    private fun isAggregateCall(call: FirFunctionCall): Boolean = with(context.session) {
+        val callee = call.callee ?: return false
+        if (callee.isDsl(DslNames.align) || callee.isDsl(DslNames.dealign) || isAlignedOn(call)) return false
+        val given = listOfNotNull(call.dispatchReceiver, call.extensionReceiver) + call.contextArguments + call.arguments
+        given.any { it.resolvedType.isAggregate() }
+    }
+
+    private fun isPerElement(call: FirFunctionCall): Boolean {
+        val callee = call.callee?.callableId ?: return false
+        val name = callee.callableName.asString()
+        return when (callee.packageName.asString()) {
+            "kotlin" -> name == "repeat"
+            "kotlin.collections", "kotlin.sequences", "kotlin.text", "java.lang", "java.util", "java.util.stream" -> name !in AT_MOST_ONCE
+            else -> false
+        }
+    }
+
+    private val AT_MOST_ONCE = setOf(
+        "buildList", "buildMap", "buildSet", "buildString", "elementAtOrElse", "getOrElse", "getOrPut", "ifBlank", "ifEmpty",
+        "computeIfAbsent", "computeIfPresent", "compute", "merge", "iterator", "sequence",
+    )
+}

@@ -1,0 +1,42 @@
+package org.collektive.compiler.checks
+
+import org.jetbrains.kotlin.diagnostics.DiagnosticReporter
+import org.jetbrains.kotlin.diagnostics.reportOn
+import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
+import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
+import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
+import org.jetbrains.kotlin.fir.expressions.FirBlock
+import org.jetbrains.kotlin.fir.expressions.FirElvisExpression
+import org.jetbrains.kotlin.fir.expressions.FirExpression
+import org.jetbrains.kotlin.fir.expressions.FirStatement
+import org.jetbrains.kotlin.fir.expressions.FirWhenExpression
+import org.jetbrains.kotlin.fir.types.resolvedType
+
+/** Fields must not leave `if` and `when`: outside, devices that chose other arms are aligned too. */
+internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
+    context(context: CheckerContext, reporter: DiagnosticReporter)
+    override fun check(expression: FirWhenExpression) {
+        if (!expression.usedAsExpression) return
+        for (branch in expression.branches) reportField(branch.result.statements.lastOrNull())
+    }
+}
+
+/** The same for `?:`. */
+internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
+    context(context: CheckerContext, reporter: DiagnosticReporter)
+    override fun check(expression: FirElvisExpression) {
+        reportField(expression.rhs)
+    }
+}
+
+context(context: CheckerContext, reporter: DiagnosticReporter)
+private fun reportField(result: FirStatement?) {
+    when {
+        // Their own arms are checked.
+        result is FirWhenExpression || result is FirElvisExpression -> Unit
+        result is FirBlock -> reportField(result.statements.lastOrNull())
+        result !is FirExpression || !isAggregateCode() -> Unit
+        with(context.session) { result.resolvedType.isField() } ->
+            reporter.reportOn(result.source, AggregateDiagnostics.FIELD_FROM_BRANCH)
+    }
+}

@@ -1,0 +1,154 @@
+package org.collektive.compiler
+
+import org.jetbrains.kotlin.cli.common.messages.CompilerMessageSeverity
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** Each source marks the lines where a check must report (`// NAME`, or `// NAME NAME`); everywhere else it must be silent. */
+class ChecksTest {
+    @Test
+    fun `a branch that returns a field is an error`() = assertReports(
+        """
+        fun Aggregate<Int>.ifElse(): Field<Int, Int> = if (localId == 0) {
+            evolve(0) { it }
+            neighboring(localId) // FIELD_FROM_BRANCH
+        } else neighboring(-localId) // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.assigned(): Int {
+            val chosen = when (localId) {
+                0 -> neighboring(localId) // FIELD_FROM_BRANCH
+                1 -> if (localId > 5) neighboring(localId + 1) else neighboring(localId + 2) // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+                else -> null
+            }
+            return chosen?.local?.value ?: 0
+        }
+        fun Aggregate<Int>.elvis(maybe: Field<Int, Int>?): Field<Int, Int> =
+            maybe ?: neighboring(localId) // FIELD_FROM_BRANCH
+        fun given(a: Field<Int, Int>, b: Field<Int, Int>): Int = (if (a == b) 
+            a // FIELD_FROM_BRANCH
+            else
+            b // FIELD_FROM_BRANCH
+        ).local.value
+        fun Aggregate<Int>.inLambda(): Int = run {
+            val f = if (localId == 0) neighboring(localId) else neighboring(-localId) // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            f.local.value
+        }
+        """,
+    )
+
+    @Test
+    fun `branches of values and unused branches are fine`() = assertReports(
+        """
+        fun Aggregate<Int>.values(): Int = if (localId == 0) neighboring(localId).local.value else 1
+        fun Aggregate<Int>.unused(): Int {
+            if (localId == 0) neighboring(localId) else neighboring(-localId)
+            when { localId == 0 -> neighboring(localId + 1) }
+            return 0
+        }
+        fun Aggregate<Int>.before(): Field<Int, Int> { val f = neighboring(localId); return f.mapValues { if (it > 0) it else 0 } }
+        fun Aggregate<Int>.fallback(maybe: Int?): Int = maybe ?: neighboring(localId).local.value
+        fun notAggregate(): Any? { val f: () -> Field<Int, Int>? = { null }; return f() ?: f() }
+        @CollektiveIgnore("test") fun Aggregate<Int>.ignored(): Field<Int, Int> = if (localId == 0) neighboring(localId) else neighboring(-localId)
+        @Suppress("FIELD_FROM_BRANCH") fun Aggregate<Int>.suppressed(): Int = 0
+        """,
+    )
+
+    @Test
+    fun `an aggregate call in a loop without alignedOn is a warning`() = assertReports(
+        """
+        fun Aggregate<Int>.helper(x: Int): Int = share(x) { it.local.value + x }
+        fun Aggregate<Int>.loops(items: List<Int>) {
+            for (item in items) helper(item) // AGGREGATE_CALL_IN_LOOP
+            var i = 0
+            while (i < 3) {
+                i++
+                if (i == 2) neighboring(i) // AGGREGATE_CALL_IN_LOOP
+            }
+            do { i += helper(i) } while (evolve(0) { it + 1 } < 3) // AGGREGATE_CALL_IN_LOOP AGGREGATE_CALL_IN_LOOP
+            items.forEach { helper(it) } // AGGREGATE_CALL_IN_LOOP
+            items.map { it + run { helper(it) } } // AGGREGATE_CALL_IN_LOOP
+            items.asSequence().filter { helper(it) > 0 }.toList() // AGGREGATE_CALL_IN_LOOP
+            mapOf(1 to 2).forEach { (_, v) -> helper(v) } // AGGREGATE_CALL_IN_LOOP
+            repeat(3) { helper(it) } // AGGREGATE_CALL_IN_LOOP
+            "abc".forEach { helper(it.code) } // AGGREGATE_CALL_IN_LOOP
+            for (item in items) share(item) { neighboring(item).local.value } // AGGREGATE_CALL_IN_LOOP
+            for (item in items) alignedOn("same") { items.map { helper(it) } } // AGGREGATE_CALL_IN_LOOP
+        }
+        fun inFunctionOfField(field: Field<Int, Int>): List<Int> = field.neighbors.list.map { field.context.helper(it.value) } // AGGREGATE_CALL_IN_LOOP
+        """,
+    )
+
+    @Test
+    fun `aligned iterations, loop headers and functions of a field are fine`() = assertReports(
+        """
+        fun Aggregate<Int>.helper(x: Int): Int = share(x) { it.local.value + x }
+        fun Aggregate<Int>.fine(items: List<Int>): Int {
+            for (item in items) alignedOn(item) { helper(item) }
+            items.forEach { alignedOn(it) { helper(it) + neighboring(it).local.value } }
+            for (entry in neighboring(localId).neighbors.list) println(entry.value + localId)
+            neighboring(localId).map { helper(it.value) }
+            items.let { helper(it.size) }
+            val cache = mutableMapOf<Int, Int>()
+            cache.getOrPut(1) { helper(1) }
+            for (item in items) { val later = object { fun go() = helper(item) }; println(later) }
+            for (item in items) println(neighborhoodSize(item))
+            return items.sumOf { it * 2 }
+        }
+        fun neighborhoodSize(x: Int): Int = x
+        fun notAggregate(items: List<Int>, make: () -> Aggregate<Int>) = items.forEach { make().helper(it) }
+        @CollektiveIgnore("test") fun Aggregate<Int>.ignored(items: List<Int>) { for (item in items) helper(item) }
+        """,
+    )
+
+    @Test
+    fun `align and dealign by hand are warnings`() = assertReports(
+        """
+        fun Aggregate<Int>.manual() {
+            align(1) // MANUAL_ALIGNMENT
+            dealign() // MANUAL_ALIGNMENT
+            alignedOn(1) { localId }
+        }
+        class Forwarding(private val inner: Aggregate<Int>) : Aggregate<Int> by inner {
+            override fun align(pivot: Any?) = inner.align(pivot)
+        }
+        @CollektiveIgnore("test") fun Aggregate<Int>.ignored() { align(1); dealign() }
+        fun String.align(x: Int): Int = x + length
+        fun Aggregate<Int>.other(): Int = "a".align(localId)
+        """,
+    )
+
+    @Test
+    fun `messages say what to do`() {
+        val reports = Compilation.of("fun Aggregate<Int>.f() { for (i in 1..2) neighboring(i) }").reports
+        assertEquals(CompilerMessageSeverity.WARNING, reports.single().severity)
+        assertTrue("alignedOn(key) { ... }" in reports.single().text, reports.single().text)
+        assertTrue("'neighboring'" in reports.single().text, reports.single().text)
+        val branch = Compilation.of("fun Aggregate<Int>.f() = if (localId > 0) neighboring(localId) else null").reports
+        assertEquals(CompilerMessageSeverity.ERROR, branch.single().severity)
+    }
+
+    @Test
+    fun `checks are silent when the plugin is off`() {
+        val reports = Compilation.of("fun Aggregate<Int>.f() { for (i in 1..2) neighboring(i) }", "collektiveEnabled=false").reports
+        assertEquals(emptyList(), reports)
+    }
+
+    @Test
+    fun `an option that is neither true nor false is refused`() {
+        val reports = Compilation.of("fun f() = 1", "collektiveEnabled=maybe").reports
+        assertTrue("'maybe'; it must be true or false" in reports.single().text, reports.toString())
+    }
+
+    private fun assertReports(source: String) {
+        val expected = source.trimIndent().lines().flatMapIndexed { index, line ->
+            line.substringAfter("// ", "").split(' ').filter { it.isNotBlank() }.map { (index + 1) to it }
+        }
+        val reports = Compilation.of(source).reports.filter { it.name !in COMPILERS_OWN }
+        assertEquals(expected, reports.map { it.line to it.name })
+    }
+
+    private companion object {
+        /** Warnings of the compiler about the sources' style. */
+        val COMPILERS_OWN = setOf("UNUSED_EXPRESSION", "RETURN_VALUE_NOT_USED", "UNUSED_VARIABLE", "NOTHING_TO_INLINE")
+    }
+}

@@ -1,0 +1,97 @@
+@file:OptIn(ExperimentalCompilerApi::class)
+
+package org.collektive.compiler
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.jetbrains.kotlin.cli.common.ExitCode
+import org.jetbrains.kotlin.cli.common.arguments.K2JVMCompilerArguments
+import org.jetbrains.kotlin.cli.common.messages.CompilerMessageSeverity
+import org.jetbrains.kotlin.cli.common.messages.CompilerMessageSourceLocation
+import org.jetbrains.kotlin.cli.common.messages.MessageCollector
+import org.jetbrains.kotlin.cli.jvm.K2JVMCompiler
+import org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar
+import org.jetbrains.kotlin.compiler.plugin.ExperimentalCompilerApi
+import org.jetbrains.kotlin.config.Services
+import java.io.File
+import java.lang.reflect.InvocationTargetException
+import java.net.URLClassLoader
+import java.nio.file.Files
+import java.nio.file.Path
+
+/** One line of the compiler's output. */
+internal data class Report(val severity: CompilerMessageSeverity, val line: Int, val text: String) {
+    /** `FIELD_FROM_BRANCH` of `[FIELD_FROM_BRANCH] ...`. */
+    val name: String get() = text.substringAfter('[', "").substringBefore(']')
+}
+
+/** A Kotlin source compiled by the real compiler with the plugin as users load it. */
+internal class Compilation private constructor(val succeeded: Boolean, val reports: List<Report>, private val classes: Path) {
+    private val loader by lazy { URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader) }
+
+    /** The top-level function [name] of the source as a program; its further parameters get [arguments]. */
+    fun program(name: String, vararg arguments: Any?): Aggregate<Int>.() -> Any? {
+        check(succeeded) { "the source does not compile: $reports" }
+        val method = loader.loadClass("${FILE}Kt").methods.single { it.name == name }
+        return {
+            try {
+                method.invoke(null, this, *arguments)
+            } catch (e: InvocationTargetException) {
+                throw e.targetException
+            }
+        }
+    }
+
+    companion object {
+        const val FILE = "Program"
+
+        private const val IMPORTS = "import it.unibo.collektive.aggregate.*; import it.unibo.collektive.aggregate.api.*;"
+
+        /** Compiles [source]; its first line is line 1, all names of the DSL are imported. */
+        fun of(source: String, vararg options: String): Compilation {
+            val folder = Files.createTempDirectory("compilation")
+            Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
+            val text = source.trimIndent()
+            // File annotations come before imports, which share the first line so that lines count as written.
+            val firstCode = if (text.startsWith("@file:")) text.indexOf('\n') else 0
+            val file = folder.resolve("$FILE.kt").toFile()
+            file.writeText(text.substring(0, firstCode) + " " + IMPORTS + text.substring(firstCode))
+            val reports = mutableListOf<Report>()
+            val arguments = K2JVMCompilerArguments().apply {
+                freeArgs = listOf(file.path)
+                destination = folder.resolve("classes").toString()
+                classpath = listOf(placeOf(Aggregate::class.java), placeOf(Unit::class.java)).joinToString(File.pathSeparator)
+                noStdlib = true
+                noReflect = true
+                moduleName = "programs"
+                jvmTarget = "17"
+                renderInternalDiagnosticNames = true
+                optIn = arrayOf("it.unibo.collektive.aggregate.api.DelicateCollektiveApi")
+                pluginClasspaths = PLUGIN
+                pluginOptions = options.map { "plugin:${CollektiveOptions.PLUGIN_ID}:$it" }.toTypedArray()
+            }
+            val code = K2JVMCompiler().exec(Collector(reports), Services.EMPTY, arguments)
+            return Compilation(code == ExitCode.OK, reports.sortedBy { it.line }, folder.resolve("classes"))
+        }
+
+        /** The plugin's classes and its services, which some builds keep in two folders. */
+        private val PLUGIN: Array<String> = CompilerPluginRegistrar::class.java.name.let { service ->
+            val services = CollektivePlugin::class.java.classLoader.getResources("META-INF/services/$service").asSequence()
+                .filter { it.protocol == "file" }
+                .map { File(it.toURI()).resolve("../../..").canonicalPath }
+            (services + placeOf(CollektivePlugin::class.java)).distinct().toList().toTypedArray()
+        }
+
+        /** The jar or folder that [type] was loaded from. */
+        private fun placeOf(type: Class<*>): String = File(type.protectionDomain.codeSource.location.toURI()).path
+    }
+
+    private class Collector(private val reports: MutableList<Report>) : MessageCollector {
+        override fun clear() = reports.clear()
+
+        override fun hasErrors() = reports.any { it.severity.isError }
+
+        override fun report(severity: CompilerMessageSeverity, message: String, location: CompilerMessageSourceLocation?) {
+            if (severity.isError || severity.isWarning) reports += Report(severity, location?.line ?: 0, message)
+        }
+    }
+}

@@ -1,0 +1,114 @@
+package org.collektive.compiler
+
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+class ProjectionTest {
+    @Test
+    fun `an arm sees a field from outside without the devices of other arms`() = assertSeen("inArm", 0 to setOf(2), 1 to setOf(3))
+
+    @Test
+    fun `so does the body of alignedOn`() = assertSeen("inAlignedOn", 0 to setOf(2), 1 to setOf(3))
+
+    @Test
+    fun `and the code after an explicit align`() = assertSeen("afterAlign", 0 to setOf(2), 1 to setOf(3))
+
+    @Test
+    fun `behind dealign the field is whole again`() = assertSeen("afterDealign", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
+
+    @Test
+    fun `outside of branches a field is whole`() = assertSeen("outside", 0 to setOf(1, 2, 3))
+
+    @Test
+    fun `a field made in the arm needs no projection`() {
+        val network = ReferenceDevices(0, 1)
+        network.round(compiled.program("madeInside"))
+        assertEquals(listOf("if > neighboring"), network.devices.getValue(0).visited)
+    }
+
+    @Test
+    fun `nested arms restrict further`() = assertSeen("nested", 0 to setOf(), 2 to setOf(), 1 to setOf(3))
+
+    @Test
+    fun `parameters and receivers are projected too`() {
+        assertSeen("parameter", 0 to setOf(2), 1 to setOf(3))
+        assertSeen("receiver", 0 to setOf(2), 1 to setOf(3))
+    }
+
+    @Test
+    fun `a lambda in an arm sees the restricted field`() = assertSeen("lambda", 0 to setOf(2), 1 to setOf(3))
+
+    @Test
+    fun `elvis and when arms`() = assertSeen("elvis", 0 to setOf(2), 1 to setOf())
+
+    @Test
+    fun `a field may be read in a loop inside an arm`() = assertSeen("loop", 0 to setOf(2), 1 to setOf(3), plainToo = false)
+
+    @Test
+    fun `the local entry is the same in every projection`() {
+        val network = ReferenceDevices(0, 1)
+        assertEquals(mapOf<Int, Any?>(0 to 0, 1 to -1), network.round(compiled.program("localEntry")))
+    }
+
+    private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>, plainToo: Boolean = true) {
+        for (plain in if (plainToo) listOf(false, true) else listOf(false)) {
+            val network = ReferenceDevices(0, 1, 2, 3, plain = plain)
+            network.round(compiled.program(program))
+            val seen = network.round(compiled.program(program))
+            for ((id, ids) in expected) assertEquals<Any?>(ids, seen[id], "$program of device $id (plain: $plain)")
+        }
+    }
+
+    private companion object {
+        val compiled = Compilation.of(
+            """
+            val Aggregate<Int>.even: Boolean get() = localId % 2 == 0
+            fun <T> ids(field: Field<Int, T>): Set<Int> = field.neighbors.list.map { it.id }.toSet()
+
+            fun Aggregate<Int>.inArm(): Set<Int> { val f = neighboring(localId); return if (even) ids(f) else ids(f) }
+            fun Aggregate<Int>.inAlignedOn(): Set<Int> { val f = neighboring(localId); return alignedOn(even) { ids(f) } }
+            fun Aggregate<Int>.afterAlign(): Set<Int> {
+                val f = neighboring(localId)
+                align(even)
+                val seen = ids(f)
+                dealign()
+                return seen
+            }
+            fun Aggregate<Int>.afterDealign(): Set<Int> {
+                val f = neighboring(localId)
+                align(even)
+                dealign()
+                return ids(f)
+            }
+            fun Aggregate<Int>.outside(): Set<Int> { val f = neighboring(localId); return run { ids(f) } }
+            fun Aggregate<Int>.madeInside(): Int = if (localId >= 0) { val f = neighboring(localId); f.neighbors.size } else 0
+            fun Aggregate<Int>.nested(): Set<Int> {
+                val f = neighboring(localId)
+                return if (even) { if (localId == 0) ids(f) else ids(f) } else ids(f)
+            }
+            fun Aggregate<Int>.parameter(): Set<Int> = chosen(neighboring(localId), even)
+            fun chosen(f: Field<Int, Int>, even: Boolean): Set<Int> = if (even) ids(f) else ids(f)
+            fun Aggregate<Int>.receiver(): Set<Int> = neighboring(localId).chosenSelf(even)
+            fun Field<Int, Int>.chosenSelf(even: Boolean): Set<Int> = if (even) neighbors.list.map { it.id }.toSet() else ids(this)
+            fun Aggregate<Int>.lambda(): Set<Int> {
+                val f = neighboring(localId)
+                return if (even) run { ids(f) } else listOf(1).flatMap { ids(f) }.toSet()
+            }
+            fun Aggregate<Int>.elvis(): Set<Int> {
+                val f = neighboring(localId)
+                return setOf<Int>().takeIf { !even } ?: ids(f)
+            }
+            fun Aggregate<Int>.loop(): Set<Int> {
+                val f = neighboring(localId)
+                var all = setOf<Int>()
+                if (even) for (i in 1..3) all = all + ids(f) else for (i in 1..3) all += f.neighbors.list.map { it.id }
+                return all
+            }
+            fun Aggregate<Int>.localEntry(): Int {
+                val f = neighboring(localId)
+                return if (even) f.local.value else -f.local.value
+            }
+            """,
+        )
+    }
+}

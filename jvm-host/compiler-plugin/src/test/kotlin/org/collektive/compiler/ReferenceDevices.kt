@@ -1,0 +1,158 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.compiler
+
+import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.YieldingContext
+import it.unibo.collektive.aggregate.api.YieldingScope
+import it.unibo.collektive.aggregate.api.impl.AlignmentStack
+import it.unibo.collektive.aggregate.api.impl.readable
+
+/** Fully connected devices that keep everything in maps by whole path: slow and obviously right. */
+internal class ReferenceDevices(vararg ids: Int, plain: Boolean = false) {
+    val devices = ids.associateWith { if (plain) PlainDevice(it, this) else ReferenceDevice(it, this) }
+
+    /** One round of all, who read what was sent in the round before. */
+    fun round(program: Aggregate<Int>.() -> Any?): Map<Int, Any?> {
+        val results = devices.mapValues { (_, device) -> device.round(program) }
+        devices.values.forEach { it.commit() }
+        return results
+    }
+}
+
+/** Runs [program] once on a lonely device: its result, and the paths of its primitives as people read them. */
+internal fun trace(program: Aggregate<Int>.() -> Any?): Pair<Any?, List<String>> {
+    val network = ReferenceDevices(0)
+    val result = network.round(program).getValue(0)
+    return result to network.devices.getValue(0).visited
+}
+
+/** A device without [AlignmentStack], as another implementation of the API would be. */
+internal open class PlainDevice(override val localId: Int, private val network: ReferenceDevices) : Aggregate<Int> {
+    protected val stack = mutableListOf<Any?>()
+    private var state = mapOf<List<Any?>, Any?>()
+    private var sent = mapOf<List<Any?>, Map<Int?, Any?>>()
+    private val newState = mutableMapOf<List<Any?>, Any?>()
+    private val newSent = mutableMapOf<List<Any?>, Map<Int?, Any?>>()
+    private val claimed = mutableSetOf<List<Any?>>()
+
+    /** Readable paths of the primitives of the last round, in order. */
+    val visited = mutableListOf<String>()
+
+    override val inMemoryOnly get() = true
+
+    fun round(program: Aggregate<Int>.() -> Any?): Any? {
+        newState.clear()
+        newSent.clear()
+        claimed.clear()
+        visited.clear()
+        stack.clear()
+        val result = program()
+        check(stack.isEmpty()) { "left on the stack: ${describe(stack)}" }
+        return result
+    }
+
+    fun commit() {
+        state = newState.toMap()
+        sent = newSent.toMap()
+    }
+
+    override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored =
+        evolving(initial) { old -> transform(old).yielding { this } }
+
+    override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
+        val path = claim()
+        @Suppress("UNCHECKED_CAST")
+        val old = if (path in state) state[path] as Stored else initial
+        val (kept, result) = YieldingContext<Stored, Return>().transform(old)
+        newState[path] = kept
+        return result
+    }
+
+    override fun <Shared, Return> exchanging(
+        initial: Shared,
+        dataSharingMethod: DataSharingMethod<Shared>,
+        body: YieldingScope<Field<Int, Shared>, Return>,
+    ): Return {
+        val path = claim()
+        @Suppress("UNCHECKED_CAST")
+        val old = if (path in state) state[path] as Shared else initial
+        val (toSend, result) = YieldingContext<Field<Int, Shared>, Return>().body(received(path, old))
+        newState[path] = toSend.local.value
+        newSent[path] = toSend.neighbors.list.associate<_, Int?, Any?> { it.id to it.value } + (null to toSend.local.value)
+        return result
+    }
+
+    override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<Int, Shared> {
+        val path = claim()
+        newSent[path] = mapOf(null to local)
+        return received(path, local)
+    }
+
+    override fun <R> alignedOn(pivot: Any?, body: () -> R): R {
+        val before = stack.size
+        align(pivot)
+        try {
+            return body()
+        } finally {
+            popTo(before)
+        }
+    }
+
+    override fun align(pivot: Any?) {
+        stack += pivot
+    }
+
+    override fun dealign() {
+        stack.removeLast()
+    }
+
+    fun popTo(depth: Int) {
+        while (stack.size > depth) stack.removeLast()
+    }
+
+    private fun claim(): List<Any?> {
+        val path = stack.toList()
+        if (!claimed.add(path)) throw AlignmentClashException(describe(path))
+        visited += describe(path)
+        return path
+    }
+
+    protected fun markSeen() {
+        newSent.putIfAbsent(stack.toList(), mapOf(null to null))
+    }
+
+    protected fun alignedHere(): Set<Int> = network.devices.filter { (id, device) -> id != localId && stack.toList() in device.sent }.keys
+
+    private fun <T> received(path: List<Any?>, local: T): Field<Int, T> {
+        val senders = network.devices.values.filter { it !== this && path in it.sent }.sortedBy { it.localId }
+        val values = senders.map { sender ->
+            val message = sender.sent.getValue(path)
+            if (localId in message) message[localId] else message[null]
+        }
+        return Field.make(this, senders.map { it.localId }.toTypedArray(), values.toTypedArray(), local)
+    }
+
+    private fun describe(path: List<Any?>) = path.joinToString(" > ") { readable(it) }
+}
+
+/** A device as the project's own runtime offers it. */
+internal class ReferenceDevice(id: Int, network: ReferenceDevices) : PlainDevice(id, network), AlignmentStack {
+    override fun pushToken(token: String): Int = stack.size.also { stack += token }
+
+    override fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T> {
+        markSeen()
+        val here = alignedHere()
+        val kept = field.neighbors.list.filter { entry -> here.any { it == entry.id } }
+        return Field.make(
+            field.context,
+            kept.map<_, Any> { it.id }.toTypedArray(),
+            kept.map<_, Any?> { it.value }.toTypedArray(),
+            field.local.value,
+        )
+    }
+}
