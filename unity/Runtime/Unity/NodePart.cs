@@ -8,6 +8,10 @@ namespace Collektive.Unity
     /// </summary>
     public abstract class NodePart : MonoBehaviour
     {
+        private const int MaxFailuresInRow = 10;
+
+        private int failuresInRow;
+
         /// <summary>The node that this component belongs to; null until it is enabled.</summary>
         public Node Node { get; private set; }
 
@@ -29,6 +33,18 @@ namespace Collektive.Unity
         protected virtual void OnDisable()
         {
             if (!ReferenceEquals(Node, null)) Detach(Node);
+        }
+
+        internal void Succeeded() => failuresInRow = 0;
+
+        /// <summary>Counts a failure; a component that fails again and again is disabled, so that the rest can go on.</summary>
+        internal void Failed()
+        {
+            if (++failuresInRow < MaxFailuresInRow) return;
+            failuresInRow = 0;
+            Debug.LogError(
+                GetType().Name + " on '" + name + "' failed " + MaxFailuresInRow + " times in a row and is disabled: correct it, then enable it again", this);
+            enabled = false;
         }
 
         internal abstract void Attach(Node node);

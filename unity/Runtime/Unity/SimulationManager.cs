@@ -419,13 +419,15 @@ namespace Collektive.Unity
             var rules = node.Rules;
             for (var i = 0; i < rules.Count; i++)
             {
+                var rule = rules[i];
                 try
                 {
-                    rules[i].UpdateLinks(this);
+                    rule.UpdateLinks(this);
+                    rule.Succeeded();
                 }
                 catch (Exception error)
                 {
-                    Report(node, rules[i], error);
+                    Report(node, rule, error);
                 }
             }
         }
@@ -470,6 +472,7 @@ namespace Collektive.Unity
                 try
                 {
                     sensor.Sense(buffer, index);
+                    sensor.Succeeded();
                 }
                 catch (Exception error)
                 {
@@ -518,6 +521,7 @@ namespace Collektive.Unity
                 try
                 {
                     actuator.Act(buffer, index);
+                    actuator.Succeeded();
                 }
                 catch (Exception error)
                 {
@@ -533,12 +537,13 @@ namespace Collektive.Unity
             for (var i = 0; i < steps; i++) Physics.Simulate(step);
         }
 
-        private void Report(Node node, Component part, Exception error)
+        private void Report(Node node, NodePart part, Exception error)
         {
             ErrorCount++;
             node.LastError = error.Message;
             Debug.LogException(
                 new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + (Tick + 1), error), part);
+            part.Failed();
         }
 
         private void DrainLog()

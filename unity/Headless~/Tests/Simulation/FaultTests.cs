@@ -149,6 +149,20 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_sensor_that_throws_again_and_again_is_disabled_and_its_node_goes_on_without_it()
+        {
+            var node = MakeNode(1);
+            var sensor = node.Node.gameObject.AddComponent<ThrowingSensor>();
+            Play(9);
+            Assert.That(sensor.enabled, Is.True);
+            Play(1);
+            Assert.That(sensor.enabled, Is.False);
+            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("ThrowingSensor").And.StringContaining("disabled"));
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
+        [Test]
         public void A_sensor_made_for_another_schema_is_refused_with_both_types()
         {
             var node = MakeNode(1);
