@@ -7,7 +7,7 @@ using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
 {
-    /// <summary>Records the scene's nodes, links and standing obstacles for the replay page.</summary>
+    /// <summary>Records the scene's nodes, links and standing shapes for the replay page.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
         private readonly ReplayWriter writer;
