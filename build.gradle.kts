@@ -116,12 +116,13 @@ project(":host") {
         commandLine(flatc.path, "--java", "-o", folder.get().asFile.path, "$rootDir/schema/frame.fbs")
     }
     // One jar: the JVM's class path in Unity, and the compile class path of programs.
+    val classes = extensions.getByType<SourceSetContainer>()["main"].output
+    val libraries = configurations["runtimeClasspath"]
     val hostJar = tasks.register<Jar>("hostJar") {
         archiveFileName.set("collektive-host.jar")
         destinationDirectory.set(file("target"))
         duplicatesStrategy = DuplicatesStrategy.EXCLUDE
-        from(extensions.getByType<SourceSetContainer>()["main"].output)
-        val libraries = configurations["runtimeClasspath"]
+        from(classes)
         dependsOn(libraries)
         from({ libraries.map { if (it.isDirectory) it else zipTree(it) } })
         exclude("META-INF/MANIFEST.MF", "META-INF/versions/**", "META-INF/maven/**")

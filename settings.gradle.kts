@@ -4,7 +4,7 @@ pluginManagement {
         mavenCentral()
         gradlePluginPortal()
     }
-    val pom = file("jvm-host/pom.xml").readText()
+    val pom = rootDir.resolve("jvm-host/pom.xml").readText()
     val kotlinVersion = checkNotNull(Regex("<kotlin\\.version>(.+?)</").find(pom)).groupValues[1]
     plugins {
         id("org.jetbrains.kotlin.jvm") version kotlinVersion
