@@ -5,7 +5,8 @@ HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
 NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
 NEWTONSOFT=/usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll
-GENERATED_CODE_SYMBOLS="-define:UNSAFE_BYTEBUFFER;ENABLE_SPAN_T -unsafe+"
+# What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
+GENERATED_CODE_SYMBOLS="$(cat "$ROOT/unity/Runtime/Bridge/csc.rsp") -unsafe+"
 
 build_native() {
   setup_flatc
