@@ -20,6 +20,7 @@ internal object DslNames {
     val dealign = Name.identifier("dealign")
     val alignedOn = Name.identifier("alignedOn")
     val neighboring = Name.identifier("neighboring")
+    val yielding = Name.identifier("yielding")
     val context = Name.identifier("context")
     val local = Name.identifier("local")
 

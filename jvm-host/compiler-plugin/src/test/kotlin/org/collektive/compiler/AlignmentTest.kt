@@ -82,6 +82,9 @@ class AlignmentTest {
     fun `objects that capture the Aggregate`() = assertPaths("anonymous", "work > neighboring")
 
     @Test
+    fun `function objects of an interface`() = assertPaths("functionObjects", "work > evolve", "work > evolve")
+
+    @Test
     fun `context parameters`() = assertPaths("contextual", "inContext > evolve", "inContext > evolve")
 
     @Test
@@ -248,6 +251,12 @@ class AlignmentTest {
                 init { kept = aggregate.evolve(0) { it } }
             }
             fun Aggregate<Int>.constructed(): Int = Holder(this).kept
+
+            fun interface Job { fun work(): Int }
+            fun Aggregate<Int>.functionObjects(): Int {
+                val job = Job { evolve(0) { it } }
+                return job.work() + job.work()
+            }
 
             interface Task { fun work(): Int }
             fun Aggregate<Int>.anonymous(): Int = object : Task { override fun work(): Int = neighboring(1).local.value }.work()

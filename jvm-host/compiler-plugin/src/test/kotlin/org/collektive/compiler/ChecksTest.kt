@@ -71,8 +71,12 @@ class ChecksTest {
             mapOf(1 to 2).forEach { (_, v) -> helper(v) } // AGGREGATE_CALL_IN_LOOP
             repeat(3) { helper(it) } // AGGREGATE_CALL_IN_LOOP
             "abc".forEach { helper(it.code) } // AGGREGATE_CALL_IN_LOOP
-            for (item in items) share(item) { neighboring(item).local.value } // AGGREGATE_CALL_IN_LOOP
+            for (item in items) share(item) { it.local.value + neighboring(item).local.value } // AGGREGATE_CALL_IN_LOOP
             for (item in items) alignedOn("same") { items.map { helper(it) } } // AGGREGATE_CALL_IN_LOOP
+        }
+        val lambda: Aggregate<Int>.() -> Unit = { for (i in 1..2) helper(i) } // AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.programInLoop(items: List<Int>) {
+            items.forEach { apply { helper(it) } } // AGGREGATE_CALL_IN_LOOP
         }
         fun inFunctionOfField(field: Field<Int, Int>): List<Int> = field.neighbors.list.map { field.context.helper(it.value) } // AGGREGATE_CALL_IN_LOOP
         """,
@@ -95,6 +99,8 @@ class ChecksTest {
             return items.sumOf { it * 2 }
         }
         fun neighborhoodSize(x: Int): Int = x
+        fun driver(devices: List<Aggregate<Int>>) = devices.map { device -> device.run { helper(1) } } + devices.map { runOn(it) { helper(2) } }
+        fun runOn(device: Aggregate<Int>, program: Aggregate<Int>.() -> Int): Int = device.program()
         fun notAggregate(items: List<Int>, make: () -> Aggregate<Int>) = items.forEach { make().helper(it) }
         @CollektiveIgnore("test") fun Aggregate<Int>.ignored(items: List<Int>) { for (item in items) helper(item) }
         """,
@@ -114,6 +120,66 @@ class ChecksTest {
         @CollektiveIgnore("test") fun Aggregate<Int>.ignored() { align(1); dealign() }
         fun String.align(x: Int): Int = x + length
         fun Aggregate<Int>.other(): Int = "a".align(localId)
+        """,
+    )
+
+    @Test
+    fun `evolve that sends its old value could be share`() = assertReports(
+        """
+        fun Aggregate<Int>.slow(): Int = evolve(0) { old -> neighboring(old).all.list.maxOf { it.value } } // EVOLVE_THAT_SHARES
+        fun Aggregate<Int>.slowToo(): Int = evolving(0) { val f = run { neighboring(it) }; f.local.value.yielding { this + 1 } } // EVOLVE_THAT_SHARES
+        fun Aggregate<Int>.fine(): Int = evolve(0) { old -> old + neighboring(localId).neighbors.size }
+        fun Aggregate<Int>.other(): Int = evolve(0) { old -> neighboring(old + 1).neighbors.size }
+        """,
+    )
+
+    @Test
+    fun `a primitive that ignores what it is given`() = assertReports(
+        """
+        fun Aggregate<Int>.ignoring(): Int {
+            val a = evolve(0) { localId } // IGNORED_PARAMETER
+            val b = evolving(0) { _ -> localId.yielding { this + 1 } } // IGNORED_PARAMETER
+            val c = share(0) { localId } // IGNORED_PARAMETER
+            val d = sharing(0) { field -> localId.yielding { this + 1 } } // IGNORED_PARAMETER
+            val e = exchange(0) { neighboring(localId) } // IGNORED_PARAMETER
+            val f = exchanging(0) { neighboring(localId).yielding { 1 } } // IGNORED_PARAMETER
+            return a + b + c + d + e.local.value + f
+        }
+        fun Aggregate<Int>.looking(step: (Int) -> Int): Int {
+            val a = evolve(0) { run { it } } + evolve(1, step)
+            val b = share(0) { field -> field.local.value }
+            val c = exchange(0 to 1) { it.mapValues { (x, y) -> y to x } }.local.value.first
+            val d = evolve(0 to 1) { (x, y) -> y to x }.first
+            return a + b + c + d
+        }
+        fun evolve(x: Int, f: (Int) -> Int): Int = f(x)
+        fun elsewhere(): Int = evolve(1) { 2 }
+        """,
+    )
+
+    @Test
+    fun `yielding what is kept anyway`() = assertReports(
+        """
+        fun Aggregate<Int>.needless(): Int {
+            val a = evolving(0) { old -> (old + 1).yielding { this } } // NEEDLESS_YIELDING
+            val b = sharing(0) { f -> val next = f.local.value; next.yielding { next } } // NEEDLESS_YIELDING
+            val c = exchanging(0) { f -> f.mapValues { it + 1 }.yielding { this } } // NEEDLESS_YIELDING
+            return a + b + c.local.value
+        }
+        fun Aggregate<Int>.needed(): Int {
+            val a = evolving(0) { old -> (old + 1).yielding { old } }
+            val b: Int = exchanging(0) { f -> f.yielding { local.value } }
+            val c: Int = sharing(0) { f -> val next = f.local.value; next.yielding { f.local.value } }
+            return a + b + c
+        }
+        """,
+    )
+
+    @Test
+    fun `a constant to all neighbours`() = assertReports(
+        """
+        fun Aggregate<Int>.constant(): Int = neighboring(1).neighbors.size + neighboring("a").neighbors.size // CONSTANT_NEIGHBORING CONSTANT_NEIGHBORING
+        fun Aggregate<Int>.fine(x: Int): Int = neighboring(x).neighbors.size + neighboring(x + 1).neighbors.size + neighborhood().neighbors.size
         """,
     )
 

@@ -65,6 +65,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
                 moduleName = "programs"
                 jvmTarget = "17"
                 renderInternalDiagnosticNames = true
+                verifyIr = "error"
                 optIn = arrayOf("it.unibo.collektive.aggregate.api.DelicateCollektiveApi")
                 pluginClasspaths = PLUGIN
                 pluginOptions = options.map { "plugin:${CollektiveOptions.PLUGIN_ID}:$it" }.toTypedArray()

@@ -40,8 +40,11 @@ internal open class PlainDevice(override val localId: Int, private val network: 
     private val newSent = mutableMapOf<List<Any?>, Map<Int?, Any?>>()
     private val claimed = mutableSetOf<List<Any?>>()
 
-    /** Readable paths of the primitives of the last round, in order. */
-    val visited = mutableListOf<String>()
+    /** Paths of the primitives of the last round, in order. */
+    val paths = mutableListOf<List<Any?>>()
+
+    /** The same as people read them. */
+    val visited: List<String> get() = paths.map(::describe)
 
     override val inMemoryOnly get() = true
 
@@ -49,7 +52,7 @@ internal open class PlainDevice(override val localId: Int, private val network: 
         newState.clear()
         newSent.clear()
         claimed.clear()
-        visited.clear()
+        paths.clear()
         stack.clear()
         val result = program()
         check(stack.isEmpty()) { "left on the stack: ${describe(stack)}" }
@@ -118,7 +121,7 @@ internal open class PlainDevice(override val localId: Int, private val network: 
     private fun claim(): List<Any?> {
         val path = stack.toList()
         if (!claimed.add(path)) throw AlignmentClashException(describe(path))
-        visited += describe(path)
+        paths += path
         return path
     }
 

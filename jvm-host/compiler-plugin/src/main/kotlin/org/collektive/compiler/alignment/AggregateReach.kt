@@ -16,6 +16,8 @@ import org.jetbrains.kotlin.ir.expressions.IrSpreadElement
 import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
 import org.jetbrains.kotlin.ir.expressions.IrVararg
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
+import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.getClass
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isLocal
 import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
@@ -58,12 +60,19 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     }
 
     /** What a function does that comes from elsewhere is not known, so it may lead anywhere. */
-    private fun mayCarry(value: IrExpression) = value.type.isFunctionTypeOrSubtype() || dsl.mentions(value.type)
+    private fun mayCarry(value: IrExpression) = isFunction(value.type) || dsl.mentions(value.type)
+
+    private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
     /** The lambda that a `val` was made with. */
     private fun functionIn(read: IrGetValue): IrFunction? {
         val variable = read.symbol.owner as? IrVariable ?: return null
-        return if (variable.isVar) null else (variable.initializer as? IrFunctionExpression)?.function
+        if (variable.isVar) return null
+        return when (val made = variable.initializer) {
+            is IrFunctionExpression -> made.function
+            is IrTypeOperatorCall -> (made.argument as? IrFunctionExpression)?.function
+            else -> null
+        }
     }
 
     private fun leadsToPrimitive(function: IrFunction): Boolean {

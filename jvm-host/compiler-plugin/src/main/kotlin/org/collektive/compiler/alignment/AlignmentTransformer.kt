@@ -44,8 +44,10 @@ import org.jetbrains.kotlin.ir.expressions.IrStatementOrigin
 import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
 import org.jetbrains.kotlin.ir.expressions.IrWhen
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
-import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.isNothing
+import org.jetbrains.kotlin.ir.types.starProjectedType
+import org.jetbrains.kotlin.ir.types.typeOrNull
 import org.jetbrains.kotlin.ir.util.hasAnnotation
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isNullable
@@ -172,7 +174,8 @@ internal class AlignmentTransformer(
         dependsOnPath = true
         return builderAt(expression).run {
             irCall(dsl.project, expression.type).apply {
-                typeArguments.indices.forEach { typeArguments[it] = plugin.irBuiltIns.anyNType }
+                val given = (expression.type as? IrSimpleType)?.arguments.orEmpty()
+                for (index in typeArguments.indices) typeArguments[index] = given.getOrNull(index)?.typeOrNull ?: plugin.irBuiltIns.anyType
                 arguments[0] = expression
                 arguments[1] = irString(token(variable.name.asString().trim('<', '>'), expression))
             }
@@ -239,7 +242,7 @@ internal class AlignmentTransformer(
     private fun IrBlockBuilder.current(): IrExpression {
         val parameter = checkNotNull(source)
         if (dsl.isAggregate(parameter.type)) return irGet(parameter)
-        return irCall(dsl.fieldContext, dsl.fieldContext.owner.returnType).apply { arguments[0] = irGet(parameter) }
+        return irCall(dsl.fieldContext, dsl.aggregate.starProjectedType).apply { arguments[0] = irGet(parameter) }
     }
 
     /** A lambda here is put into the callee's body by the compiler, so it must stay a literal. */

@@ -14,6 +14,7 @@ import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirLoop
 import org.jetbrains.kotlin.fir.expressions.arguments
 import org.jetbrains.kotlin.fir.expressions.unwrapArgument
+import org.jetbrains.kotlin.fir.types.coneType
 import org.jetbrains.kotlin.fir.types.resolvedType
 
 /** An aggregate call in a loop, or in a lambda that a collection runs for each element, with no `alignedOn` between. */
@@ -35,7 +36,8 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppC
             when (element) {
                 expression -> Unit
                 is FirLoop -> return true
-                is FirAnonymousFunction -> lambda = element
+                // A program of its own, as in a test that runs devices one by one.
+                is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
                 is FirFunction, is FirClass -> return false
                 is FirFunctionCall -> {
                     val isLambdaHere = lambda != null && element.takes(lambda)
@@ -50,6 +52,13 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppC
             }
         }
         return false
+    }
+
+    context(context: CheckerContext)
+    private fun givesAggregate(lambda: FirAnonymousFunction): Boolean = with(context.session) {
+        val types = listOfNotNull(lambda.receiverParameter?.typeRef) + lambda.contextParameters.map { it.returnTypeRef } +
+            lambda.valueParameters.map { it.returnTypeRef }
+        types.any { it.coneType.isAggregate() }
     }
 
     private fun FirFunctionCall.takes(lambda: FirAnonymousFunction) =

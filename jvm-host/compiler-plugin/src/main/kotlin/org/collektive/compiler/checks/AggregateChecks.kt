@@ -16,7 +16,14 @@ internal class AggregateChecks : FirExtensionRegistrar() {
         override val expressionCheckers = object : ExpressionCheckers() {
             override val whenExpressionCheckers = setOf(FieldFromBranch)
             override val elvisExpressionCheckers = setOf(FieldFromElvis)
-            override val functionCallCheckers = setOf(AggregateCallInLoop, ManualAlignment)
+            override val functionCallCheckers = setOf(
+                AggregateCallInLoop,
+                ManualAlignment,
+                EvolveThatShares,
+                IgnoredParameter,
+                NeedlessYielding,
+                ConstantNeighboring,
+            )
         }
     }
 }

@@ -8,12 +8,17 @@ import org.jetbrains.kotlin.diagnostics.rendering.BaseDiagnosticRendererFactory
 import org.jetbrains.kotlin.diagnostics.rendering.CommonRenderers
 import org.jetbrains.kotlin.diagnostics.warning0
 import org.jetbrains.kotlin.diagnostics.warning1
+import org.jetbrains.kotlin.diagnostics.warning2
 
 /** What the checks report; a name here is also what `@Suppress` takes. */
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     val FIELD_FROM_BRANCH by error0<PsiElement>()
     val AGGREGATE_CALL_IN_LOOP by warning1<PsiElement, String>()
     val MANUAL_ALIGNMENT by warning1<PsiElement, String>()
+    val EVOLVE_THAT_SHARES by warning0<PsiElement>()
+    val IGNORED_PARAMETER by warning2<PsiElement, String, String>()
+    val NEEDLESS_YIELDING by warning0<PsiElement>()
+    val CONSTANT_NEIGHBORING by warning0<PsiElement>()
 
     override fun getRendererFactory(): BaseDiagnosticRendererFactory = Texts
 
@@ -34,6 +39,24 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
                 MANUAL_ALIGNMENT,
                 "The compiler aligns calls itself; ''{0}'' by hand can leave the program misaligned. Use alignedOn(pivot) '{' ... '}'.",
                 CommonRenderers.STRING,
+            )
+            map.put(
+                EVOLVE_THAT_SHARES,
+                "This sends to neighbours what it kept a round ago. 'share' keeps and sends one value, and information travels twice as fast.",
+            )
+            map.put(
+                IGNORED_PARAMETER,
+                "The lambda of ''{0}'' ignores what it is given; {1} does the same.",
+                CommonRenderers.STRING,
+                CommonRenderers.STRING,
+            )
+            map.put(
+                NEEDLESS_YIELDING,
+                "This returns what it keeps: the variant without 'yielding' (evolve, share, exchange) does the same.",
+            )
+            map.put(
+                CONSTANT_NEIGHBORING,
+                "Every device sends this same constant; neighborhood() or mapNeighborhood '{' ... '}' says so and sends nothing of it.",
             )
         }
     }

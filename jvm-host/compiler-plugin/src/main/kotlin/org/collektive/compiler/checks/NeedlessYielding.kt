@@ -1,0 +1,25 @@
+package org.collektive.compiler.checks
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.diagnostics.DiagnosticReporter
+import org.jetbrains.kotlin.diagnostics.reportOn
+import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
+import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
+import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
+import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
+import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
+
+/** `x.yielding { this }` or `x.yielding { x }`: what is returned is what is kept anyway. */
+internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
+    context(context: CheckerContext, reporter: DiagnosticReporter)
+    override fun check(expression: FirFunctionCall) {
+        if (expression.callee?.callableId?.classId != DslNames.yieldingContext || expression.calleeReference.name != DslNames.yielding) return
+        val lambda = expression.lambda ?: return
+        val returned = lambda.onlyExpression ?: return
+        val kept = expression.extensionReceiver?.readVariable
+        val isSame = returned is FirThisReceiverExpression &&
+            returned.calleeReference.boundSymbol == lambda.receiverParameter?.symbol ||
+            kept != null && returned.readVariable == kept
+        if (isSame && isAggregateCode()) reporter.reportOn(expression.source, AggregateDiagnostics.NEEDLESS_YIELDING)
+    }
+}

@@ -1,0 +1,50 @@
+package org.collektive.compiler.checks
+
+import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.fir.FirElement
+import org.jetbrains.kotlin.fir.declarations.FirAnonymousFunction
+import org.jetbrains.kotlin.fir.expressions.FirAnonymousFunctionExpression
+import org.jetbrains.kotlin.fir.expressions.FirExpression
+import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
+import org.jetbrains.kotlin.fir.expressions.FirPropertyAccessExpression
+import org.jetbrains.kotlin.fir.expressions.FirReturnExpression
+import org.jetbrains.kotlin.fir.expressions.arguments
+import org.jetbrains.kotlin.fir.expressions.unwrapArgument
+import org.jetbrains.kotlin.fir.expressions.unwrapSmartcastExpression
+import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
+import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
+import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
+
+/** The lambda that a primitive of the DSL runs, when it is written at the call. */
+internal val FirFunctionCall.lambda: FirAnonymousFunction?
+    get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
+
+/** The variable or parameter that an expression only reads. */
+internal val FirExpression.readVariable: FirVariableSymbol<*>?
+    get() = (unwrapSmartcastExpression() as? FirPropertyAccessExpression)?.takeIf { it.explicitReceiver == null }
+        ?.calleeReference?.toResolvedVariableSymbol()
+
+/** What the lambda returns when its body is a single expression. */
+internal val FirAnonymousFunction.onlyExpression: FirExpression?
+    get() = when (val statement = body?.statements?.singleOrNull()) {
+        is FirReturnExpression -> statement.result
+        else -> statement as? FirExpression
+    }
+
+/** Whether [wanted] holds for this element or one inside it. */
+internal fun FirElement.contains(wanted: (FirElement) -> Boolean): Boolean {
+    var found = false
+    accept(
+        object : FirVisitorVoid() {
+            override fun visitElement(element: FirElement) {
+                found = found || wanted(element)
+                if (!found) element.acceptChildren(this)
+            }
+        },
+    )
+    return found
+}
+
+internal fun FirFunctionCall.isAnyOf(names: Set<String>): Boolean = callee?.let { callee ->
+    callee.callableId.packageName == DslNames.apiPackage && callee.callableId.callableName.asString() in names
+} == true

@@ -1,0 +1,55 @@
+package org.collektive.compiler
+
+import it.unibo.collektive.aggregate.api.impl.readable
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertSame
+import kotlin.test.assertTrue
+
+class TokensTest {
+    private val source = """
+        fun Aggregate<Int>.first(x: Int): Int = neighboring(x).local.value
+        fun Aggregate<Int>.first(x: Long): Long = neighboring(x).local.value
+        fun Aggregate<Int>.main(): Long {
+            val twice = { first(localId) }
+            return first(1) + twice() + twice() + first(2L)
+        }
+        """
+
+    @Test
+    fun `a token says what and where, and ends in 64 bits that tell the place`() {
+        val token = tokens(Compilation.of(source)).first().first()
+        assertTrue(Regex("first@Program\\.kt:5#[0-9a-f]{16}").matches(token), token)
+        assertEquals("first", readable(token))
+    }
+
+    @Test
+    fun `builds in different folders agree`() = assertEquals(tokens(Compilation.of(source)), tokens(Compilation.of(source)))
+
+    @Test
+    fun `each place has its own token`() {
+        val places = tokens(Compilation.of(source)).flatten()
+        // Calls of first and twice in main, of first in the lambda, of neighboring in both overloads.
+        assertEquals(7, places.toSet().size)
+    }
+
+    @Test
+    fun `equal tokens are one object, so that comparing them is cheap`() {
+        val compiled = Compilation.of(source)
+        val (once, again) = List(2) { tokens(compiled) }
+        for ((a, b) in once.flatten() zip again.flatten()) assertSame(a, b)
+    }
+
+    @Test
+    fun `pivots of the program are read as they are`() {
+        assertEquals("a@b", readable("a@b"))
+        assertEquals("null", readable(null))
+        assertEquals("7", readable(7))
+    }
+
+    private fun tokens(compilation: Compilation): List<List<String>> {
+        val network = ReferenceDevices(0)
+        network.round(compilation.program("main"))
+        return network.devices.getValue(0).paths.map { path -> path.map { it as String } }
+    }
+}
