@@ -146,6 +146,15 @@ def crosses(start, end, box):
     return low <= high
 
 
+class BadDemos(Folder):
+    def test_numbers_that_make_no_sense_are_refused(self):
+        for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "no room for 20000"), (["--nodes", "many"], "--nodes"),
+                                (["--seconds", "-1"], "--seconds"), (["--seed", "1.5"], "--seed")]:
+            result = collektive("demo", *arguments, "--out", self.path("out"))
+            self.assertEqual(result.returncode, 1, arguments)
+            self.assertIn(word, last_error(result))
+
+
 class Repeatability(Folder):
     def test_one_seed_has_one_digest_and_another_seed_another(self):
         digests = []

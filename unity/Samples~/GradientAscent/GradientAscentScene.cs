@@ -75,6 +75,11 @@ namespace Collektive.Samples.GradientAscent
         /// <inheritdoc/>
         protected override void Build(SimulationManager manager)
         {
+            if (nodes < 1 || !(range >= 0) || !(bodyRadius > 0))
+            {
+                manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range + " m: there must be at least one node, of some size");
+                return;
+            }
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
             intensity = new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
@@ -88,7 +93,7 @@ namespace Collektive.Samples.GradientAscent
                 foreach (var place in ObstaclePlaces) MakeBox("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
             }
             var taken = new List<Vector3>();
-            for (var i = 0; i < nodes; i++) MakeNode(FreePlace(manager, taken));
+            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(FreePlace(manager, taken));
         }
 
         /// <summary>A place in x -35..5, z -25..25 where a body overlaps no other.</summary>
