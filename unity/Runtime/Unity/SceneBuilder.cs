@@ -27,7 +27,7 @@ namespace Collektive.Unity
         /// <summary>A number to colour a node by in a replay.</summary>
         public virtual float Shade(Node node) => 0;
 
-        /// <summary>Makes the scene's objects. Called once, from <c>Awake</c>, in play mode.</summary>
+        /// <summary>Makes the scene's objects. Called once, from <c>Awake</c>, in play mode. An exception stops the simulation.</summary>
         protected abstract void Build(SimulationManager manager);
 
         private void Awake()
@@ -38,7 +38,16 @@ namespace Collektive.Unity
                     GetType().Name + " on '" + name + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive)", this);
                 return;
             }
-            Build(SimulationManager.Current);
+            try
+            {
+                Build(SimulationManager.Current);
+            }
+            catch (Exception error)
+            {
+                // Half a scene would run and mean nothing.
+                Debug.LogException(error, this);
+                SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message);
+            }
         }
     }
 }

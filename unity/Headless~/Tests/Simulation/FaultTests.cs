@@ -172,6 +172,13 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_scene_that_cannot_be_built_stops_the_simulation()
+        {
+            new GameObject("scene").AddComponent<BrokenScene>();
+            Assert.That(Manager.Failure, Is.StringContaining("BrokenScene").And.StringContaining("broken on purpose"));
+        }
+
+        [Test]
         public void Settings_out_of_range_are_refused_before_anything_starts()
         {
             Configure("double", settings => settings.deltaTime = 0);
@@ -183,6 +190,11 @@ namespace Collektive.Headless.Tests.Simulation
         public sealed class ThrowingSensor : Sensor<probe.SensorDataValue>
         {
             protected override void Sense(ref probe.SensorDataValue data) => throw new InvalidOperationException("broken on purpose");
+        }
+
+        public sealed class BrokenScene : SceneBuilder
+        {
+            protected override void Build(SimulationManager manager) => throw new InvalidOperationException("broken on purpose");
         }
 
         public sealed class ForeignSensor : Sensor<int>
