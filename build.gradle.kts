@@ -77,6 +77,13 @@ project(":runtime") {
     dependencies { "api"(project(":dsl")) }
 }
 
+project(":stdlib") {
+    dependencies {
+        "api"(project(":dsl"))
+        "testImplementation"(project(":runtime"))
+    }
+}
+
 project(":api") {
     dependencies {
         "api"(project(":flatbuffers"))
@@ -109,6 +116,7 @@ project(":engine") {
 project(":host") {
     dependencies {
         "api"(project(":engine"))
+        "api"(project(":stdlib"))
         "testImplementation"(project(":generator"))
     }
     val folder = layout.buildDirectory.dir("generated/flatbuffers")

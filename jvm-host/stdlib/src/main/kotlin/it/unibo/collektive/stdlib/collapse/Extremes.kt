@@ -1,0 +1,49 @@
+package it.unibo.collektive.stdlib.collapse
+
+import it.unibo.collektive.aggregate.Collapse
+import it.unibo.collektive.aggregate.CollapseAll
+import it.unibo.collektive.aggregate.CollapseNeighbors
+
+// On ties the first element in the field's order wins: the neighbour with the lowest id, the device itself last.
+
+/** The greatest of the neighbours' elements; `null` when there are none. */
+public fun <E : Comparable<E>> CollapseNeighbors<E>.max(): E? = list.maxOrNull()
+
+/** The greatest element. */
+public fun <E : Comparable<E>> CollapseAll<E>.max(): E = list.max()
+
+/** The greatest of the elements and [base]. */
+public fun <E : Comparable<E>> Collapse<E>.max(base: E): E = list.fold(base) { best, element -> maxOf(best, element) }
+
+/** The neighbours' element whose [selector] is greatest; `null` when there are none. */
+public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
+
+/** The element whose [selector] is greatest. */
+public inline fun <E, C : Comparable<C>> CollapseAll<E>.maxBy(selector: (E) -> C): E = list.maxBy(selector)
+
+/** The greatest of the neighbours' elements in the order of [comparator]; `null` when there are none. */
+public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): E? = list.maxWithOrNull(comparator)
+
+/** The greatest element in the order of [comparator]. */
+public fun <E> CollapseAll<E>.maxWith(comparator: Comparator<in E>): E = list.maxWith(comparator)
+
+/** The least of the neighbours' elements; `null` when there are none. */
+public fun <E : Comparable<E>> CollapseNeighbors<E>.min(): E? = list.minOrNull()
+
+/** The least element. */
+public fun <E : Comparable<E>> CollapseAll<E>.min(): E = list.min()
+
+/** The least of the elements and [base]. */
+public fun <E : Comparable<E>> Collapse<E>.min(base: E): E = list.fold(base) { best, element -> minOf(best, element) }
+
+/** The neighbours' element whose [selector] is least; `null` when there are none. */
+public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
+
+/** The element whose [selector] is least. */
+public inline fun <E, C : Comparable<C>> CollapseAll<E>.minBy(selector: (E) -> C): E = list.minBy(selector)
+
+/** The least of the neighbours' elements in the order of [comparator]; `null` when there are none. */
+public fun <E> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): E? = list.minWithOrNull(comparator)
+
+/** The least element in the order of [comparator]. */
+public fun <E> CollapseAll<E>.minWith(comparator: Comparator<in E>): E = list.minWith(comparator)

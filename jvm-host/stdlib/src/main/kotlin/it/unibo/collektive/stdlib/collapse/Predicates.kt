@@ -1,0 +1,15 @@
+package it.unibo.collektive.stdlib.collapse
+
+import it.unibo.collektive.aggregate.Collapse
+
+/** Whether [predicate] holds for each element; `true` when there are none. */
+public inline fun <E> Collapse<E>.all(predicate: (E) -> Boolean): Boolean = list.all(predicate)
+
+/** Whether [predicate] holds for an element. */
+public inline fun <E> Collapse<E>.any(predicate: (E) -> Boolean): Boolean = list.any(predicate)
+
+/** Whether [predicate] holds for no element. */
+public inline fun <E> Collapse<E>.none(predicate: (E) -> Boolean): Boolean = list.none(predicate)
+
+/** The number of elements for which [predicate] holds. */
+public inline fun <E> Collapse<E>.countMatching(predicate: (E) -> Boolean): Int = list.count(predicate)

@@ -1,0 +1,91 @@
+@file:CollektiveIgnore("aligns itself")
+@file:OptIn(DelicateCollektiveApi::class)
+
+package it.unibo.collektive.stdlib.consensus
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.dataSharingMethod
+import it.unibo.collektive.stdlib.util.Reducer
+import it.unibo.collektive.stdlib.util.aligned
+import it.unibo.collektive.stdlib.util.forEachNeighborWith
+import it.unibo.collektive.stdlib.util.hops
+import it.unibo.collektive.stdlib.util.nonOverflowingPlus
+
+/**
+ * The id of this device's leader, which is at most [bound] away: sparse leader election (the "S" block, as bounded election in
+ * "Self-stabilising Priority-Based Multi-Leader Election and Network Partitioning", Pianini, Casadei and Viroli, ACSOS 2022).
+ *
+ * Each device passes on the best candidacy it knows, with the distances travelled; it starts from its own and hears no other of itself.
+ * Self-stabilising: once strengths, links and metric stay as they are, the strongest device leads all within the bound, the strongest of
+ * the others leads all within the bound through the others, and so on. Stale candidacies grow by the metric each
+ * round until they are out of bounds, so that needs for each level (bound / least metric) rounds of every device, twice. Distances of
+ * 0 between neighbours keep them alive for ever. Equal strengths are decided by distance, and then by who was there first.
+ *
+ * @param strength the strongest wins.
+ * @param bound the greatest distance of a leader.
+ * @param metric the distances to the neighbours.
+ * @param bottom the distance of a device to itself.
+ * @param accumulateDistance adds the distance to a neighbour to the neighbour's distance from its leader.
+ * @param selectBest the better of two candidacies, the first on ties.
+ */
+public inline fun <reified ID : Any, reified S : Comparable<S>, reified D : Comparable<D>> Aggregate<ID>.boundedElection(
+    strength: S,
+    bound: D,
+    metric: Field<ID, D>,
+    bottom: D,
+    noinline accumulateDistance: (D, D) -> D,
+    noinline selectBest: Reducer<Candidacy<ID, D, S>> = { a, b -> maxOf(a, b) },
+): ID = elect(
+    Candidacy(localId, bottom, strength), bound, metric, dataSharingMethod<Candidacy<ID, D, S>>(), accumulateDistance, selectBest,
+)
+
+/** [boundedElection] over distances from 0.0 on. */
+public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
+    strength: S,
+    bound: Double,
+    metric: Field<ID, Double>,
+    noinline selectBest: Reducer<Candidacy<ID, Double, S>> = { a, b -> maxOf(a, b) },
+): ID = boundedElection(strength, bound, metric, 0.0, Double::plus, selectBest)
+
+/** [boundedElection] over distances from 0 on, by default in hops. */
+public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
+    strength: S,
+    bound: Int,
+    metric: Field<ID, Int> = hops(),
+    noinline selectBest: Reducer<Candidacy<ID, Int, S>> = { a, b -> maxOf(a, b) },
+): ID = boundedElection(strength, bound, metric, 0, Int::nonOverflowingPlus, selectBest)
+
+/** [boundedElection] where the greatest id is the strongest. */
+public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bound: Double, metric: Field<ID, Double>): ID =
+    boundedElection(localId, bound, metric)
+
+/** [boundedElection] where the greatest id is the strongest, by default in hops. */
+public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
+    bound: Int,
+    metric: Field<ID, Int> = hops(),
+): ID = boundedElection(localId, bound, metric)
+
+@PublishedApi
+internal fun <ID : Any, S : Comparable<S>, D : Comparable<D>> Aggregate<ID>.elect(
+    own: Candidacy<ID, D, S>,
+    bound: D,
+    metric: Field<ID, D>,
+    sharing: DataSharingMethod<Candidacy<ID, D, S>>,
+    accumulateDistance: (D, D) -> D,
+    selectBest: Reducer<Candidacy<ID, D, S>>,
+): ID = aligned("boundedElection") {
+    exchanging(own, sharing) { received ->
+        var best = own
+        received.forEachNeighborWith(metric) { _, offer, toNeighbor ->
+            if (offer.candidate != localId) {
+                val distance = accumulateDistance(offer.distance, toNeighbor)
+                if (distance <= bound) best = selectBest(best, Candidacy(offer.candidate, distance, offer.strength))
+            }
+        }
+        received.mapToConstant(best).yielding { best.candidate }
+    }
+}

@@ -1,0 +1,49 @@
+@file:CollektiveIgnore("aligns itself")
+
+package it.unibo.collektive.stdlib.spreading
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.stdlib.ints.FieldedInts.toDouble
+import it.unibo.collektive.stdlib.util.hops
+import it.unibo.collektive.stdlib.util.nonOverflowingPlus
+
+/**
+ * The length of the shortest path to the nearest [source], [top] when there is none: the classic gradient, self-stabilising like the
+ * [gradientCast] that carries it.
+ *
+ * @param bottom the distance of a source to itself, and the least distance of two neighbours.
+ * @param top the greatest distance of two neighbours.
+ * @param metric the distances to the neighbours.
+ * @param maxDiameter the most hops of a path.
+ * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance.
+ */
+public inline fun <reified ID : Any, reified D : Comparable<D>> Aggregate<ID>.distanceTo(
+    source: Boolean,
+    bottom: D,
+    top: D,
+    metric: Field<ID, D>,
+    maxDiameter: Int = Int.MAX_VALUE,
+    noinline accumulateDistance: (D, D) -> D,
+): D = gradientCast(
+    source,
+    if (source) bottom else top,
+    bottom,
+    top,
+    metric,
+    maxDiameter,
+    { fromSource, toNeighbor, _ -> accumulateDistance(fromSource, toNeighbor) },
+    accumulateDistance,
+)
+
+/** [distanceTo] over distances in `0.0..POSITIVE_INFINITY`, by default in hops. */
+public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
+    source: Boolean,
+    metric: Field<ID, Double> = hops().toDouble(),
+    maxDiameter: Int = Int.MAX_VALUE,
+): Double = distanceTo(source, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, Double::plus)
+
+/** The number of hops to the nearest [source], `Int.MAX_VALUE` when there is none within [maxDiameter]. */
+public inline fun <reified ID : Any> Aggregate<ID>.hopDistanceTo(source: Boolean, maxDiameter: Int = Int.MAX_VALUE): Int =
+    distanceTo(source, 0, Int.MAX_VALUE, hops(), maxDiameter, Int::nonOverflowingPlus)

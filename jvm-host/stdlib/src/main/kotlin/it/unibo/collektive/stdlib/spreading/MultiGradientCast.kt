@@ -1,0 +1,56 @@
+@file:CollektiveIgnore("aligns itself")
+
+package it.unibo.collektive.stdlib.spreading
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.stdlib.util.hops
+import it.unibo.collektive.stdlib.util.nonOverflowingPlus
+
+/**
+ * One [gradientCast] for each of [sources]: what each of them offers, as it arrives here; [local] for those that do not reach this
+ * device. Each stabilises on its own, among the devices that name its source.
+ *
+ * @param sources the sources' ids; a repeated one counts once. Data of a source passes only through devices that name it.
+ * @param local what this device offers where it is among the sources.
+ */
+public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.multiGradientCast(
+    sources: Iterable<ID>,
+    local: V,
+    bottom: D,
+    top: D,
+    metric: Field<ID, D>,
+    maxDiameter: Int = Int.MAX_VALUE,
+    noinline accumulateData: (fromSource: D, toNeighbor: D, data: V) -> V = { _, _, data -> data },
+    noinline accumulateDistance: (D, D) -> D,
+): Map<ID, V> {
+    val results = LinkedHashMap<ID, V>()
+    for (source in sources.toSet()) {
+        results[source] = alignedOn(source) {
+            gradientCast(source == localId, local, bottom, top, metric, maxDiameter, accumulateData, accumulateDistance)
+        }
+    }
+    return results
+}
+
+/** [multiGradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
+public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiGradientCast(
+    sources: Iterable<ID>,
+    local: V,
+    metric: Field<ID, Double>,
+    maxDiameter: Int = Int.MAX_VALUE,
+    noinline accumulateData: (fromSource: Double, toNeighbor: Double, data: V) -> V = { _, _, data -> data },
+    noinline accumulateDistance: (Double, Double) -> Double = Double::plus,
+): Map<ID, V> =
+    multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, accumulateDistance)
+
+/** [multiGradientCast] over distances in `0..Int.MAX_VALUE`, by default in hops. */
+public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiIntGradientCast(
+    sources: Iterable<ID>,
+    local: V,
+    metric: Field<ID, Int> = hops(),
+    maxDiameter: Int = Int.MAX_VALUE,
+    noinline accumulateData: (fromSource: Int, toNeighbor: Int, data: V) -> V = { _, _, data -> data },
+    noinline accumulateDistance: (Int, Int) -> Int = Int::nonOverflowingPlus,
+): Map<ID, V> = multiGradientCast(sources, local, 0, Int.MAX_VALUE, metric, maxDiameter, accumulateData, accumulateDistance)

@@ -1,0 +1,12 @@
+@file:CollektiveIgnore("aligns itself")
+
+package it.unibo.collektive.stdlib.util
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.aggregate.api.neighborhood
+
+/** The distance in hops: 1 to each neighbour, 0 to itself. */
+public fun <ID : Any> Aggregate<ID>.hops(): Field<ID, Int> =
+    aligned("hops") { neighborhood().map { if (it.id == localId) 0 else 1 } }

@@ -1,0 +1,79 @@
+package it.unibo.collektive.stdlib.accumulation
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.mapNeighborhood
+import it.unibo.collektive.stdlib.Swarm
+import it.unibo.collektive.stdlib.hopsFrom
+import it.unibo.collektive.stdlib.perturbed
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+
+class ConvergeCastTest {
+    /** Device to the sum over its tree, where each hangs below the lowest id of those one hop nearer to a sink. */
+    private fun Swarm.treeSums(sinks: Collection<Int>, values: Map<Int, Int>): Map<Int, Int> {
+        val hops = hopsFrom(sinks)
+        fun parent(id: Int) = hops[id]?.let { mine -> neighbors(id).filter { (hops[it] ?: Int.MAX_VALUE) < mine }.minOrNull() }
+        fun sum(id: Int): Int = values.getValue(id) + neighbors(id).filter { parent(it) == id }.sumOf(::sum)
+        return ids.associateWith(::sum)
+    }
+
+    @Test
+    fun `after any perturbation sinks have the sums of their trees within the bound`() = perturbed { swarm, atOnce, random ->
+        val sinks = swarm.ids.filter { random.nextInt(5) == 0 }.toSet()
+        val values = swarm.ids.associateWith { random.nextInt(-50, 50) }
+        val seen = swarm.rounds(3 * swarm.size + 1, atOnce) { convergeSum(values.getValue(localId), localId in sinks) }
+        assertEquals(swarm.treeSums(sinks, values), seen)
+    }
+
+    @Test
+    fun `counts, means and sums agree, whichever way the potential is given`() = perturbed(0 until 4) { swarm, atOnce, _ ->
+        val sink = swarm.ids.first()
+        val hops = swarm.hopsFrom(listOf(sink))
+        fun potential(id: Int) = hops[id] ?: Int.MAX_VALUE
+        val seen = swarm.rounds(2 * swarm.size + 1, atOnce) {
+            val field: Field<Int, Int> = mapNeighborhood(::potential)
+            val value = localId.toDouble()
+            listOf(
+                alignedOn("count field") { countDevices(field) } to alignedOn("count") { countDevices(potential(localId)) },
+                alignedOn("sum field") { convergeSum(value, field) } to alignedOn("sum") { convergeSum(value, potential(localId)) },
+                alignedOn("mean field") { convergeMean(value, field) } to alignedOn("mean") { convergeMean(value, potential(localId)) },
+                alignedOn("int field") { convergeSum(localId, field) } to alignedOn("int") { convergeSum(localId, potential(localId)) },
+            )
+        }.getValue(sink)
+        val all = hops.keys
+        val expected = listOf<Number>(all.size, all.sum().toDouble(), all.average(), all.sum())
+        assertEquals(expected.map { it to it }, seen)
+    }
+
+    @Test
+    fun `sinks may be told directly`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        val seen = swarm.rounds(12) {
+            listOf(
+                alignedOn(1) { countDevices(localId == 0) }, alignedOn(2) { convergeSum(localId.toDouble(), localId == 0) },
+                alignedOn(3) { convergeMean(localId.toDouble(), localId == 0) },
+                alignedOn(4) { convergeCast(setOf(localId), localId == 0) { a, b -> a + b } },
+            )
+        }
+        assertEquals(listOf<Any>(4, 6.0, 1.5, setOf(0, 1, 2, 3)), seen.getValue(0))
+    }
+
+    @Test
+    fun `devices of one potential never count each other`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        assertEquals(setOf(1), swarm.rounds(20) { countDevices(7.0) }.values.toSet())
+    }
+
+    @Test
+    fun `parents are downhill, the lowest id on ties`() {
+        val swarm = Swarm(4)
+        for (id in 0..2) swarm.link(id, 3)
+        val potential = mapOf(0 to 5, 1 to 2, 2 to 2, 3 to 4)
+        val seen = swarm.rounds(2) {
+            val field = mapNeighborhood(potential::getValue)
+            listOf(findParent(field), findParent(field, compareByDescending { it.value }), findParents(field), findParents(field) { it.value == 5 })
+        }
+        assertEquals(listOf<Any>(1, 0, setOf(1, 2), setOf(0)), seen.getValue(3))
+        assertEquals(1, seen.getValue(1).first(), "the bottom is its own parent")
+    }
+}

@@ -1,0 +1,42 @@
+package it.unibo.collektive.stdlib.processes
+
+import it.unibo.collektive.stdlib.Swarm
+import it.unibo.collektive.stdlib.spreading.nonStabilizingGossip
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.time.Duration
+import kotlin.time.Duration.Companion.seconds
+import kotlin.time.Instant
+
+class TimeReplicatedTest {
+    private fun at(seconds: Int) = Instant.fromEpochSeconds(seconds.toLong())
+
+    @Test
+    fun `what never forgets follows changes when it is replicated`() {
+        val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
+        fun second(now: Int, greatest: Int) = swarm.round {
+            timeReplicated(at(now), 3, 10.seconds) {
+                nonStabilizingGossip(if (localId == 0) greatest else localId) { a, b -> maxOf(a, b) }
+            }
+        }
+        val before = (0 until 20).map { second(it, 100) }.last()
+        assertEquals(setOf(100), before.values.toSet())
+        val after = (20 until 20 + 3 * 10 + 15).map { second(it, 0) }.last()
+        assertEquals(setOf(4), after.values.toSet(), "the former maximum is forgotten")
+    }
+
+    @Test
+    fun `the result is the oldest run's, and each run starts afresh`() {
+        val swarm = Swarm(1)
+        val ages = (0 until 40).map { now -> swarm.round { timeReplicated(at(now), 2, 5.seconds) { evolve(0) { it + 1 } } }.getValue(0) }
+        assertEquals((1..10).toList(), ages.take(10))
+        assertEquals(List(6) { (6..10).toList() }.flatten(), ages.drop(10))
+    }
+
+    @Test
+    fun `nonsense is refused`() {
+        assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 0, 1.seconds) { } } }
+        assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 1, Duration.ZERO) { } } }
+    }
+}

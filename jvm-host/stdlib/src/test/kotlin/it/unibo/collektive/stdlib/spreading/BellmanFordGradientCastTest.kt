@@ -1,0 +1,58 @@
+package it.unibo.collektive.stdlib.spreading
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.Swarm
+import it.unibo.collektive.stdlib.shortestPaths
+import org.junit.jupiter.api.Test
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+class BellmanFordGradientCastTest {
+    private fun Aggregate<Int>.distance(swarm: Swarm, source: Boolean) = bellmanFordGradientCast(
+        source,
+        if (source) 0.0 else Double.POSITIVE_INFINITY,
+        accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
+        metric = with(swarm) { lengths() },
+    )
+
+    @Test
+    fun `from rest, distances are those of the shortest paths after as many rounds as there are devices`() {
+        for (seed in 0 until 30) {
+            val random = Random(seed)
+            val swarm = Swarm(random.nextInt(2, 18), random)
+            swarm.shake()
+            val sources = swarm.ids.filter { random.nextInt(4) == 0 }
+            val seen = swarm.rounds(swarm.size + 1, random.nextBoolean()) { distance(swarm, localId in sources) }
+            val paths = swarm.shortestPaths(sources)
+            assertEquals(swarm.ids.associateWith { paths[it]?.first ?: Double.POSITIVE_INFINITY }, seen)
+        }
+    }
+
+    @Test
+    fun `it counts to infinity, as its documentation says`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 0.1)
+        swarm.rounds(6) { distance(swarm, localId == 0) }
+        swarm.cut(1, 2)
+        val before = swarm.round { distance(swarm, localId == 0) }.getValue(2)
+        val after = swarm.rounds(10) { distance(swarm, localId == 0) }.getValue(2)
+        assertEquals(before + 1.0, after, 1e-9)
+        assertTrue(swarm.rounds(100) { distance(swarm, localId == 0) }.getValue(2) < 20.0, "still no end")
+    }
+
+    @Test
+    fun `too small values rise to the true ones, by the metric each round`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 0.5)
+        swarm.link(3, 0, 20.0)
+        swarm.rounds(6) { distance(swarm, localId == 0) }
+        swarm.cut(1, 2)
+        val seen = swarm.rounds(50) { distance(swarm, localId == 0) }
+        assertEquals(mapOf(0 to 0.0, 1 to 1.0, 2 to 20.5, 3 to 20.0), seen)
+    }
+
+    @Test
+    fun `without a source the result is the local value`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        assertEquals(mapOf(0 to 0, 1 to 1, 2 to 2), swarm.rounds(5) { bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() }) })
+    }
+}

@@ -1,0 +1,78 @@
+package it.unibo.collektive.stdlib.spreading
+
+import it.unibo.collektive.stdlib.Swarm
+import it.unibo.collektive.stdlib.component
+import it.unibo.collektive.stdlib.perturbed
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+class GossipTest {
+    @Test
+    fun `after any perturbation all know their component's best within the bound`() = perturbed { swarm, atOnce, random ->
+        val values = swarm.ids.associateWith { random.nextInt(100) }
+        val seen = swarm.rounds(2 * swarm.size, atOnce) {
+            val value = values.getValue(localId)
+            val max = alignedOn("max") { gossipMax(value) }
+            val min = alignedOn("min") { gossipMin(value) }
+            val last = alignedOn("last digit") { gossipMaxBy(value) { it % 10 } % 10 }
+            val first = alignedOn("least digit") { gossipMinBy(value) { it % 10 } % 10 }
+            listOf(max, min, last, first)
+        }
+        val expected = swarm.ids.associateWith { id ->
+            val all = swarm.component(id).map(values::getValue)
+            listOf(all.max(), all.min(), all.maxOf { it % 10 }, all.minOf { it % 10 })
+        }
+        assertEquals(expected, seen)
+    }
+
+    @Test
+    fun `what happens anywhere is known, and forgotten when it is over`() = perturbed(0 until 4) { swarm, atOnce, random ->
+        val happening = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
+        val seen = swarm.rounds(2 * swarm.size, atOnce) { isHappeningAnywhere { localId in happening } }
+        assertEquals(swarm.ids.associateWith { id -> swarm.component(id).any { it in happening } }, seen)
+    }
+
+    @Test
+    fun `a value travels no further than the diameter`() {
+        val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
+        val seen = swarm.rounds(10) { gossipMax(if (localId == 0) 9 else 1, maxDiameter = 2) }
+        assertEquals(listOf(9, 9, 9, 1, 1), seen.values.toList())
+    }
+
+    @Test
+    fun `comparators choose`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        val seen = swarm.rounds(5) {
+            val longest = alignedOn("max") { gossipMaxWith("x".repeat(localId), compareBy { it.length }) }
+            longest to alignedOn("min") { gossipMinWith("x".repeat(localId), compareBy { it.length }) }
+        }
+        assertEquals(setOf("xx" to ""), seen.values.toSet())
+    }
+
+    @Test
+    fun `a reducer that merges is refused, with the way out`() {
+        val swarm = Swarm(2).line(1.0)
+        val error = assertFailsWith<IllegalStateException> {
+            swarm.rounds(2) { gossip(setOf(localId)) { a, b -> a + b } }
+        }
+        assertTrue("nonStabilizingGossip" in error.message.orEmpty())
+    }
+
+    @Test
+    fun `flooding merges everything and forgets nothing`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        assertEquals(setOf(setOf(0, 1, 2, 3)), swarm.rounds(4) { nonStabilizingGossip(setOf(localId)) { a, b -> a + b } }.values.toSet())
+        swarm.remove(3)
+        assertEquals(setOf(setOf(0, 1, 2, 3)), swarm.rounds(9) { nonStabilizingGossip(setOf(localId)) { a, b -> a + b } }.values.toSet())
+    }
+
+    @Test
+    fun `what ever happened stays so`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        assertEquals(setOf(false), swarm.rounds(4) { everHappened { false } }.values.toSet())
+        swarm.round { everHappened { localId == 0 } }
+        assertEquals(setOf(true), swarm.rounds(3) { everHappened { false } }.values.toSet())
+    }
+}

@@ -1,0 +1,119 @@
+package it.unibo.collektive.stdlib.spreading
+
+import it.unibo.collektive.stdlib.Swarm
+import it.unibo.collektive.stdlib.hopsFrom
+import it.unibo.collektive.stdlib.perturbed
+import it.unibo.collektive.stdlib.shortestPaths
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
+
+class GradientCastTest {
+    @Test
+    fun `after any perturbation distances are those of the shortest paths within the bound`() = perturbed { swarm, atOnce, random ->
+        val sources = swarm.ids.filter { random.nextInt(5) == 0 }.toSet()
+        val seen = swarm.rounds(2 * swarm.size, atOnce) { distanceTo(localId in sources, with(swarm) { lengths() }) }
+        val paths = swarm.shortestPaths(sources)
+        assertEquals(swarm.ids.associateWith { paths[it]?.first ?: Double.POSITIVE_INFINITY }, seen)
+    }
+
+    @Test
+    fun `data comes from the nearest source, changed hop by hop`() = perturbed { swarm, atOnce, random ->
+        val sources = swarm.ids.filter { random.nextInt(4) == 0 }.toSet()
+        val seen = swarm.rounds(2 * swarm.size, atOnce) {
+            gradientCast(
+                localId in sources,
+                localId to 0.0,
+                with(swarm) { lengths() },
+                accumulateData = { fromSource, toNeighbor, (source, _) -> source to fromSource + toNeighbor },
+            )
+        }
+        val paths = swarm.shortestPaths(sources)
+        assertEquals(swarm.ids.associateWith { id -> paths[id].let { if (it == null) id to 0.0 else it.second to it.first } }, seen)
+    }
+
+    @Test
+    fun `hops are counted, up to the diameter`() = perturbed { swarm, atOnce, random ->
+        val sources = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
+        val limit = random.nextInt(1, 5)
+        val seen = swarm.rounds(2 * limit + 1, atOnce) { hopDistanceTo(localId in sources, limit) }
+        val hops = swarm.hopsFrom(sources)
+        assertEquals(swarm.ids.associateWith { hops[it]?.takeIf { hop -> hop <= limit } ?: Int.MAX_VALUE }, seen)
+    }
+
+    @Test
+    fun `each of several sources has a gradient of its own`() = perturbed(0 until 4) { swarm, atOnce, random ->
+        val sources = swarm.ids.filter { random.nextInt(4) == 0 }
+        val seen = swarm.rounds(2 * swarm.size, atOnce) {
+            multiGradientCast(
+                sources, if (localId in sources) 0.0 else -1.0, with(swarm) { lengths() },
+                accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
+            )
+        }
+        val expected = swarm.ids.associateWith { id ->
+            sources.associateWith { source ->
+                swarm.shortestPaths(listOf(source))[id]?.first ?: if (id in sources) 0.0 else -1.0
+            }
+        }
+        assertEquals(expected, seen)
+    }
+
+    @Test
+    fun `a source that does not name itself among the sources still hears the others`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        val seen = swarm.rounds(4) { multiIntGradientCast(if (localId == 1) listOf(0) else listOf(0, 2), localId) }
+        assertEquals(mapOf(0 to mapOf(0 to 0, 2 to 0), 1 to mapOf(0 to 0), 2 to mapOf(0 to 0, 2 to 2)), seen, "1 passes nothing of 2 on")
+    }
+
+    @Test
+    fun `values do not creep up when a source vanishes, however short the links are`() {
+        val swarm = Swarm(6).line(100.0, 100.0, 0.001, 0.001, 0.001)
+        val program: it.unibo.collektive.aggregate.api.Aggregate<Int>.() -> Double = {
+            distanceTo(localId == 0, with(swarm) { lengths() })
+        }
+        assertEquals(200.003, swarm.rounds(12, program = program).getValue(5), 1e-9)
+        swarm.cut(1, 2)
+        val after = swarm.rounds(6, program = program)
+        assertEquals(List(4) { Double.POSITIVE_INFINITY }, listOf(2, 3, 4, 5).map(after::getValue))
+    }
+
+    @Test
+    fun `null is data like other`() {
+        val swarm = Swarm(2).line(1.0)
+        val seen = swarm.rounds(3) { hopGradientCast(localId == 0, if (localId == 0) null else "none") }
+        assertNull(seen.getValue(1))
+    }
+
+    @Test
+    fun `a metric below bottom counts as bottom, above top as top`() {
+        val swarm = Swarm(3).line(-5.0, 50.0)
+        val seen = swarm.rounds(5) {
+            distanceTo(localId == 0, 1.0, 10.0, with(swarm) { lengths() }) { a, b -> a + b }
+        }
+        assertEquals(mapOf(0 to 1.0, 1 to 2.0, 2 to 12.0), seen)
+    }
+
+    @Test
+    fun `a metric from inside a narrower branch is refused`() {
+        val swarm = Swarm(2).line(1.0)
+        val error = assertFailsWith<IllegalStateException> {
+            swarm.rounds(3) {
+                val narrow = alignedOn(localId) { listOf(with(swarm) { lengths() }) }.first()
+                distanceTo(localId == 0, narrow)
+            }
+        }
+        assertTrue("has no distance to the aligned neighbour" in error.message.orEmpty(), error.message)
+    }
+
+    @Test
+    fun `settled networks send the very same objects again`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        class Box
+        val boxes = List(4) { Box() }
+        repeat(8) { swarm.round { hopGradientCast(localId == 0, boxes[localId]) } }
+        val seen = swarm.round { hopGradientCast(localId == 0, boxes[localId]) }
+        assertTrue(seen.values.all { it === boxes[0] })
+    }
+}

@@ -1,0 +1,57 @@
+package it.unibo.collektive.stdlib.util
+
+import org.junit.jupiter.api.Test
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class HopPathTest {
+    private fun path(ids: List<Int>) = ids.fold(HopPath.empty<Int>()) { path, id -> path + id }
+
+    private fun commonInOrder(a: List<Int>, b: List<Int>) = a.filter { it in b } == b.filter { it in a }
+
+    @Test
+    fun `a path is the list of its hops`() {
+        val random = Random(1)
+        repeat(200) {
+            val ids = (0 until 1000).shuffled(random).take(random.nextInt(0, 60))
+            val path = path(ids)
+            assertEquals(ids, path.toList())
+            assertEquals(ids.size, path.size)
+            assertEquals(path(ids), path)
+            assertEquals(path(ids).hashCode(), path.hashCode())
+            for (id in 0 until 1000) assertEquals(id in ids, id in path)
+        }
+    }
+
+    @Test
+    fun `paths agree when their common hops come in the same order`() {
+        val random = Random(2)
+        var agreeing = 0
+        repeat(2000) {
+            val pool = (0 until 6).toList()
+            val a = pool.shuffled(random).take(random.nextInt(0, 5))
+            val b = pool.shuffled(random).take(random.nextInt(0, 5))
+            assertEquals(commonInOrder(a, b), path(a).agreesWith(path(b)), "$a and $b")
+            if (commonInOrder(a, b)) agreeing++
+        }
+        assertTrue(agreeing in 500..1900)
+    }
+
+    @Test
+    fun `branches of one path agree`() {
+        val stem = path((0 until 20).toList())
+        assertTrue((stem + 50 + 51).agreesWith(stem + 60))
+        assertTrue(stem.agreesWith(stem))
+        assertFalse((stem + 50 + 51).agreesWith(stem + 51 + 50))
+    }
+
+    @Test
+    fun `a path knows the one it was made from`() {
+        val stem = path(listOf(1, 2))
+        assertTrue((stem + 3).extends(stem, 3))
+        assertFalse((stem + 3).extends(stem, 4))
+        assertFalse((path(listOf(1, 2)) + 3).extends(stem, 3), "an equal one is another one")
+    }
+}
