@@ -40,4 +40,5 @@ for name in blocks.Blocks features.Features globals.Globals; do
   java -cp "$classes" org.collektive.generator.RoundTrip write "$schema" "$out/actuators" "$records" "$seed"
   mono-sgen "$out/RoundTrip.exe" read "$schema" "$out/actuators" | tee -a "$lines"
 done
-awk '{ passed += $(NF - 3); failed += $(NF - 1) } END { print passed " passed, " failed " failed"; exit failed > 0 }' "$lines"
+# A test is a schema and a direction, not a record.
+awk '$(NF - 1) == 0 && $(NF - 3) > 0 { passed++ } END { print passed + 0 " passed, " 6 - passed " failed"; exit passed < 6 }' "$lines"
