@@ -1,6 +1,7 @@
 package org.collektive.compiler
 
 import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.api.impl.readable
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
@@ -107,7 +108,16 @@ class AlignmentTest {
     }
 
     @Test
-    fun `what cannot lead to a primitive is left alone`() = assertPaths("plain", "neighboring")
+    fun `what cannot lead to a primitive is left alone`() {
+        val network = ReferenceDevices(0)
+        network.round(compiled.program("plain"))
+        val device = network.devices.getValue(0) as ReferenceDevice
+        assertEquals(listOf("neighboring"), device.pushed.map(::readable))
+    }
+
+    @Test
+    fun `members of a class that delegates to an Aggregate`() =
+        assertPaths("delegating", "twice > neighboring", "twice > neighboring", "twice > neighboring", "twice > neighboring")
 
     @Test
     fun `implementations of Aggregate are not programs`() = assertPaths("wrapped", "neighboring")
@@ -288,6 +298,10 @@ class AlignmentTest {
             fun Aggregate<Int>.plain(): Double {
                 val field = neighboring(2.0)
                 val ids = field.neighbors.list.map { it.id } + localId
+                check(field == field.mapValues { it }) { "${'$'}field of ${'$'}localId" }
+                val square = { x: Double -> x * x }
+                fun half(x: Double) = x / 2
+                if (localId > half(square(3.0))) return 0.0
                 return kotlin.math.sqrt(field.local.value + ids.size + field.all.size) + field[localId]
             }
 
@@ -297,6 +311,12 @@ class AlignmentTest {
                 override fun align(pivot: Any?) { count(); inner.align(pivot) }
             }
             fun Aggregate<Int>.wrapped(): Int = Wrapper(this).inner.neighboring(1).local.value
+
+            class Context(aggregate: Aggregate<Int>) : Aggregate<Int> by aggregate {
+                private val plain get() = localId
+                fun twice(): Int = neighboring(plain).local.value + neighboring(2).local.value
+            }
+            fun Aggregate<Int>.delegating(): Int { val c = Context(this); return c.twice() + c.twice() }
 
             @CollektiveIgnore("test") fun Aggregate<Int>.ignored() { neighboring(1); neighboring(1) }
             @CollektiveIgnore("test") class Ignored { fun Aggregate<Int>.member() { neighboring(1); neighboring(1) } }

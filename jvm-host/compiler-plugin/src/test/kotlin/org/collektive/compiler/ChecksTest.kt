@@ -74,6 +74,12 @@ class ChecksTest {
             for (item in items) share(item) { it.local.value + neighboring(item).local.value } // AGGREGATE_CALL_IN_LOOP
             for (item in items) alignedOn("same") { items.map { helper(it) } } // AGGREGATE_CALL_IN_LOOP
         }
+        val Aggregate<Int>.rounds: Int get() = evolve(0) { it + 1 }
+        fun Aggregate<Int>.getters(): Int {
+            var sum = 0
+            while (sum + localId < 10) sum += rounds + localId // AGGREGATE_CALL_IN_LOOP
+            return sum
+        }
         val lambda: Aggregate<Int>.() -> Unit = { for (i in 1..2) helper(i) } // AGGREGATE_CALL_IN_LOOP
         fun Aggregate<Int>.programInLoop(items: List<Int>) {
             items.forEach { apply { helper(it) } } // AGGREGATE_CALL_IN_LOOP
@@ -182,6 +188,23 @@ class ChecksTest {
         fun Aggregate<Int>.fine(x: Int): Int = neighboring(x).neighbors.size + neighboring(x + 1).neighbors.size + neighborhood().neighbors.size
         """,
     )
+
+    @Test
+    fun `messages are plain text`() {
+        val reports = Compilation.of(
+            """
+            fun Aggregate<Int>.f(c: Boolean): Int {
+                align(1)
+                val a = evolve(0) { neighboring(it).local.value } + evolve(0) { 1 }
+                for (i in 1..2) neighboring("a")
+                val b: Int = evolving(0) { (it + 1).yielding { this } }
+                return a + b
+            }
+            """,
+        ).reports
+        assertEquals(6, reports.map { it.name }.toSet().size, reports.toString())
+        for (report in reports) assertTrue("''" !in report.text && "'{'" !in report.text && "{0}" !in report.text, report.text)
+    }
 
     @Test
     fun `messages say what to do`() {

@@ -1,5 +1,6 @@
 package org.collektive.compiler
 
+import it.unibo.collektive.aggregate.api.impl.location
 import it.unibo.collektive.aggregate.api.impl.readable
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -21,6 +22,7 @@ class TokensTest {
         val token = tokens(Compilation.of(source)).first().first()
         assertTrue(Regex("first@Program\\.kt:5#[0-9a-f]{16}").matches(token), token)
         assertEquals("first", readable(token))
+        assertEquals("Program.kt:5", location(token))
     }
 
     @Test
@@ -43,6 +45,7 @@ class TokensTest {
     @Test
     fun `pivots of the program are read as they are`() {
         assertEquals("a@b", readable("a@b"))
+        assertEquals(null, location("a@b"))
         assertEquals("null", readable(null))
         assertEquals("7", readable(7))
     }

@@ -3,8 +3,10 @@
 package org.collektive.compiler.alignment
 
 import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.ir.IrBuiltIns
 import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.declarations.IrPackageFragment
 import org.jetbrains.kotlin.ir.declarations.IrVariable
 import org.jetbrains.kotlin.ir.expressions.IrCallableReference
 import org.jetbrains.kotlin.ir.expressions.IrExpression
@@ -35,18 +37,20 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
         val callee = call.symbol.owner
         return when {
-            dsl.isManualAlignment(callee) -> false
-            isPlainMember(callee) -> false
+            dsl.isManualAlignment(callee) || isOperator(callee) -> false
+            dsl.isFieldMember(callee) -> functionsGivenTo(call).any(::carries)
+            dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionsGivenTo(call).any()
             callee.isLocal && leadsToPrimitive(callee) -> true
             else -> call.arguments.any { it != null && carries(it) }
         }
     }
 
-    /** Members of Aggregate and Field that run no code of the program and are no primitives: `localId`, `local`, `get`, `equals`... */
-    private fun isPlainMember(callee: IrFunction): Boolean {
-        if (!dsl.isFieldMember(callee) && !dsl.isAggregateMember(callee)) return false
-        return callee.name != DslNames.neighboring && callee.parameters.none { it.type.isFunctionTypeOrSubtype() }
-    }
+    private fun functionsGivenTo(call: IrFunctionAccessExpression): List<IrExpression> =
+        call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
+
+    /** `==`, `!!` and the like on the values themselves. */
+    private fun isOperator(callee: IrFunction) =
+        (callee.parent as? IrPackageFragment)?.packageFqName == IrBuiltIns.KOTLIN_INTERNAL_IR_FQN
 
     private fun carries(value: IrExpression): Boolean = when (value) {
         is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)

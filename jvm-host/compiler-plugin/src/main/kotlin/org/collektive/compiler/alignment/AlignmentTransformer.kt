@@ -217,7 +217,7 @@ internal class AlignmentTransformer(
                     call.arguments[parameter] = irGet(irTemporary(argument, nameHint = parameter.name.asString()))
                 }
             }
-            val given = call.arguments.firstOrNull { it is IrGetValue && dsl.isAggregate(it.type) } as IrGetValue?
+            val given = call.arguments.firstOrNull { it is IrGetValue && dsl.isAggregate(it.type) && !it.type.isNullable() } as IrGetValue?
             align(call, token(name, call)) { if (given != null) irGet(given.symbol.owner, given.type) else current() }
         }
     }
@@ -258,8 +258,10 @@ internal class AlignmentTransformer(
     }
 
     private fun sourceIn(function: IrFunction): IrValueParameter? {
-        val candidates = function.parameters.filter { it.kind != IrParameterKind.DispatchReceiver }
-        return candidates.firstOrNull { dsl.isAggregate(it.type) } ?: candidates.firstOrNull { dsl.isField(it.type) && !it.type.isNullable() }
+        val (self, given) = function.parameters.partition { it.kind == IrParameterKind.DispatchReceiver }
+        return given.firstOrNull { dsl.isAggregate(it.type) }
+            ?: given.firstOrNull { dsl.isField(it.type) && !it.type.isNullable() }
+            ?: self.firstOrNull { function.parentClassOrNull?.let(dsl::isAggregateByDelegation) == true }
     }
 
     private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&

@@ -4,16 +4,21 @@ package org.collektive.compiler.alignment
 
 import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
+import org.jetbrains.kotlin.ir.declarations.IrClass
+import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
 import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
 import org.jetbrains.kotlin.ir.symbols.IrClassSymbol
 import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
 import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.IrType
 import org.jetbrains.kotlin.ir.types.typeOrNull
+import org.jetbrains.kotlin.ir.util.functions
 import org.jetbrains.kotlin.ir.util.getPropertyGetter
 import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
+import org.jetbrains.kotlin.ir.util.resolveFakeOverride
 
 /** The declarations of the DSL as the module under compilation sees them. */
 internal class DslSymbols private constructor(
@@ -32,8 +37,16 @@ internal class DslSymbols private constructor(
     fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
         type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true }
 
-    /** Whether [function] is a member of Aggregate, or of an implementation of it. */
-    fun isAggregateMember(function: IrFunction) = function.parentClassOrNull?.symbol?.isSubtypeOfClass(aggregate) == true
+    /** Whether [function] is a member of Aggregate, or overrides one. */
+    fun isAggregateMember(function: IrFunction): Boolean = function.parentClassOrNull?.symbol == aggregate ||
+        function is IrSimpleFunction && function.overriddenSymbols.any { isAggregateMember(it.owner) }
+
+    /** Whether [type] passes an Aggregate's alignment on (`by`), instead of implementing it: its members are parts of programs. */
+    fun isAggregateByDelegation(type: IrClass): Boolean {
+        if (!type.symbol.isSubtypeOfClass(aggregate)) return false
+        val align = type.functions.firstOrNull { it.name == DslNames.align && isAggregateMember(it) }?.resolveFakeOverride()
+        return align?.origin == IrDeclarationOrigin.DELEGATED_MEMBER
+    }
 
     fun isFieldMember(function: IrFunction) = function.parentClassOrNull?.symbol == field
 

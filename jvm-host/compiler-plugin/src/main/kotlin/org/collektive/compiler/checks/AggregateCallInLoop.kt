@@ -12,25 +12,26 @@ import org.jetbrains.kotlin.fir.declarations.FirFunction
 import org.jetbrains.kotlin.fir.expressions.FirAnonymousFunctionExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirLoop
+import org.jetbrains.kotlin.fir.expressions.FirPropertyAccessExpression
+import org.jetbrains.kotlin.fir.expressions.FirQualifiedAccessExpression
 import org.jetbrains.kotlin.fir.expressions.arguments
 import org.jetbrains.kotlin.fir.expressions.unwrapArgument
+import org.jetbrains.kotlin.fir.references.toResolvedCallableSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** An aggregate call in a loop, or in a lambda that a collection runs for each element, with no `alignedOn` between. */
-internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
+/** An aggregate call (or getter) in a loop, or in a lambda that a collection runs for each element, with no `alignedOn` between. */
+internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
-    override fun check(expression: FirFunctionCall) {
-        if (!isAggregateCall(expression) || !isAggregateCode()) return
-        if (repeats(expression)) {
-            val name = expression.calleeReference.name.asString()
-            reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name)
-        }
+    override fun check(expression: FirQualifiedAccessExpression) {
+        if (!isAggregateCall(expression) || !isAggregateCode() || !repeats(expression)) return
+        val name = expression.calleeReference.toResolvedCallableSymbol()?.name ?: return
+        reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name.asString())
     }
 
     /** Walks outwards until something says whether [expression] runs once or many times per path. */
     context(context: CheckerContext)
-    private fun repeats(expression: FirFunctionCall): Boolean {
+    private fun repeats(expression: FirQualifiedAccessExpression): Boolean {
         var lambda: FirAnonymousFunction? = null
         for (element in context.containingElements.asReversed()) {
             when (element) {
@@ -40,14 +41,14 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppC
                 is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
                 is FirFunction, is FirClass -> return false
                 is FirFunctionCall -> {
-                    val isLambdaHere = lambda != null && element.takes(lambda)
+                    if (lambda == null || !element.takes(lambda)) continue
                     when {
-                        isLambdaHere && isAlignedOn(element) -> return false
-                        isLambdaHere && isPerElement(element) -> return true
+                        isAlignedOn(element) -> return false
+                        isPerElement(element) -> return true
                         // The outer call is the one to report.
-                        isLambdaHere && isAggregateCall(element) -> return false
+                        isAggregateCall(element) -> return false
                     }
-                    if (isLambdaHere) lambda = null
+                    lambda = null
                 }
             }
         }
@@ -66,12 +67,18 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppC
 
     private fun isAlignedOn(call: FirFunctionCall) = call.callee?.isDsl(DslNames.alignedOn) == true
 
-    /** A call that is given the Aggregate, other than `align`, `dealign` and `alignedOn`. */
+    /** A call that is given the Aggregate, other than `align`, `dealign`, `alignedOn` and the properties of Aggregate. */
     context(context: CheckerContext)
-    private fun isAggregateCall(call: FirFunctionCall): Boolean = with(context.session) {
-        val callee = call.callee ?: return false
-        if (callee.isDsl(DslNames.align) || callee.isDsl(DslNames.dealign) || isAlignedOn(call)) return false
-        val given = listOfNotNull(call.dispatchReceiver, call.extensionReceiver) + call.contextArguments + call.arguments
+    private fun isAggregateCall(call: FirQualifiedAccessExpression): Boolean = with(context.session) {
+        val given = listOfNotNull(call.extensionReceiver) + call.contextArguments + when (call) {
+            is FirFunctionCall -> {
+                val callee = call.callee ?: return false
+                if (callee.isDsl(DslNames.align) || callee.isDsl(DslNames.dealign) || isAlignedOn(call)) return false
+                listOfNotNull(call.dispatchReceiver) + call.arguments
+            }
+            is FirPropertyAccessExpression -> emptyList()
+            else -> return false
+        }
         given.any { it.resolvedType.isAggregate() }
     }
 
@@ -80,10 +87,15 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirFunctionCall>(MppC
         val name = callee.callableName.asString()
         return when (callee.packageName.asString()) {
             "kotlin" -> name == "repeat"
-            "kotlin.collections", "kotlin.sequences", "kotlin.text", "java.lang", "java.util", "java.util.stream" -> name !in AT_MOST_ONCE
+            in COLLECTIONS -> name !in AT_MOST_ONCE
             else -> false
         }
     }
+
+    private val COLLECTIONS = setOf(
+        "kotlin.collections", "kotlin.sequences", "kotlin.text", "java.lang", "java.util", "java.util.stream",
+        "it.unibo.collektive.stdlib.collapse",
+    )
 
     private val AT_MOST_ONCE = setOf(
         "buildList", "buildMap", "buildSet", "buildString", "elementAtOrElse", "getOrElse", "getOrPut", "ifBlank", "ifEmpty",

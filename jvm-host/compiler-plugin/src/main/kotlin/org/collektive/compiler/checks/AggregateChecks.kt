@@ -16,14 +16,9 @@ internal class AggregateChecks : FirExtensionRegistrar() {
         override val expressionCheckers = object : ExpressionCheckers() {
             override val whenExpressionCheckers = setOf(FieldFromBranch)
             override val elvisExpressionCheckers = setOf(FieldFromElvis)
-            override val functionCallCheckers = setOf(
-                AggregateCallInLoop,
-                ManualAlignment,
-                EvolveThatShares,
-                IgnoredParameter,
-                NeedlessYielding,
-                ConstantNeighboring,
-            )
+            override val qualifiedAccessExpressionCheckers = setOf(AggregateCallInLoop)
+            override val functionCallCheckers =
+                setOf(ManualAlignment, EvolveThatShares, IgnoredParameter, NeedlessYielding, ConstantNeighboring)
         }
     }
 }

@@ -56,7 +56,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
             )
             map.put(
                 CONSTANT_NEIGHBORING,
-                "Every device sends this same constant; neighborhood() or mapNeighborhood '{' ... '}' says so and sends nothing of it.",
+                "Every device sends this same constant; neighborhood() or mapNeighborhood { ... } says so and sends nothing of it.",
             )
         }
     }

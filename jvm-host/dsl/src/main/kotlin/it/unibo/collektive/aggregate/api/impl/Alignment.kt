@@ -12,7 +12,7 @@ import it.unibo.collektive.aggregate.api.InMemory
  * [Aggregate.align] and [Aggregate.dealign]: right, but a program that leaves its own `align` open then stays misaligned.
  *
  * A token is a string constant that names a place of the program. Equal tokens are one object (constants are interned), so
- * looking one up need not look at its text; [readable] shows it to people.
+ * looking one up need not look at its text; [readable] and [location] show it to people.
  */
 public interface AlignmentStack {
     /** Pushes [token] and returns the depth from before, for [popTo]. */
@@ -52,13 +52,15 @@ public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID,
     }
 }
 
-/** The part of a token of the compiler plugin that people read: the called function, or the arm of a branch; other pivots as text. */
-public fun readable(pivot: Any?): String {
-    val text = pivot.toString()
-    return if (pivot is String && TOKEN_TAIL.containsMatchIn(pivot)) text.substringBefore('@') else text
-}
+/** The part of a token that people read, the called function or the arm of a branch; other pivots as text. */
+public fun readable(pivot: Any?): String = token(pivot)?.let { it.groupValues[1] } ?: pivot.toString()
 
-private val TOKEN_TAIL = Regex("@[^@]+:\\d+#[0-9a-f]{16}$")
+/** The place in the program's sources that a token names, `Swarm.kt:12`; `null` for other pivots. */
+public fun location(pivot: Any?): String? = token(pivot)?.let { it.groupValues[2] }
+
+private fun token(pivot: Any?): MatchResult? = (pivot as? String)?.let(TOKEN::matchEntire)
+
+private val TOKEN = Regex("([^@]+)@([^@]+:\\d+)#[0-9a-f]{16}")
 
 private fun <ID : Any, T> restricted(aggregate: Aggregate<ID>, field: Field<ID, T>): Field<ID, T> {
     val aligned = aggregate.neighboring(Unit, InMemory).neighbors.list.mapTo(HashSet()) { it.id }
