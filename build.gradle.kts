@@ -95,6 +95,17 @@ project(":api") {
     }
 }
 
+project(":compiler-plugin") {
+    dependencies {
+        // The compiler that loads the plugin brings it.
+        "compileOnly"("org.jetbrains.kotlin:kotlin-compiler-embeddable:$kotlinVersion")
+        "testImplementation"("org.jetbrains.kotlin:kotlin-compiler-embeddable:$kotlinVersion")
+        "testImplementation"(project(":dsl"))
+    }
+    // The tests run the Kotlin compiler in their process.
+    tasks.withType<Test>().configureEach { maxHeapSize = "640m" }
+}
+
 project(":generator") {
     dependencies {
         "implementation"(project(":flatbuffers"))
@@ -142,6 +153,7 @@ project(":programs") {
     val generator = configurations.create("generator")
     dependencies {
         "compileOnly"(project(":host"))
+        "kotlinCompilerPluginClasspath"(project(":compiler-plugin"))
         "testImplementation"(project(":host"))
         "generator"(project(":generator"))
     }

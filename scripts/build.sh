@@ -3,6 +3,7 @@
 SHIM="$BUILD/cmake/native-shim"
 HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
+COMPILER_PLUGIN="$ROOT/jvm-host/compiler-plugin/target/compiler-plugin-0.1.0.jar"
 NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
 NEWTONSOFT=/usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll
 # What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.

@@ -37,10 +37,11 @@ fetch_kotlin() {
 programs_jar() {
   local schema=$1 programs=$2 work
   if [ -f "$programs" ]; then printf '%s\n' "$programs"; return 0; fi
-  work="$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR")"
+  work="$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR" "$COMPILER_PLUGIN")"
   if [ ! -f "$work/programs.jar" ]; then
     setup_kotlin
     logged compile-programs compile_programs "$schema" "$programs" "$work"
+    grep -aE ': warning: ' "$BUILD/log/compile-programs.log" >&2 || true
   fi
   printf '%s\n' "$work/programs.jar"
 }
@@ -54,7 +55,7 @@ compile_programs() {
   "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" $(find "$work/java" -name '*.java') || return 1
   (cd "$work/java" && find . -type f -not -name '*.java' | cpio -pdm --quiet "$work/classes" 2>/dev/null) || cp -R "$work/java/META-INF" "$work/classes/" || return 1
   "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
-    -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs" || return 1
+    -no-stdlib -no-reflect -jvm-target 17 "-Xplugin=$COMPILER_PLUGIN" -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs" || return 1
   "$jdk/bin/jar" --create --file "$work/programs.jar.part" -C "$work/classes" . && mv "$work/programs.jar.part" "$work/programs.jar"
 }
 

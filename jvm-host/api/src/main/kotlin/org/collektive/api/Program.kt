@@ -4,8 +4,8 @@ package org.collektive.api
  * Makes a public top-level function a program that nodes can run:
  *
  * ```
- * @Program("gradient-ascent", parameters = [Parameter("step", "1.0", "Metres per round.")])
- * public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): ActuatorDataT = ...
+ * @Program("follow-the-leader", parameters = [Parameter("gap", "1.0", "Metres to the next node.")])
+ * public fun Aggregate<Int>.followTheLeader(sensors: SensorData, device: Device): ActuatorDataT = ...
  * ```
  * `device` may be left out. `SensorData` and `ActuatorDataT` are the types generated from the project's schema.
  *
