@@ -24,6 +24,8 @@ class ChecksTest {
         }
         fun Aggregate<Int>.elvis(maybe: Field<Int, Int>?): Field<Int, Int> =
             maybe ?: neighboring(localId) // FIELD_FROM_BRANCH
+        fun <T : Field<Int, Int>> Aggregate<Int>.generic(a: T, b: T): T = if (localId == 0) a else b // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+        fun Aggregate<Int>.hidden(): Any = if (localId == 0) neighboring(localId) else 1 // FIELD_FROM_BRANCH
         fun given(a: Field<Int, Int>, b: Field<Int, Int>): Int = (if (a == b) 
             a // FIELD_FROM_BRANCH
             else
@@ -43,7 +45,14 @@ class ChecksTest {
         fun Aggregate<Int>.unused(): Int {
             if (localId == 0) neighboring(localId) else neighboring(-localId)
             when { localId == 0 -> neighboring(localId + 1) }
+            run<Unit> { if (localId > 0) neighboring(localId) else neighboring(-localId) }
+            listOf(1).forEach { if (localId > 0) alignedOn(it) { neighboring(localId) } }
+            try { if (localId > 0) neighboring(localId) else neighboring(-localId) } finally { }
             return 0
+        }
+        fun Aggregate<Int>.unusedElvis(maybe: Int?, field: Field<Int, Int>?) {
+            maybe ?: neighboring(localId)
+            field ?: neighboring(localId)
         }
         fun Aggregate<Int>.before(): Field<Int, Int> { val f = neighboring(localId); return f.mapValues { if (it > 0) it else 0 } }
         fun Aggregate<Int>.fallback(maybe: Int?): Int = maybe ?: neighboring(localId).local.value
@@ -238,6 +247,6 @@ class ChecksTest {
 
     private companion object {
         /** Warnings of the compiler about the sources' style. */
-        val COMPILERS_OWN = setOf("UNUSED_EXPRESSION", "RETURN_VALUE_NOT_USED", "UNUSED_VARIABLE", "NOTHING_TO_INLINE")
+        val COMPILERS_OWN = setOf("UNUSED_EXPRESSION", "UNUSED_VARIABLE", "NOTHING_TO_INLINE")
     }
 }

@@ -8,36 +8,26 @@ import kotlin.test.assertSame
 import kotlin.test.assertTrue
 
 class TokensTest {
-    private val source = """
-        fun Aggregate<Int>.first(x: Int): Int = neighboring(x).local.value
-        fun Aggregate<Int>.first(x: Long): Long = neighboring(x).local.value
-        fun Aggregate<Int>.main(): Long {
-            val twice = { first(localId) }
-            return first(1) + twice() + twice() + first(2L)
-        }
-        """
-
     @Test
     fun `a token says what and where, and ends in 64 bits that tell the place`() {
-        val token = tokens(Compilation.of(source)).first().first()
+        val token = tokens(compiled).first().first()
         assertTrue(Regex("first@Program\\.kt:5#[0-9a-f]{16}").matches(token), token)
         assertEquals("first", readable(token))
         assertEquals("Program.kt:5", location(token))
     }
 
     @Test
-    fun `builds in different folders agree`() = assertEquals(tokens(Compilation.of(source)), tokens(Compilation.of(source)))
+    fun `builds in different folders agree`() = assertEquals(tokens(compiled), tokens(Compilation.of(SOURCE)))
 
     @Test
     fun `each place has its own token`() {
-        val places = tokens(Compilation.of(source)).flatten()
+        val places = tokens(compiled).flatten()
         // Calls of first and twice in main, of first in the lambda, of neighboring in both overloads.
         assertEquals(7, places.toSet().size)
     }
 
     @Test
     fun `equal tokens are one object, so that comparing them is cheap`() {
-        val compiled = Compilation.of(source)
         val (once, again) = List(2) { tokens(compiled) }
         for ((a, b) in once.flatten() zip again.flatten()) assertSame(a, b)
     }
@@ -54,5 +44,18 @@ class TokensTest {
         val network = ReferenceDevices(0)
         network.round(compilation.program("main"))
         return network.devices.getValue(0).paths.map { path -> path.map { it as String } }
+    }
+
+    private companion object {
+        const val SOURCE = """
+            fun Aggregate<Int>.first(x: Int): Int = neighboring(x).local.value
+            fun Aggregate<Int>.first(x: Long): Long = neighboring(x).local.value
+            fun Aggregate<Int>.main(): Long {
+                val twice = { first(localId) }
+                return first(1) + twice() + twice() + first(2L)
+            }
+            """
+
+        val compiled = Compilation.of(SOURCE)
     }
 }

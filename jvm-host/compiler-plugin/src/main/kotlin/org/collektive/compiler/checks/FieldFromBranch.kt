@@ -5,6 +5,7 @@ import org.jetbrains.kotlin.diagnostics.reportOn
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
 import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
+import org.jetbrains.kotlin.fir.declarations.FirFunction
 import org.jetbrains.kotlin.fir.expressions.FirBlock
 import org.jetbrains.kotlin.fir.expressions.FirElvisExpression
 import org.jetbrains.kotlin.fir.expressions.FirExpression
@@ -25,7 +26,14 @@ internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppChe
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
-        reportField(expression.rhs)
+        if (!isStatement(expression)) reportField(expression.rhs)
+    }
+
+    /** Whether nobody takes the result. */
+    context(context: CheckerContext)
+    private fun isStatement(expression: FirElvisExpression): Boolean {
+        val (owner, block) = context.containingElements.takeWhile { it !== expression }.takeLast(2).takeIf { it.size == 2 } ?: return false
+        return block is FirBlock && (owner is FirFunction || block.statements.last() !== expression)
     }
 }
 
