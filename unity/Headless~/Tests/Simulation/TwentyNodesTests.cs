@@ -56,6 +56,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Nodes_in_different_arms_do_not_hear_each_other()
+        {
+            Configure("arms");
+            MakeLine();
+            // The first ten nodes take one arm, the others the other: only the two at the border lose a neighbour.
+            for (var i = 0; i < 10; i++) line[i].Sensor.Value = -1;
+            Play(2);
+            for (var i = 0; i < Count; i++)
+            {
+                var heard = i == 0 || i == Count - 1 || i == 9 || i == 10 ? 1 : 2;
+                Assert.That(line[i].Actuator.Last.Heard, Is.EqualTo(heard), "node " + i);
+                Assert.That(line[i].Answer, Is.EqualTo(i < 10 ? -1 : 1), "node " + i);
+            }
+        }
+
+        [Test]
         public void There_is_one_call_a_tick_and_every_link_is_known_on_both_sides()
         {
             var before = Collektive.Bridge.Jvm.StepCalls;

@@ -33,6 +33,11 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
     return answer(if (hops == unknown) -1f else hops.toFloat())
 }
 
+/** Neighbours that took the same arm, by the sign of the value. */
+@Program("arms")
+public fun Aggregate<Int>.arms(sensors: SensorData): ActuatorDataT =
+    if (sensors.value() < 0) answer(-1f, neighboring(0).neighbors.size) else answer(1f, neighboring(0).neighbors.size)
+
 @Program("count")
 public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT = answer(evolve(0) { it + 1 }.toFloat())
 
@@ -58,7 +63,7 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         16 -> System.exit(3)
         17 -> Runtime.getRuntime().halt(3)
         18 -> generateSequence { LongArray(1 shl 26) }.toList()
-        19 -> alignedOn("view") { neighboring(sensors) }
+        19 -> neighboring(sensors)
         20 -> println("a line from the program")
     }
     return answer(rounds.toFloat())
