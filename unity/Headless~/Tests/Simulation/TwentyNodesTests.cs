@@ -56,6 +56,18 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_standard_library_is_at_hand_and_settles_on_the_hop_distance()
+        {
+            Configure("far");
+            MakeLine();
+            Play(Count + 1);
+            for (var i = 0; i < Count; i++) Assert.That(line[i].Answer, Is.EqualTo(i), "node " + i);
+            line[10].Sensor.Value = 0;
+            Play(Count + 1);
+            for (var i = 0; i < Count; i++) Assert.That(line[i].Answer, Is.EqualTo(System.Math.Min(i, System.Math.Abs(i - 10))), "node " + i);
+        }
+
+        [Test]
         public void Nodes_in_different_arms_do_not_hear_each_other()
         {
             Configure("arms");

@@ -3,6 +3,7 @@ package probe
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
@@ -32,6 +33,10 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
     }
     return answer(if (hops == unknown) -1f else hops.toFloat())
 }
+
+/** What "hops" does, by the standard library. */
+@Program("far")
+public fun Aggregate<Int>.far(sensors: SensorData): ActuatorDataT = answer(hopDistanceTo(sensors.value() == 0f).toFloat())
 
 /** Neighbours that took the same arm, by the sign of the value. */
 @Program("arms")
