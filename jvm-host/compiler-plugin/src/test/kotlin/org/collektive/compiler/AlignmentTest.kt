@@ -77,7 +77,8 @@ class AlignmentTest {
     fun `string templates, comparisons and assignments`() = assertPaths("mixed", "neighboring", "evolve", "evolve", "evolve")
 
     @Test
-    fun `constructors and initialisers`() = assertPaths("constructed", "Holder > neighboring", "Holder > evolve")
+    fun `constructors and initialisers`() =
+        assertPaths("constructed", "Holder > neighboring", "Holder > evolve", "counter > evolve", "Inner > evolve", "Inner > evolve")
 
     @Test
     fun `objects that capture the Aggregate`() = assertPaths("anonymous", "work > neighboring")
@@ -260,7 +261,11 @@ class AlignmentTest {
                 val kept: Int
                 init { kept = aggregate.evolve(0) { it } }
             }
-            fun Aggregate<Int>.constructed(): Int = Holder(this).kept
+            open class Above(val x: Int)
+            fun Aggregate<Int>.constructed(): Int {
+                class Inner { val x = evolve(0) { it } }
+                return Holder(this).kept + object : Above(counter()) {}.x + Inner().x + Inner().x
+            }
 
             fun interface Job { fun work(): Int }
             fun Aggregate<Int>.functionObjects(): Int {

@@ -19,7 +19,7 @@ class ConstructsTest {
     }
 
     private companion object {
-        const val NUMBER = 30
+        const val NUMBER = 32
 
         val SOURCE = """
             import kotlin.contracts.*
@@ -100,6 +100,12 @@ class ConstructsTest {
             open class Up(val v: Int)
             class Down(a: Aggregate<Int>, b: Int = a.localId) : Up(a.one() + b) { val w = a.one() + v }
             fun Aggregate<Int>.p16(): Any? = Down(this).w
+
+            fun Aggregate<Int>.p31(): Any? = object : Up(one() + listOf(one(), 2).size) { val w = one() + v }.w
+            class Chained(a: Aggregate<Int>, val x: Int = if (a.localId == 0) a.one() else 3) : Up(if (x > 0) a.one() + x else a.add(1, 2)) {
+                constructor(a: Aggregate<Int>, y: String) : this(a, try { a.one() + y.toInt() } catch (_: NumberFormatException) { a.one() })
+            }
+            fun Aggregate<Int>.p32(): Any? = Chained(this, "a").v + Chained(this).x + Chained(this, "7").v
 
             fun Aggregate<Int>.p17(): Any? = "${'$'}{one()} ${'$'}{if (localId == 0) "${'$'}{one()}" else ""} ${'$'}{try { one() } finally { one() }}"
 

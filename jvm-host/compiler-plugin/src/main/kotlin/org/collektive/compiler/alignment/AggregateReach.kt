@@ -5,6 +5,7 @@ package org.collektive.compiler.alignment
 import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.ir.IrBuiltIns
 import org.jetbrains.kotlin.ir.IrElement
+import org.jetbrains.kotlin.ir.declarations.IrConstructor
 import org.jetbrains.kotlin.ir.declarations.IrFunction
 import org.jetbrains.kotlin.ir.declarations.IrPackageFragment
 import org.jetbrains.kotlin.ir.declarations.IrVariable
@@ -20,8 +21,10 @@ import org.jetbrains.kotlin.ir.expressions.IrVararg
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
 import org.jetbrains.kotlin.ir.types.IrType
 import org.jetbrains.kotlin.ir.types.getClass
+import org.jetbrains.kotlin.ir.util.isAnonymousObject
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isLocal
+import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
 import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.ir.visitors.acceptVoid
@@ -38,6 +41,8 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         val callee = call.symbol.owner
         return when {
             dsl.isManualAlignment(callee) || isOperator(callee) -> false
+            // An object literal is code of this very place.
+            callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
             dsl.isFieldMember(callee) -> functionsGivenTo(call).any(::carries)
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionsGivenTo(call).any()
             callee.isLocal && leadsToPrimitive(callee) -> true
@@ -82,7 +87,9 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     private fun leadsToPrimitive(function: IrFunction): Boolean {
         known[function]?.let { return it }
         known[function] = false // for recursion: what else it does decides
-        val found = Finder().apply { function.acceptChildrenVoid(this) }.found
+        // A constructor runs the initialisers of its class.
+        val code = if (function is IrConstructor) function.parentAsClass else function
+        val found = Finder().apply { code.acceptChildrenVoid(this) }.found
         known[function] = found
         return found
     }

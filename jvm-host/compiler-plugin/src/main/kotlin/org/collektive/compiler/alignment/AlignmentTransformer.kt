@@ -85,10 +85,8 @@ internal class AlignmentTransformer(
     override fun visitFileNew(declaration: IrFile): IrFile =
         if (isIgnored(declaration)) declaration else super.visitFileNew(declaration)
 
-    override fun visitClassNew(declaration: IrClass): IrStatement {
-        if (isIgnored(declaration)) return declaration
-        return super.visitClassNew(declaration)
-    }
+    override fun visitClassNew(declaration: IrClass): IrStatement =
+        if (isIgnored(declaration)) declaration else super.visitClassNew(declaration)
 
     override fun visitFieldNew(declaration: IrField): IrStatement =
         withSourceOfConstructor(declaration) { super.visitFieldNew(declaration) }
@@ -110,8 +108,7 @@ internal class AlignmentTransformer(
         if (isIgnored(declaration) || isForwarding(declaration)) return declaration
         val outerSource = source
         val outerRegion = region
-        // Nothing may be caught before the superclass's constructor was called.
-        source = if (declaration is IrConstructor) null else sourceIn(declaration) ?: outerSource
+        source = sourceIn(declaration) ?: outerSource
         if (declaration in alignedBodies) region = Region(outerRegion)
         for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
