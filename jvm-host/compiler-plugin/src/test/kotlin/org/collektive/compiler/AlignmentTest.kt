@@ -304,6 +304,8 @@ class AlignmentTest {
                 val field = neighboring(2.0)
                 val ids = field.neighbors.list.map { it.id } + localId
                 check(field == field.mapValues { it }) { "${'$'}field of ${'$'}localId" }
+                val pair = Pair(field, listOf(field, field))
+                for (f in pair.second) check(f == pair.first)
                 val square = { x: Double -> x * x }
                 fun half(x: Double) = x / 2
                 if (localId > half(square(3.0))) return 0.0

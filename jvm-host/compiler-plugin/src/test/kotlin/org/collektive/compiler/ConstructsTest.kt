@@ -19,7 +19,7 @@ class ConstructsTest {
     }
 
     private companion object {
-        const val NUMBER = 32
+        const val NUMBER = 34
 
         val SOURCE = """
             import kotlin.contracts.*
@@ -106,6 +106,25 @@ class ConstructsTest {
                 constructor(a: Aggregate<Int>, y: String) : this(a, try { a.one() + y.toInt() } catch (_: NumberFormatException) { a.one() })
             }
             fun Aggregate<Int>.p32(): Any? = Chained(this, "a").v + Chained(this).x + Chained(this, "7").v
+
+            operator fun Field<Int, Int>.iterator(): Iterator<Int> = all.list.map { it.value }.iterator()
+            operator fun Aggregate<Int>.rangeTo(end: Int): IntRange = one()..end
+            fun Aggregate<Int>.p33(): Any? {
+                var sum = 0
+                val fields = listOf(neighboring(localId + 1), neighboring(localId + 2))
+                for (field in fields) sum += field.local.value
+                for ((i, field) in fields.withIndex()) sum += i * field.local.value
+                for (field in arrayOf(fields[0], fields[1])) for (value in field) sum += value
+                for (i in this..5) sum += i
+                for (i in one() until add(3, 4) step one()) sum += i
+                for (i in fields.indices.reversed()) sum += i
+                return sum + if (this in listOf(this) && one() in 0..9) 1 else 0
+            }
+            fun Aggregate<Int>.p34(): Any? {
+                val jobs = listOf({ one() }, { add(1, 2) })
+                val pair = Pair(this, { x: Int -> x + one() })
+                return jobs.mapIndexed { i, job -> alignedOn(i) { job() } } + pair.second(1) + pair.first.one() + maxOf(one(), add(2, 2))
+            }
 
             fun Aggregate<Int>.p17(): Any? = "${'$'}{one()} ${'$'}{if (localId == 0) "${'$'}{one()}" else ""} ${'$'}{try { one() } finally { one() }}"
 

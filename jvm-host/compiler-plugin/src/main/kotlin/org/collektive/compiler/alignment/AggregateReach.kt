@@ -3,11 +3,10 @@
 package org.collektive.compiler.alignment
 
 import org.collektive.compiler.DslNames
-import org.jetbrains.kotlin.ir.IrBuiltIns
+import org.jetbrains.kotlin.builtins.StandardNames
 import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.declarations.IrConstructor
 import org.jetbrains.kotlin.ir.declarations.IrFunction
-import org.jetbrains.kotlin.ir.declarations.IrPackageFragment
 import org.jetbrains.kotlin.ir.declarations.IrVariable
 import org.jetbrains.kotlin.ir.expressions.IrCallableReference
 import org.jetbrains.kotlin.ir.expressions.IrExpression
@@ -21,6 +20,7 @@ import org.jetbrains.kotlin.ir.expressions.IrVararg
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
 import org.jetbrains.kotlin.ir.types.IrType
 import org.jetbrains.kotlin.ir.types.getClass
+import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.isAnonymousObject
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isLocal
@@ -40,11 +40,12 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
         val callee = call.symbol.owner
         return when {
-            dsl.isManualAlignment(callee) || isOperator(callee) -> false
+            dsl.isManualAlignment(callee) -> false
             // An object literal is code of this very place.
             callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
-            dsl.isFieldMember(callee) -> functionsGivenTo(call).any(::carries)
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionsGivenTo(call).any()
+            // They know nothing of primitives, but may run a function.
+            dsl.isFieldMember(callee) || isKotlins(callee) -> functionsGivenTo(call).any(::carries)
             callee.isLocal && leadsToPrimitive(callee) -> true
             else -> call.arguments.any { it != null && carries(it) }
         }
@@ -53,9 +54,8 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     private fun functionsGivenTo(call: IrFunctionAccessExpression): List<IrExpression> =
         call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
 
-    /** `==`, `!!` and the like on the values themselves. */
-    private fun isOperator(callee: IrFunction) =
-        (callee.parent as? IrPackageFragment)?.packageFqName == IrBuiltIns.KOTLIN_INTERNAL_IR_FQN
+    /** The standard library, and operators such as `==` and `!!`. */
+    private fun isKotlins(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
 
     private fun carries(value: IrExpression): Boolean = when (value) {
         is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)
