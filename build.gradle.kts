@@ -73,14 +73,31 @@ project(":flatbuffers") {
     tasks.named("compileJava") { doFirst { requireSetup() } }
 }
 
+val serialization = "org.jetbrains.kotlinx:kotlinx-serialization-%s-jvm:${parent.getValue("serialization.version")}"
+for (name in listOf(":dsl", ":stdlib")) {
+    project(name) {
+        dependencies {
+            "kotlinCompilerPluginClasspath"("org.jetbrains.kotlin:kotlin-serialization-compiler-plugin-embeddable:$kotlinVersion")
+        }
+    }
+}
+
+project(":dsl") {
+    dependencies { "api"(serialization.format("core")) }
+}
+
 project(":runtime") {
-    dependencies { "api"(project(":dsl")) }
+    dependencies {
+        "api"(project(":dsl"))
+        "testImplementation"(serialization.format("json"))
+    }
 }
 
 project(":stdlib") {
     dependencies {
         "api"(project(":dsl"))
         "testImplementation"(project(":runtime"))
+        "testImplementation"(serialization.format("json"))
     }
 }
 

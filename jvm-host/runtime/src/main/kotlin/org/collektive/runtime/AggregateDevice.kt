@@ -4,11 +4,10 @@ package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.YieldingContext
-import it.unibo.collektive.aggregate.api.YieldingScope
 
 /**
  * One device: the alignment stack of the running round, and two records, of the last valid round and of the running one.
@@ -19,7 +18,7 @@ internal class AggregateDevice<ID : Any>(
     override val localId: ID,
     private val tree: PathTree,
     private val rule: SharingRule,
-) : Aggregate<ID>,
+) : Primitives<ID, PathNode>(),
     DeviceRuntime {
     override val inMemoryOnly: Boolean get() = true
 
@@ -31,12 +30,13 @@ internal class AggregateDevice<ID : Any>(
     // primitive cost no look-up.
     private var tokens = arrayOfNulls<Any?>(INITIAL_DEPTH)
     private var nodes = arrayOfNulls<PathNode>(INITIAL_DEPTH + 1).also { it[0] = tree.root }
-    private var depth = 0
+    override var depth = 0
+        private set
     private var resolved = 0
 
     override fun round(inbox: Inbox, program: RoundProgram): Any? {
         this.inbox = inbox
-        unwindTo(0)
+        popTo(0)
         running.clear()
         @Suppress("UNCHECKED_CAST")
         return program.run(this as Aggregate<Int>)
@@ -50,70 +50,20 @@ internal class AggregateDevice<ID : Any>(
 
     fun forEachPath(action: (PathNode) -> Unit) = valid.forEachPath(action)
 
-    override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
-        val path = claimPath()
-        val value = transform(keptAt(path, initial))
-        keep(path, value)
-        return value
-    }
-
-    override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
-        val path = claimPath()
-        val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
-        keep(path, kept)
-        return refuseField(result, "evolving")
-    }
-
-    override fun <Shared, Return> exchanging(
-        initial: Shared,
-        dataSharingMethod: DataSharingMethod<Shared>,
-        body: YieldingScope<Field<ID, Shared>, Return>,
-    ): Return {
-        val path = claimPath()
-        val received = receive(path, keptAt(path, initial))
-        val (toSend, result) = YieldingContext<Field<ID, Shared>, Return>().body(received)
-        for (entry in toSend.neighbors.list) allow(entry.value, path)
-        keep(path, toSend.local.value)
-        running.send(path, toSend)
-        return result
-    }
-
-    override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared> {
-        val path = claimPath()
-        allow(local, path)
-        running.send(path, local)
-        return receive(path, local)
-    }
-
-    override fun <R> alignedOn(pivot: Any?, body: () -> R): R {
-        val before = depth
-        align(pivot)
-        try {
-            return refuseField(body(), "alignedOn")
-        } finally {
-            unwindTo(before)
-        }
-    }
-
-    override fun align(pivot: Any?) {
+    override fun push(token: Any?) {
         if (depth == tokens.size) {
             tokens = tokens.copyOf(2 * depth)
             nodes = nodes.copyOf(2 * depth + 1)
         }
-        tokens[depth++] = pivot
+        tokens[depth++] = token
     }
 
-    override fun dealign() {
-        check(depth > 0) { "dealign() without align()" }
-        unwindTo(depth - 1)
+    override fun popTo(depth: Int) {
+        this.depth = depth
+        if (resolved > depth) resolved = depth
     }
 
-    private fun unwindTo(newDepth: Int) {
-        depth = newDepth
-        if (resolved > newDepth) resolved = newDepth
-    }
-
-    private fun claimPath(): PathNode {
+    override fun claimPath(): PathNode {
         val path = currentPath()
         if (!running.claim(path)) throw AlignmentClashException(path.describe())
         return path
@@ -129,18 +79,17 @@ internal class AggregateDevice<ID : Any>(
     }
 
     @Suppress("UNCHECKED_CAST")
-    private fun <T> keptAt(path: PathNode, initial: T): T {
+    override fun <T> keptAt(path: PathNode, initial: T): T {
         val value = valid.keptAt(path)
         return if (value === RoundRecord.Nothing) initial else value as T
     }
 
-    private fun keep(path: PathNode, value: Any?) {
+    override fun keep(path: PathNode, value: Any?) {
         allow(value, path)
         running.keep(path, value)
     }
 
-    /** The field of what aligned neighbours sent to this device at [path]. */
-    private fun <T> receive(path: PathNode, local: T): Field<ID, T> {
+    override fun <T> receive(path: PathNode, local: T, sharing: DataSharingMethod<T>): Field<ID, T> {
         val inbox = checkNotNull(inbox)
         val size = inbox.size
         val values = arrayOfNulls<Any?>(size)
@@ -163,6 +112,32 @@ internal class AggregateDevice<ID : Any>(
         }
     }
 
+    override fun <T> send(path: PathNode, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
+        for (entry in values.neighbors.list) allow(entry.value, path)
+        running.send(path, values)
+    }
+
+    override fun <T> sendToAll(path: PathNode, value: T, sharing: DataSharingMethod<T>) {
+        allow(value, path)
+        running.send(path, value)
+    }
+
+    override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
+        val path = currentPath()
+        if (running.claim(path)) running.send(path, Unit)
+        val inbox = checkNotNull(inbox)
+        val entries = field.neighbors.list
+        val kept = ArrayList<FieldEntry<I, T>>(entries.size)
+        // The field's neighbours are some of the links, in the same order.
+        var link = 0
+        for (entry in entries) {
+            while (inbox.ids[link] != entry.id) link++
+            if ((inbox.sender(link) as AggregateDevice<*>).valid.sentAt(path) !== RoundRecord.Nothing) kept += entry
+        }
+        if (kept.size == entries.size) return field
+        return Field.make(field.context, Array<Any>(kept.size) { kept[it].id }, Array<Any?>(kept.size) { kept[it].value }, field.local.value)
+    }
+
     private fun sentTo(receiver: AggregateDevice<*>, path: PathNode, receiverWasKnown: Boolean): Any? {
         val value = valid.sentAt(path)
         if (value !is Field<*, *>) return value
@@ -175,13 +150,6 @@ internal class AggregateDevice<ID : Any>(
         rule.refusal(value)?.let {
             throw IllegalArgumentException("$it; it cannot be shared or kept (at the path '${path.describe()}')")
         }
-    }
-
-    private fun <T> refuseField(result: T, primitive: String): T {
-        check(result !is Field<*, *>) {
-            "$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside"
-        }
-        return result
     }
 
     private companion object {

@@ -1,5 +1,7 @@
 package org.collektive.runtime
 
+import it.unibo.collektive.aggregate.api.impl.readable
+
 /**
  * All paths of a session, so that equal paths of any two devices are one object.
  *
@@ -81,7 +83,7 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     /** `root > a > b`, tokens in the program's words. */
     fun describe(): String {
         val tokens = generateSequence(this) { it.parent }.toList().dropLast(1).asReversed()
-        return if (tokens.isEmpty()) "root" else tokens.joinToString(" > ") { it.token.toString() }
+        return if (tokens.isEmpty()) "root" else tokens.joinToString(" > ") { readable(it.token) }
     }
 
     companion object {

@@ -3,6 +3,7 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
+import kotlinx.serialization.serializer
 
 /**
  * Sends a value of its own to each neighbour and keeps one: [body] gets what aligned neighbours sent here, with the value kept
@@ -36,7 +37,11 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(
     noinline transform: (Field<ID, Shared>) -> Shared,
 ): Shared = sharing(initial) { received -> transform(received).yielding { this } }
 
-/** How values of type [Shared] travel; devices of one process pass them by reference. */
+/**
+ * How values of type [Shared] travel: by reference inside one process, else by their serializer.
+ *
+ * @throws kotlinx.serialization.SerializationException when [Shared] has none and needs one.
+ */
 @DelicateCollektiveApi
-@Suppress("UnusedReceiverParameter")
-public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> = InMemory
+public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> =
+    if (inMemoryOnly) InMemory else Serialize(serializer<Shared>())

@@ -1,9 +1,12 @@
 package it.unibo.collektive.stdlib.consensus
 
+import kotlinx.serialization.Serializable
+
 /**
  * A claim to lead: the [candidate]'s, of this [strength], seen at this [distance]. Stronger is greater, then nearer; `compareTo` is 0
  * also for two candidates that are equally strong and near.
  */
+@Serializable
 public data class Candidacy<ID : Any, D : Comparable<D>, S : Comparable<S>>(
     public val candidate: ID,
     public val distance: D,

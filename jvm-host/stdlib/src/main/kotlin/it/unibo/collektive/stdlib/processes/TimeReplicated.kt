@@ -9,6 +9,7 @@ import it.unibo.collektive.stdlib.time.localDeltaTime
 import it.unibo.collektive.stdlib.util.aligned
 import kotlin.time.Duration
 import kotlin.time.Instant
+import kotlinx.serialization.Serializable
 
 /**
  * The result of the oldest of several overlapping runs of [process]: makes one that never forgets (like `nonStabilizingGossip`) follow
@@ -52,4 +53,5 @@ private fun <ID : Any> Aggregate<ID>.youngestRun(passed: Duration, timeToSpawn: 
     }.number
 
 /** A run's [number], and the [age] since this device knows it. */
+@Serializable
 private data class Run(val number: Long, val age: Duration)

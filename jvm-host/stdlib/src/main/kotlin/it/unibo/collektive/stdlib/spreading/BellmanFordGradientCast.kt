@@ -40,7 +40,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     noinline accumulateDistance: (D, D) -> D,
     metric: Field<ID, D>,
 ): V = bellmanFordGradientCast(
-    source, local, bottom, top, dataSharingMethod<Pair<D, V>>(), accumulateData, accumulateDistance, metric,
+    source, local, bottom, top, dataSharingMethod<Pair<D, V>?>(), accumulateData, accumulateDistance, metric,
 )
 
 /** [bellmanFordGradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
@@ -58,19 +58,19 @@ internal fun <ID : Any, V, D : Comparable<D>> Aggregate<ID>.bellmanFordGradientC
     local: V,
     bottom: D,
     top: D,
-    sharing: DataSharingMethod<Pair<D, V>>,
+    sharing: DataSharingMethod<Pair<D, V>?>,
     accumulateData: (D, D, V) -> V,
     accumulateDistance: (D, D) -> D,
     metric: Field<ID, D>,
 ): V = aligned("bellmanFordGradientCast") {
-    exchanging(top to local, sharing) { received ->
-        val result = if (source) bottom to local else nearest(received, metric, top, accumulateData, accumulateDistance) ?: (top to local)
-        received.mapToConstant(result).yielding { result.second }
+    exchanging<Pair<D, V>?, V>(null, sharing) { received ->
+        val result = if (source) bottom to local else nearest(received, metric, top, accumulateData, accumulateDistance)
+        received.mapToConstant(result).yielding { if (result == null) local else result.second }
     }
 }
 
 private fun <ID : Any, V, D : Comparable<D>> nearest(
-    received: Field<ID, Pair<D, V>>,
+    received: Field<ID, Pair<D, V>?>,
     metric: Field<ID, D>,
     top: D,
     accumulateData: (D, D, V) -> V,
@@ -80,7 +80,7 @@ private fun <ID : Any, V, D : Comparable<D>> nearest(
     var from: Pair<D, V>? = null
     var step: D? = null
     received.forEachNeighborWith(metric) { _, offer, toNeighbor ->
-        if (offer.first < top) {
+        if (offer != null) {
             val distance = accumulateDistance(offer.first, toNeighbor)
             if (distance < least) {
                 least = distance

@@ -12,6 +12,7 @@ import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.stdlib.util.HopPath
 import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.aligned
+import kotlinx.serialization.Serializable
 
 /**
  * The best of all devices' [local] values, where [reducer] chooses the better of two.
@@ -79,6 +80,7 @@ public inline fun <reified ID : Any> Aggregate<ID>.isHappeningAnywhere(condition
     gossip(condition()) { a, b -> a || b }
 
 /** A [value] of [gossip] and the devices that it came through. */
+@Serializable
 @PublishedApi
 internal data class GossipValue<ID : Any, V>(val value: V, val path: HopPath<ID>)
 

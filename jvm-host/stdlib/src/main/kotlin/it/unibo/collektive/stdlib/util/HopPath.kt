@@ -1,11 +1,14 @@
 package it.unibo.collektive.stdlib.util
 
+import kotlinx.serialization.Serializable
+
 /**
  * The devices that a value came through, from its origin to the last; immutable.
  *
  * A path shares all but its last hop with the path it was made from, and [mask], a Bloom filter of one word, mostly tells at once
  * that a device is not on it.
  */
+@Serializable(with = HopPathSerializer::class)
 @PublishedApi
 internal class HopPath<ID : Any> private constructor(
     val previous: HopPath<ID>?,

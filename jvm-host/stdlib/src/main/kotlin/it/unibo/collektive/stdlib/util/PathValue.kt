@@ -1,11 +1,14 @@
 package it.unibo.collektive.stdlib.util
 
+import kotlinx.serialization.Serializable
+
 /**
  * What a device offers its neighbours in a gradient cast: [data], at a [distance] from its source.
  *
  * @property distance the accumulated distance from the source to the device that offers.
  * @property data the source's data as it arrived there.
  */
+@Serializable
 public class PathValue<ID : Any, D : Comparable<D>, T> @PublishedApi internal constructor(
     public val distance: D,
     public val data: T,

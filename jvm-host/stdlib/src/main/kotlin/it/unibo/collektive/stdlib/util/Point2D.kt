@@ -1,8 +1,10 @@
 package it.unibo.collektive.stdlib.util
 
 import kotlin.math.sqrt
+import kotlinx.serialization.Serializable
 
 /** A point of the plane. */
+@Serializable
 public data class Point2D(public val x: Double, public val y: Double) {
     /** The Euclidean distance to [other]. */
     public fun distanceTo(other: Point2D): Double {

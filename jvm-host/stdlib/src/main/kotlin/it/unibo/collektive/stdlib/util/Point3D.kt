@@ -1,8 +1,10 @@
 package it.unibo.collektive.stdlib.util
 
 import kotlin.math.sqrt
+import kotlinx.serialization.Serializable
 
 /** A point of space. */
+@Serializable
 public data class Point3D(public val x: Double, public val y: Double, public val z: Double) {
     /** The Euclidean distance to [other]. */
     public fun distanceTo(other: Point3D): Double {

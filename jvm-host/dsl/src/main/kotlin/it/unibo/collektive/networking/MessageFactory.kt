@@ -1,0 +1,24 @@
+package it.unibo.collektive.networking
+
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.path.Path
+
+/** Gives messages their form. */
+public interface MessageFactory<ID : Any, out Payload> {
+    /** The message of [senderId] with [sharedData]. */
+    public operator fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, Payload>
+}
+
+/**
+ * A value to send.
+ *
+ * @property payload the value.
+ * @property representation how it travels.
+ */
+public data class PayloadRepresentation<P>(val payload: P, val representation: DataSharingMethod<P>)
+
+/** Makes [InMemoryMessage]s. */
+public class InMemoryMessageFactory<ID : Any> : MessageFactory<ID, Any?> {
+    override fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, Any?> =
+        InMemoryMessage(senderId, sharedData.mapValues { it.value.payload })
+}

@@ -1,0 +1,24 @@
+package it.unibo.collektive.networking
+
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.path.Path
+
+/** The latest messages of a device's neighbours. It must not change while a round runs. */
+public interface NeighborsData<ID : Any> {
+    /** The ids of the neighbours, without the device's own. */
+    public val neighbors: Set<ID>
+
+    /**
+     * What neighbours sent at [path]: an entry for each whose message holds the path, `null` values included.
+     *
+     * @param dataSharingMethod how to read serialised values.
+     */
+    public fun <Value> dataAt(path: Path, dataSharingMethod: DataSharingMethod<Value>): Map<ID, Value>
+}
+
+/** No neighbours. */
+public class NoNeighborsData<ID : Any> : NeighborsData<ID> {
+    override val neighbors: Set<ID> get() = emptySet()
+
+    override fun <Value> dataAt(path: Path, dataSharingMethod: DataSharingMethod<Value>): Map<ID, Value> = emptyMap()
+}

@@ -1,0 +1,38 @@
+package it.unibo.collektive.networking
+
+import it.unibo.collektive.aggregate.api.InMemory
+import it.unibo.collektive.aggregate.api.Serialize
+import it.unibo.collektive.path.Path
+import kotlinx.serialization.BinaryFormat
+import kotlinx.serialization.KSerializer
+import kotlinx.serialization.SerialFormat
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.StringFormat
+
+/**
+ * Makes [SerializedMessage]s.
+ *
+ * @param serializerFormat writes the values: a [BinaryFormat], or a [StringFormat] such as JSON (as UTF-8).
+ */
+public class SerializedMessageFactory<ID : Any, Payload>(private val serializerFormat: SerialFormat) : MessageFactory<ID, ByteArray> {
+    /** @throws SerializationException when a value cannot be written; the message names its path. */
+    override fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, ByteArray> =
+        SerializedMessage(senderId, sharedData.mapValues { (path, value) -> encode(senderId, path, value) })
+
+    private fun encode(senderId: ID, path: Path, value: PayloadRepresentation<Any?>): ByteArray {
+        try {
+            return when (val representation = value.representation) {
+                is Serialize -> serializerFormat.encode(representation.serializer, value.payload)
+                InMemory -> throw SerializationException("it was shared for use inside one process only")
+            }
+        } catch (cause: SerializationException) {
+            throw SerializationException("device $senderId cannot send ${value.payload} at the path '$path': ${cause.message}", cause)
+        }
+    }
+}
+
+private fun <T> SerialFormat.encode(serializer: KSerializer<T>, value: T): ByteArray = when (this) {
+    is BinaryFormat -> encodeToByteArray(serializer, value)
+    is StringFormat -> encodeToString(serializer, value).encodeToByteArray()
+    else -> throw SerializationException("$this is neither a BinaryFormat nor a StringFormat")
+}

@@ -1,0 +1,7 @@
+package it.unibo.collektive.path
+
+import kotlinx.serialization.Serializable
+
+/** Where a primitive runs: stands for the tokens on the alignment stack. Equal stacks give equal paths, on all devices. */
+@Serializable(with = PathSerializer::class)
+public interface Path

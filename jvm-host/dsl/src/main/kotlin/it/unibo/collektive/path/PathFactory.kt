@@ -1,0 +1,15 @@
+package it.unibo.collektive.path
+
+/** Makes paths of tokens; all devices of a network use the same. */
+public interface PathFactory {
+    /** The path of [tokens], the outermost first. */
+    public operator fun invoke(tokens: List<Any?>): Path
+
+    /** The path of [tokens], the outermost first. */
+    public operator fun invoke(vararg tokens: Any?): Path = invoke(tokens.toList())
+}
+
+/** Makes [FullPath]s. */
+public object FullPathFactory : PathFactory {
+    override fun invoke(tokens: List<Any?>): Path = FullPath(tokens.toList())
+}

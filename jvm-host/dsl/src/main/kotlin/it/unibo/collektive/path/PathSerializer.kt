@@ -1,0 +1,23 @@
+package it.unibo.collektive.path
+
+import kotlinx.serialization.KSerializer
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.descriptors.PrimitiveKind
+import kotlinx.serialization.descriptors.PrimitiveSerialDescriptor
+import kotlinx.serialization.descriptors.SerialDescriptor
+import kotlinx.serialization.encoding.Decoder
+import kotlinx.serialization.encoding.Encoder
+
+/** Writes the paths of [DigestHashingFactory] as strings; refuses others. */
+internal object PathSerializer : KSerializer<Path> {
+    override val descriptor: SerialDescriptor = PrimitiveSerialDescriptor("it.unibo.collektive.path.Path", PrimitiveKind.STRING)
+
+    override fun serialize(encoder: Encoder, value: Path) {
+        if (value !is DigestPath) {
+            throw SerializationException("the path '$value' holds objects; use DigestHashingFactory where messages are serialised")
+        }
+        encoder.encodeString(value.digest)
+    }
+
+    override fun deserialize(decoder: Decoder): Path = DigestPath(decoder.decodeString())
+}

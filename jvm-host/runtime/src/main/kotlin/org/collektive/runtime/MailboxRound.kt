@@ -1,0 +1,104 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.runtime
+
+import it.unibo.collektive.aggregate.AggregateResult
+import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.dataSharingMethod
+import it.unibo.collektive.aggregate.api.impl.readable
+import it.unibo.collektive.networking.NeighborsData
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.path.Path
+import it.unibo.collektive.path.PathFactory
+import it.unibo.collektive.state.State
+
+/** One round of a device that reaches its neighbours through messages. */
+internal class MailboxRound<ID : Any>(
+    override val localId: ID,
+    override val inMemoryOnly: Boolean,
+    private val pathFactory: PathFactory,
+    private val previousState: State,
+    private val inbound: NeighborsData<ID>,
+) : Primitives<ID, Path>() {
+    private val stack = ArrayList<Any?>()
+    private val visited = HashSet<Path>()
+    private val newState = LinkedHashMap<Path, Any?>()
+    private val outbound = Envelope(localId)
+    private val neighbors = ascending(inbound.neighbors)
+
+    fun <R> run(program: Aggregate<ID>.() -> R): AggregateResult<ID, R> {
+        val result = program()
+        return AggregateResult(localId, result, outbound, newState)
+    }
+
+    override val depth get() = stack.size
+
+    override fun push(token: Any?) {
+        stack += token
+    }
+
+    override fun popTo(depth: Int) {
+        while (stack.size > depth) stack.removeLast()
+    }
+
+    override fun claimPath(): Path {
+        val path = pathFactory(stack)
+        if (!visited.add(path)) {
+            throw AlignmentClashException(if (stack.isEmpty()) "root" else stack.joinToString(" > ", transform = ::readable))
+        }
+        return path
+    }
+
+    @Suppress("UNCHECKED_CAST")
+    override fun <T> keptAt(path: Path, initial: T): T = if (path in previousState) previousState[path] as T else initial
+
+    override fun keep(path: Path, value: Any?) {
+        newState[path] = value
+    }
+
+    override fun <T> receive(path: Path, local: T, sharing: DataSharingMethod<T>): Field<ID, T> {
+        val received = inbound.dataAt(path, sharing)
+        val aligned = neighbors.filter { it in received }
+        return Field.make(
+            this,
+            Array<Any>(aligned.size, aligned::get),
+            Array<Any?>(aligned.size) { received[aligned[it]] },
+            local,
+        )
+    }
+
+    override fun <T> send(path: Path, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
+        val default = values.local.value
+        val overrides = LinkedHashMap<ID, T>()
+        for ((id, value) in values.neighbors.list) if (value != default) overrides[id] = value
+        outbound.addData(path, SharedData(default, overrides), sharing)
+    }
+
+    override fun <T> sendToAll(path: Path, value: T, sharing: DataSharingMethod<T>) {
+        outbound.addData(path, SharedData(value), sharing)
+    }
+
+    override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
+        val path = pathFactory(stack)
+        val sharing = dataSharingMethod<Unit>()
+        if (visited.add(path)) sendToAll(path, Unit, sharing)
+        val aligned = inbound.dataAt(path, sharing).keys as Set<*>
+        val kept = field.neighbors.list.filter { it.id in aligned }
+        if (kept.size == field.neighbors.size) return field
+        return Field.make(field.context, Array<Any>(kept.size) { kept[it].id }, Array<Any?>(kept.size) { kept[it].value }, field.local.value)
+    }
+
+    private companion object {
+        /** In their natural order, as fields want it of numbers; in the given one when they have none. */
+        fun <ID : Any> ascending(ids: Set<ID>): List<ID> {
+            val type = ids.firstOrNull()?.javaClass
+            if (ids.any { it !is Comparable<*> || it.javaClass != type }) return ids.toList()
+            @Suppress("UNCHECKED_CAST")
+            return ids.sortedWith { a, b -> (a as Comparable<Any>).compareTo(b) }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.runtime
+
+import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.YieldingContext
+import it.unibo.collektive.aggregate.api.YieldingScope
+import it.unibo.collektive.aggregate.api.impl.AlignmentStack
+
+/** What primitives mean, for every way in which devices reach each other; [Path] is how that way names places of the program. */
+internal abstract class Primitives<ID : Any, Path : Any> :
+    Aggregate<ID>,
+    AlignmentStack {
+    /** How many tokens are on the alignment stack. */
+    protected abstract val depth: Int
+
+    /** Pushes [token]. */
+    protected abstract fun push(token: Any?)
+
+    /** Takes the current path for a primitive, or throws [AlignmentClashException]. */
+    protected abstract fun claimPath(): Path
+
+    /** What the last round kept at [path], else [initial]. */
+    protected abstract fun <T> keptAt(path: Path, initial: T): T
+
+    /** Keeps [value] for the next round. */
+    protected abstract fun keep(path: Path, value: Any?)
+
+    /** The field of what aligned neighbours sent to this device at [path]. */
+    protected abstract fun <T> receive(path: Path, local: T, sharing: DataSharingMethod<T>): Field<ID, T>
+
+    /** Sends each neighbour its value of [values], and the local one to others. */
+    protected abstract fun <T> send(path: Path, values: Field<ID, T>, sharing: DataSharingMethod<T>)
+
+    /** Sends [value] to all. */
+    protected abstract fun <T> sendToAll(path: Path, value: T, sharing: DataSharingMethod<T>)
+
+    override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
+        val path = claimPath()
+        val value = transform(keptAt(path, initial))
+        keep(path, value)
+        return value
+    }
+
+    override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
+        val path = claimPath()
+        val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
+        keep(path, kept)
+        return refuseField(result, "evolving")
+    }
+
+    override fun <Shared, Return> exchanging(
+        initial: Shared,
+        dataSharingMethod: DataSharingMethod<Shared>,
+        body: YieldingScope<Field<ID, Shared>, Return>,
+    ): Return {
+        val path = claimPath()
+        val received = receive(path, keptAt(path, initial), dataSharingMethod)
+        val (toSend, result) = YieldingContext<Field<ID, Shared>, Return>().body(received)
+        send(path, toSend, dataSharingMethod)
+        keep(path, toSend.local.value)
+        return result
+    }
+
+    override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared> {
+        val path = claimPath()
+        sendToAll(path, local, dataSharingMethod)
+        return receive(path, local, dataSharingMethod)
+    }
+
+    override fun <R> alignedOn(pivot: Any?, body: () -> R): R {
+        val before = depth
+        push(pivot)
+        try {
+            return refuseField(body(), "alignedOn")
+        } finally {
+            popTo(before)
+        }
+    }
+
+    override fun align(pivot: Any?) = push(pivot)
+
+    override fun dealign() {
+        check(depth > 0) { "dealign() without align()" }
+        popTo(depth - 1)
+    }
+
+    override fun pushToken(token: String): Int = depth.also { push(token) }
+
+    private fun <T> refuseField(result: T, primitive: String): T {
+        check(result !is Field<*, *>) {
+            "$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside"
+        }
+        return result
+    }
+}

@@ -1,0 +1,54 @@
+package org.collektive.runtime.routes
+
+import it.unibo.collektive.aggregate.api.Aggregate
+
+/** One way to run the same devices on the same [Graph]. */
+internal interface Route {
+    val name: String
+
+    /** Makes a device without state. */
+    fun add(id: Int)
+
+    fun remove(id: Int)
+
+    /** Runs one round of [due] at once: what each returned or threw. Those that returned have sent their messages afterwards. */
+    fun round(graph: Graph, due: List<Int>, program: Aggregate<Int>.() -> Any?): Map<Int, Result<Any?>>
+}
+
+/** Directed links and when they were made; when devices last sent. */
+internal class Graph {
+    var now = 0
+    val ids = sortedSetOf<Int>()
+    private val links = HashMap<Int, java.util.TreeMap<Int, Int>>()
+    private val sentAt = HashMap<Int, Int>()
+
+    fun add(id: Int) {
+        ids += id
+        links[id] = java.util.TreeMap()
+    }
+
+    fun remove(id: Int) {
+        ids -= id
+        links.remove(id)
+        sentAt.remove(id)
+        links.values.forEach { it.remove(id) }
+    }
+
+    fun link(from: Int, to: Int) {
+        links.getValue(to).putIfAbsent(from, now)
+    }
+
+    fun cut(from: Int, to: Int) {
+        links.getValue(to).remove(from)
+    }
+
+    fun sent(ids: Collection<Int>) {
+        for (id in ids) sentAt[id] = now
+    }
+
+    /** The devices that [id] has links from, ascending. */
+    fun senders(id: Int): List<Int> = links.getValue(id).keys.toList()
+
+    /** Whether the link was there when [from] sent. */
+    fun wasKnown(from: Int, to: Int): Boolean = links.getValue(to).getValue(from) < (sentAt[from] ?: -1)
+}

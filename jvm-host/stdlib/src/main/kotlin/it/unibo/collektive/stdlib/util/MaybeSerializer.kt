@@ -1,0 +1,23 @@
+package it.unibo.collektive.stdlib.util
+
+import kotlinx.serialization.KSerializer
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.builtins.ListSerializer
+import kotlinx.serialization.descriptors.SerialDescriptor
+import kotlinx.serialization.encoding.Decoder
+import kotlinx.serialization.encoding.Encoder
+
+/** Writes a value as a list of one, none as an empty list. */
+internal class MaybeSerializer<T>(value: KSerializer<T>) : KSerializer<Maybe<T>> {
+    private val values = ListSerializer(value)
+    override val descriptor: SerialDescriptor get() = values.descriptor
+
+    override fun serialize(encoder: Encoder, value: Maybe<T>): Unit =
+        encoder.encodeSerializableValue(values, if (value is Maybe.Some) listOf(value.value) else emptyList())
+
+    override fun deserialize(decoder: Decoder): Maybe<T> {
+        val found = decoder.decodeSerializableValue(values)
+        if (found.size > 1) throw SerializationException("${found.size} values where one or none is expected")
+        return if (found.isEmpty()) Maybe.None else Maybe.Some(found[0])
+    }
+}
