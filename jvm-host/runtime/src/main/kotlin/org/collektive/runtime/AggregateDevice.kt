@@ -113,8 +113,17 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun <T> send(path: PathNode, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
-        for (entry in values.neighbors.list) allow(entry.value, path)
-        running.send(path, values)
+        val default = values.local.value
+        val neighbors = values.neighbors.list
+        var isConstant = true
+        for (index in neighbors.indices) {
+            val value = neighbors[index].value
+            if (value === default) continue
+            isConstant = false
+            allow(value, path)
+        }
+        // Receivers of a constant need not look for their value.
+        running.send(path, if (isConstant) default else values)
     }
 
     override fun <T> sendToAll(path: PathNode, value: T, sharing: DataSharingMethod<T>) {
