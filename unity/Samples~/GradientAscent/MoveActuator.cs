@@ -17,7 +17,7 @@ namespace Collektive.Samples.GradientAscent
         [SerializeField]
         [Min(0.01f)]
         [Tooltip("Seconds in which the body would reach its target if it were fast enough.")]
-        private float reachTime = 0.2f;
+        private float reachTime = 0.5f;
 
         private Rigidbody body;
 

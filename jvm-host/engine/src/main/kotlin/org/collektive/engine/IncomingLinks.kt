@@ -30,10 +30,11 @@ internal class IncomingLinks :
         marks[index] = mark
     }
 
-    /** Makes the link, or gives it new values; `true` when it is new. */
-    fun put(from: Node, length: Float, attenuation: Float, tick: Long): Boolean {
-        val found = indexOf(from.id)
-        val index = if (found >= 0) found else insertLink(from, tick)
+    /** Makes the link, or gives it new values; `true` when it is new. [hint]: see [indexOf]. */
+    fun put(from: Node, length: Float, attenuation: Float, tick: Long, hint: Int): Boolean {
+        val found = indexOf(from.id, hint)
+        val index = if (found >= 0) found else -found - 1
+        if (found < 0) insertLink(index, from, tick)
         lengths[index] = length
         attenuations[index] = attenuation
         return found < 0
@@ -57,8 +58,8 @@ internal class IncomingLinks :
         marks = marks.copyOf(capacity)
     }
 
-    private fun insertLink(from: Node, tick: Long): Int {
-        val index = insert(from)
+    private fun insertLink(index: Int, from: Node, tick: Long) {
+        insertAt(index, from)
         lengths.copyInto(lengths, index + 1, index, size - 1)
         attenuations.copyInto(attenuations, index + 1, index, size - 1)
         since.copyInto(since, index + 1, index, size - 1)
@@ -66,7 +67,6 @@ internal class IncomingLinks :
         since[index] = tick
         marks[index] = 0
         boxedIds = null
-        return index
     }
 
     private companion object {

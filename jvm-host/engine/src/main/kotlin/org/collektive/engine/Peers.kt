@@ -19,6 +19,17 @@ internal open class Peers {
         return keys.binarySearch(id, 0, size)
     }
 
+    /** The same as [indexOf], found at once where [hint], the answer of a while ago, still holds. */
+    fun indexOf(id: Int, hint: Int): Int {
+        val at = if (hint < 0) -hint - 1 else hint
+        val holds = if (hint < 0) {
+            at <= size && (at == 0 || keys[at - 1] < id) && (at == size || keys[at] > id)
+        } else {
+            at < size && keys[at] == id
+        }
+        return if (holds) hint else indexOf(id)
+    }
+
     fun node(index: Int): Node = nodes[index] ?: error("no node at $index of $size")
 
     fun find(id: Int): Node? {
@@ -26,16 +37,17 @@ internal open class Peers {
         return if (index < 0) null else nodes[index]
     }
 
-    /** Enters [node], which is not there yet, and returns where. */
-    fun insert(node: Node): Int {
-        val index = -indexOf(node.id) - 1
+    /** Enters [node], which is not there yet. */
+    fun insert(node: Node) = insertAt(-indexOf(node.id) - 1, node)
+
+    /** Enters [node] where it belongs. */
+    protected fun insertAt(index: Int, node: Node) {
         reserve(size + 1)
         keys.copyInto(keys, index + 1, index, size)
         nodes.copyInto(nodes, index + 1, index, size)
         keys[index] = node.id
         nodes[index] = node
         size++
-        return index
     }
 
     fun removeAt(index: Int) {

@@ -14,6 +14,10 @@ internal class TickValidator(private val nodes: Peers) {
     private var addedCount = 0
     private var newLinks = LongArray(0)
     private var newLinkCount = 0
+    private var places = IntArray(0)
+
+    /** Where link [index] of the tick that was last checked stood, or would go, among those into its receiver: a hint for [Peers.indexOf]. */
+    fun place(index: Int): Int = places[index]
 
     /** @throws TickRefused at the first rule broken. */
     fun check(tick: Tick, expectedNumber: Long) {
@@ -77,9 +81,14 @@ internal class TickValidator(private val nodes: Peers) {
 
     private fun checkLinks(tick: Tick) {
         val list = tick.links
-        if (newLinks.size < list.size) newLinks = LongArray(2 * list.size)
+        if (newLinks.size < list.size) {
+            newLinks = LongArray(2 * list.size)
+            places = IntArray(2 * list.size)
+        }
         newLinkCount = 0
-        for (index in 0 until list.size) checkLink(tick, list.from(index), list.to(index), list.length(index), list.attenuation(index))
+        for (index in 0 until list.size) {
+            places[index] = checkLink(tick, list.from(index), list.to(index), list.length(index), list.attenuation(index))
+        }
         newLinks.sort(0, newLinkCount)
         for (index in 1 until newLinkCount) {
             val key = newLinks[index]
@@ -87,7 +96,7 @@ internal class TickValidator(private val nodes: Peers) {
         }
     }
 
-    private fun checkLink(tick: Tick, from: Int, to: Int, length: Float, attenuation: Float) {
+    private fun checkLink(tick: Tick, from: Int, to: Int, length: Float, attenuation: Float): Int {
         if (from == to) refuse(tick, "node $from cannot be linked to itself")
         val sender = staying(from)
         val receiver = staying(to)
@@ -107,6 +116,7 @@ internal class TickValidator(private val nodes: Peers) {
             if (links.mark(existing) == updated) refuse(tick, "link $from -> $to is given twice")
             links.setMark(existing, updated)
         }
+        return existing
     }
 
     private fun checkDue(tick: Tick) {
