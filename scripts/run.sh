@@ -53,7 +53,7 @@ compile_programs() {
   mkdir -p "$work/java" "$work/classes"
   generator "$schema" --java "$work/java" || return 1
   "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" $(find "$work/java" -name '*.java') || return 1
-  (cd "$work/java" && find . -type f -not -name '*.java' | cpio -pdm --quiet "$work/classes" 2>/dev/null) || cp -R "$work/java/META-INF" "$work/classes/" || return 1
+  cp -R "$work/java/META-INF" "$work/classes/" || return 1
   "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
     -no-stdlib -no-reflect -jvm-target 17 "-Xplugin=$COMPILER_PLUGIN" -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs" || return 1
   "$jdk/bin/jar" --create --file "$work/programs.jar.part" -C "$work/classes" . && mv "$work/programs.jar.part" "$work/programs.jar"

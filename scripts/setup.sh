@@ -34,15 +34,21 @@ install_packages() {
 # The JDK that runs the simulations: the newest of those present, or the one that COLLEKTIVE_JAVA_HOME names.
 find_jdk() {
   local candidate best= best_version=0 version
-  for candidate in ${COLLEKTIVE_JAVA_HOME:-} /usr/lib/jvm/* ${JAVA_HOME:-}; do
-    [ -e "$candidate/lib/server/libjvm.so" ] && [ -e "$candidate/release" ] || continue
+  if [ -n "${COLLEKTIVE_JAVA_HOME:-}" ]; then
+    is_jdk "$COLLEKTIVE_JAVA_HOME" || fail "COLLEKTIVE_JAVA_HOME names no JDK: $COLLEKTIVE_JAVA_HOME has no lib/server/libjvm.so, bin/javac and release"
+    readlink -f "$COLLEKTIVE_JAVA_HOME"
+    return 0
+  fi
+  for candidate in /usr/lib/jvm/* ${JAVA_HOME:-}; do
+    is_jdk "$candidate" || continue
     version=$(sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$candidate/release")
-    [ -n "${COLLEKTIVE_JAVA_HOME:-}" ] && { printf '%s\n' "$candidate"; return 0; }
     if [ "${version:-0}" -gt "$best_version" ]; then best=$candidate best_version=$version; fi
   done
   [ "$best_version" -ge 17 ] || fail "no JDK 17 or newer found: install one (Debian: openjdk-17-jdk-headless) or set COLLEKTIVE_JAVA_HOME"
   readlink -f "$best"
 }
+
+is_jdk() { [ -e "$1/lib/server/libjvm.so" ] && [ -x "$1/bin/javac" ] && [ -e "$1/release" ]; }
 
 setup_flatbuffers() {
   once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers/Cargo.toml") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers

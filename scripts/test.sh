@@ -38,7 +38,7 @@ suite() {
 
 # All JDKs on this machine that the tests run on: the oldest supported and the newest.
 test_jdks() {
-  { for jdk in /usr/lib/jvm/*; do [ -e "$jdk/lib/server/libjvm.so" ] && [ -e "$jdk/release" ] && readlink -f "$jdk"; done; find_jdk; } | sort -u
+  { for jdk in /usr/lib/jvm/*; do if is_jdk "$jdk"; then readlink -f "$jdk"; fi; done; find_jdk; } | sort -u
 }
 
 test_shim() {
