@@ -45,12 +45,6 @@ namespace Collektive.Bridge
         /// <summary>Simulated seconds at the end of the last tick.</summary>
         public double Time { get; private set; }
 
-        /// <summary>Bytes of the last request.</summary>
-        public int RequestBytes { get; private set; }
-
-        /// <summary>Bytes of the last answer.</summary>
-        public int AnswerBytes { get; private set; }
-
         /// <summary>Opens a session on the running JVM.</summary>
         /// <exception cref="BridgeException">A jar, a program or the schema does not fit, or no JVM runs.</exception>
         public static Session Open(SessionSettings settings, DataSchema schema)
@@ -79,9 +73,9 @@ namespace Collektive.Bridge
             builder.Clear();
             Request.Write(builder, Tick + 1, Time, deltaTime);
             var offset = builder.DataBuffer.Position;
-            RequestBytes = builder.DataBuffer.Length - offset;
+            var length = builder.DataBuffer.Length - offset;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
-            Shim.Check(Shim.clk_step(handle, slot.Slot, offset, RequestBytes, limitMs, &answer));
+            Shim.Check(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer));
             Tick++;
             Time += deltaTime;
             Request.Clear();
@@ -159,7 +153,6 @@ namespace Collektive.Bridge
         {
             answerMemory.Point(answer);
             answerBuffer.Position = answer.Offset;
-            AnswerBytes = answer.Length;
         }
     }
 }
