@@ -1,0 +1,26 @@
+using System;
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Native memory of the shim as FlatBuffers reads and writes it. Owned by one session; not thread-safe.</summary>
+    internal abstract unsafe class NativeMemory : ByteBufferAllocator
+    {
+        private byte* address;
+
+        public sealed override Span<byte> Span => new Span<byte>(address, Length);
+
+        public sealed override ReadOnlySpan<byte> ReadOnlySpan => new ReadOnlySpan<byte>(address, Length);
+
+        public sealed override Memory<byte> Memory => throw new NotSupportedException("native memory has no Memory<byte>");
+
+        public sealed override ReadOnlyMemory<byte> ReadOnlyMemory => throw new NotSupportedException("native memory has no Memory<byte>");
+
+        /// <summary>Shows the bytes from <paramref name="first"/> on; null and 0 for none.</summary>
+        protected void Show(byte* first, int length)
+        {
+            address = first;
+            Length = length;
+        }
+    }
+}
