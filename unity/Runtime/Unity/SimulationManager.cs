@@ -260,6 +260,9 @@ namespace Collektive.Unity
             }
             Current = this;
             Failure = "";
+            Digest = 0;
+            accumulated = 0;
+            nextId = 0;
             Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
             modeBefore = Physics.simulationMode;
             Physics.simulationMode = SimulationMode.Script;
@@ -270,6 +273,9 @@ namespace Collektive.Unity
         {
             if (Current != this) return;
             for (var i = nodes.Count - 1; i >= 0; i--) Leave(nodes[i]);
+            // The session takes its nodes and links with it: the next one knows none of them.
+            leaving.Clear();
+            DropLinksOfGone();
             Current = null;
             Physics.simulationMode = modeBefore;
             CloseSession();

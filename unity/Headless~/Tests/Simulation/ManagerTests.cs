@@ -236,6 +236,23 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_manager_that_is_enabled_again_starts_a_new_simulation()
+        {
+            Configure("count");
+            var a = MakeNode(0);
+            var b = MakeNode(0);
+            Manager.AddLink(a.Node.Id, b.Node.Id);
+            Play(3);
+            Manager.enabled = false;
+            Manager.enabled = true;
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            Play(2);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(a.Answer, Is.EqualTo(2));
+            Assert.That(Manager.Tick, Is.EqualTo(2));
+        }
+
+        [Test]
         public void Play_mode_can_be_entered_and_left_fifty_times()
         {
             for (var i = 0; i < 50; i++)
