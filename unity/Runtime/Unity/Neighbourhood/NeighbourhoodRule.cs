@@ -47,7 +47,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Metres, 0 or greater. A link's length is sent to the JVM when it is made, and again when it changed by more than this: in a
-        /// swarm all lengths change a little in each tick, and sending them costs more than the rounds.
+        /// swarm all lengths change a little in each tick, and sending them can cost as much as the rounds.
         /// </summary>
         public float LengthTolerance
         {
