@@ -5,7 +5,7 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.api.Philox
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 import org.collektive.schema.Vector3T
 import org.junit.jupiter.api.Test
@@ -15,10 +15,11 @@ import kotlin.test.assertEquals
 class GradientAscentTest {
     private val runtimes = AggregateRuntimes()
     private val devices = List(2) { runtimes.device(it) }
+    private val exports = arrayOfNulls<Export>(2)
 
     private fun round(id: Int, neighbor: Int?, sensors: SensorData, step: String = "1.0"): List<Float> {
         val target = (devices[id].round(inbox(neighbor)) { it.gradientAscent(sensors, device(id, step)) } as ActuatorDataT).target
-        devices[id].commit()
+        exports[id] = devices[id].commit()
         return listOf(target.x, target.y, target.z)
     }
 
@@ -64,7 +65,7 @@ class GradientAscentTest {
         override val size = if (neighbor == null) 0 else 1
         override val ids: Array<Any> = if (neighbor == null) emptyArray() else arrayOf(neighbor)
 
-        override fun sender(index: Int): DeviceRuntime = devices[checkNotNull(neighbor)]
+        override fun export(index: Int) = exports[checkNotNull(neighbor)]
 
         override fun wasKnown(index: Int) = true
     }

@@ -159,7 +159,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     private fun commit(node: Node) {
-        node.runtime.commit()
+        node.export = node.runtime.commit()
         node.sentAt = lastTick
     }
 

@@ -1,6 +1,6 @@
 package org.collektive.engine
 
-import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 
 /** The links into one node, ascending by the sender's id, with their values. */
@@ -20,7 +20,7 @@ internal class IncomingLinks :
     override val ids: Array<Any>
         get() = boxedIds ?: Array<Any>(size) { node(it).boxedId }.also { boxedIds = it }
 
-    override fun sender(index: Int): DeviceRuntime = node(index).runtime
+    override fun export(index: Int): Export? = node(index).export
 
     override fun wasKnown(index: Int): Boolean = since[index] <= node(index).sentAt
 

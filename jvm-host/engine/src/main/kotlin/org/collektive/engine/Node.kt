@@ -4,6 +4,7 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.api.Philox
 import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Export
 import kotlin.random.Random
 
 /** One node of a session: its links, its program, its device. */
@@ -20,7 +21,10 @@ internal class Node(
     val incoming = IncomingLinks()
     val outgoing = Peers()
 
-    /** Tick of the last round that gave an answer; 0 before. */
+    /** What the last round that gave an answer sent; `null` before. */
+    var export: Export? = null
+
+    /** Tick of that round; 0 before. */
     var sentAt = 0L
 
     /** Last validation that removes this node: see TickValidator. */

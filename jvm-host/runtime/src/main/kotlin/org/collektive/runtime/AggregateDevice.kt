@@ -10,7 +10,8 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 
 /**
- * One device: the alignment stack of the running round, and two records, of the last valid round and of the running one.
+ * One device: the alignment stack of the running round, the records of the last valid round and of the running one, and those that
+ * neighbours still hold.
  *
  * Generic in [ID] so that ids stay the one boxed object they were made as.
  */
@@ -24,6 +25,7 @@ internal class AggregateDevice<ID : Any>(
 
     private var valid = RoundRecord()
     private var running = RoundRecord()
+    private val older = ArrayList<RoundRecord>(0)
     private var inbox: Inbox? = null
 
     // tokens[0 until depth] is the stack; nodes[0..resolved] are the paths of its prefixes found so far, so that pivots around no
@@ -42,13 +44,30 @@ internal class AggregateDevice<ID : Any>(
         return program.run(this as Aggregate<Int>)
     }
 
-    override fun commit() {
+    override fun commit(): Export {
         val last = valid
         valid = running
-        running = last
+        running = if (last.isHeld) insteadOf(last) else last
+        return valid
     }
 
-    fun forEachPath(action: (PathNode) -> Unit) = valid.forEachPath(action)
+    /** A record for the next round, while [held] stays as it is. */
+    private fun insteadOf(held: RoundRecord): RoundRecord {
+        for (index in older.indices) {
+            val record = older[index]
+            if (record.isHeld) continue
+            older[index] = held
+            return record
+        }
+        older += held
+        return RoundRecord()
+    }
+
+    /** Paths that a neighbour can still see, or the next round of this device. */
+    fun forEachPath(action: (PathNode) -> Unit) {
+        valid.forEachPath(action)
+        for (record in older) if (record.isHeld) record.forEachPath(action)
+    }
 
     override fun push(token: Any?) {
         if (depth == tokens.size) {
@@ -97,7 +116,8 @@ internal class AggregateDevice<ID : Any>(
         var ids = allIds
         var count = 0
         for (index in 0 until size) {
-            val value = (inbox.sender(index) as AggregateDevice<*>).sentTo(this, path, inbox.wasKnown(index))
+            val export = inbox.export(index) as RoundRecord?
+            val value = if (export == null) RoundRecord.Nothing else export.sentTo(localId, path, inbox.wasKnown(index))
             if (value === RoundRecord.Nothing) {
                 if (ids === allIds) ids = allIds.copyOf()
             } else {
@@ -141,18 +161,11 @@ internal class AggregateDevice<ID : Any>(
         var link = 0
         for (entry in entries) {
             while (inbox.ids[link] != entry.id) link++
-            if ((inbox.sender(link) as AggregateDevice<*>).valid.sentAt(path) !== RoundRecord.Nothing) kept += entry
+            val export = inbox.export(link) as RoundRecord?
+            if (export != null && export.sentAt(path) !== RoundRecord.Nothing) kept += entry
         }
         if (kept.size == entries.size) return field
         return Field.make(field.context, Array<Any>(kept.size) { kept[it].id }, Array<Any?>(kept.size) { kept[it].value }, field.local.value)
-    }
-
-    private fun sentTo(receiver: AggregateDevice<*>, path: PathNode, receiverWasKnown: Boolean): Any? {
-        val value = valid.sentAt(path)
-        if (value !is Field<*, *>) return value
-        @Suppress("UNCHECKED_CAST")
-        val field = value as Field<Any, Any?>
-        return if (receiverWasKnown) field.getOrLocal(receiver.localId) else field.local.value
     }
 
     private fun allow(value: Any?, path: PathNode) {

@@ -2,11 +2,7 @@ package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.api.Aggregate
 
-/**
- * What the engine needs of an implementation of the Collektive API: the rounds of one device.
- *
- * One thread at a time; others may read what the last [commit] made visible, but not during [commit].
- */
+/** What the engine needs of an implementation of the Collektive API: the rounds of one device. One thread at a time. */
 public interface DeviceRuntime {
     /**
      * Runs one round. State and messages stay as they were until [commit], whether [program] returns or throws.
@@ -15,8 +11,12 @@ public interface DeviceRuntime {
      */
     public fun round(inbox: Inbox, program: RoundProgram): Any?
 
-    /** Makes the state and the messages of the last round the valid ones. */
-    public fun commit()
+    /**
+     * Makes the state of the last round the valid one and returns what that round sends.
+     *
+     * The result may be read until the next [commit], and longer while someone [holds][Export.hold] it.
+     */
+    public fun commit(): Export
 }
 
 /** The links into a device, ascending by the sender's id. */
@@ -27,10 +27,10 @@ public interface Inbox {
     /** The senders' ids, exactly [size]; shared, never changed in place. */
     public val ids: Array<Any>
 
-    /** The sender of link [index]. */
-    public fun sender(index: Int): DeviceRuntime
+    /** What link [index] brought last; `null`: nothing yet, or nothing that is valid still. */
+    public fun export(index: Int): Export?
 
-    /** Whether link [index] was there when its sender sent; if not, it gets the message's default. */
+    /** Whether link [index] was there when its export was sent; if not, it gets the export's default. */
     public fun wasKnown(index: Int): Boolean
 }
 

@@ -1,7 +1,12 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
 package org.collektive.runtime
 
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+
 /** What one round of a device left behind: per path the value kept and the value sent. */
-internal class RoundRecord {
+internal class RoundRecord : Export() {
     private var paths = arrayOfNulls<PathNode>(INITIAL)
     private var kept = arrayOfNulls<Any?>(INITIAL)
     private var sent = arrayOfNulls<Any?>(INITIAL)
@@ -48,6 +53,15 @@ internal class RoundRecord {
     fun sentAt(path: PathNode): Any? {
         val index = slotOf(path)
         return if (paths[index] === path) sent[index] else Nothing
+    }
+
+    /** What the device [receiver] gets at [path], or [Nothing]; the default unless the sender knew it ([wasKnown]). */
+    fun sentTo(receiver: Any, path: PathNode, wasKnown: Boolean): Any? {
+        val value = sentAt(path)
+        if (value !is Field<*, *>) return value
+        @Suppress("UNCHECKED_CAST")
+        val field = value as Field<Any, Any?>
+        return if (wasKnown) field.getOrLocal(receiver) else field.local.value
     }
 
     inline fun forEachPath(action: (PathNode) -> Unit) {

@@ -47,7 +47,7 @@ internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { nu
         }
         for ((id, result) in results) {
             if (result.isSuccess) {
-                members.getValue(id).runtime.commit()
+                members.getValue(id).run { export = runtime.commit() }
                 members.getValue(id).sentAt = now
             }
         }
@@ -61,11 +61,12 @@ internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { nu
     private inner class Member(val id: Int, val runtime: DeviceRuntime) : Inbox {
         /** Sender to the round after which its link was made. */
         val since = sortedMapOf<Int, Int>()
+        var export: Export? = null
         var sentAt = 0
 
         override val size get() = since.size
         override val ids: Array<Any> get() = since.keys.toTypedArray()
-        override fun sender(index: Int) = members.getValue(since.keys.elementAt(index)).runtime
+        override fun export(index: Int) = members.getValue(since.keys.elementAt(index)).export
 
         override fun wasKnown(index: Int): Boolean {
             val sender = since.keys.elementAt(index)

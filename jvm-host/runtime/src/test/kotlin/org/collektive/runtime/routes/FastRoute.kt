@@ -3,6 +3,7 @@ package org.collektive.runtime.routes
 import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 import java.util.concurrent.Callable
 import java.util.concurrent.Executors
@@ -12,6 +13,7 @@ internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
     override val name = "in place, $threads threads"
     private val runtimes = AggregateRuntimes()
     private val devices = sortedMapOf<Int, DeviceRuntime>()
+    private val exports = HashMap<Int, Export>()
     private val pool = Executors.newFixedThreadPool(threads)
 
     override fun add(id: Int) {
@@ -20,6 +22,7 @@ internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
 
     override fun remove(id: Int) {
         devices.remove(id)
+        exports.remove(id)
     }
 
     override fun round(graph: Graph, due: List<Int>, program: Aggregate<Int>.() -> Any?): Map<Int, Result<Any?>> {
@@ -29,7 +32,7 @@ internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
             Callable { runCatching { devices.getValue(id).round(inbox) { it.program() } } }
         }
         val results = due.zip(pool.invokeAll(tasks).map { it.get() }).toMap()
-        for ((id, result) in results) if (result.isSuccess) devices.getValue(id).commit()
+        for ((id, result) in results) if (result.isSuccess) exports[id] = devices.getValue(id).commit()
         return results
     }
 
@@ -39,7 +42,7 @@ internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
         private val senders = graph.senders(receiver)
         override val size get() = senders.size
         override val ids = senders.toTypedArray<Any>()
-        override fun sender(index: Int) = devices.getValue(senders[index])
+        override fun export(index: Int) = exports[senders[index]]
         override fun wasKnown(index: Int) = graph.wasKnown(senders[index], receiver)
     }
 }

@@ -8,6 +8,7 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.runtime.DeviceRuntime
+import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 import kotlin.random.Random
 
@@ -72,8 +73,10 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
                 results[id] = member.runtime.round(member) { it.program() } as R
             }
             for (id in wave) {
-                members.getValue(id).runtime.commit()
-                members.getValue(id).sentAt = now
+                members.getValue(id).run {
+                    export = runtime.commit()
+                    sentAt = now
+                }
             }
         }
         return results
@@ -95,11 +98,12 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
 
     private inner class Member(val id: Int, val runtime: DeviceRuntime) : Inbox {
         val links = sortedMapOf<Int, Link>()
+        var export: Export? = null
         var sentAt = 0
 
         override val size get() = links.size
         override val ids: Array<Any> get() = links.keys.toTypedArray()
-        override fun sender(index: Int) = members.getValue(links.keys.elementAt(index)).runtime
+        override fun export(index: Int) = members.getValue(links.keys.elementAt(index)).export
 
         override fun wasKnown(index: Int): Boolean {
             val sender = links.keys.elementAt(index)

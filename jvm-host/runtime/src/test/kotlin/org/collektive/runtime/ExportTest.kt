@@ -1,0 +1,73 @@
+package org.collektive.runtime
+
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.toMap
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertSame
+
+class ExportTest {
+    private val runtimes = AggregateRuntimes()
+    private val sender = runtimes.device(1)
+    private val receiver = runtimes.device(2)
+
+    private fun send(value: Int): Export {
+        sender.round(inboxOf(null)) { it.neighboring(value) }
+        return sender.commit()
+    }
+
+    private fun received(export: Export?) = receiver.round(inboxOf(export)) { it.neighboring(0).neighbors.toMap() }
+
+    private fun inboxOf(held: Export?) = object : Inbox {
+        override val size = 1
+        override val ids = arrayOf<Any>(1)
+
+        override fun export(index: Int) = held
+
+        override fun wasKnown(index: Int) = true
+    }
+
+    @Test
+    fun `a link that brought nothing aligns nobody`() = assertEquals<Any?>(emptyMap<Int, Int>(), received(null))
+
+    @Test
+    fun `an export that is held stays as it was sent`() {
+        val held = List(5) { value -> send(value).also(Export::hold) }
+        repeat(10) { send(100 + it) }
+        for (value in held.indices) assertEquals<Any?>(mapOf(1 to value), received(held[value]))
+    }
+
+    @Test
+    fun `paths of a held export outlive a tidying`() {
+        val held = send(7).also(Export::hold)
+        repeat(5000) { turn ->
+            sender.round(inboxOf(null)) { it.alignedOn(turn) { it.neighboring(0).local.value } }
+            sender.commit()
+            runtimes.tidy(listOf(sender, receiver))
+        }
+        assertEquals<Any?>(mapOf(1 to 7), received(held))
+    }
+
+    @Test
+    fun `no more exports are made than are held, and two`() {
+        val made = HashSet<Export>()
+        val last = ArrayDeque<Export>()
+        repeat(50) { value ->
+            val export = send(value).also(Export::hold)
+            made += export
+            last.addLast(export)
+            if (last.size > 3) last.removeFirst().release()
+        }
+        assertEquals(5, made.size)
+        last.forEach(Export::release)
+        val next = send(0)
+        send(1)
+        assertSame(next, send(2))
+    }
+
+    @Test
+    fun `releasing more often than holding is an error`() {
+        assertFailsWith<IllegalStateException> { send(0).release() }
+    }
+}
