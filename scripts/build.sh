@@ -2,6 +2,7 @@
 
 SHIM="$BUILD/cmake/native-shim"
 HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
+SAMPLES_JAR="$ROOT/jvm-host/programs/target/collektive-programs.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
 COMPILER_PLUGIN="$ROOT/jvm-host/compiler-plugin/target/compiler-plugin-0.1.0.jar"
 NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
@@ -49,13 +50,21 @@ build_csharp() {
   setup_flatbuffers
   mkdir -p "$CSHARP"
   local unity="$ROOT/unity"
-  assembly Collektive.FlatBuffers.dll "" "$FLATBUFFERS/net/FlatBuffers" -- $GENERATED_CODE_SYMBOLS -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618
+  assembly Collektive.FlatBuffers.dll "" "$FLATBUFFERS/net/FlatBuffers" -- $GENERATED_CODE_SYMBOLS -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-
   assembly Collektive.Bridge.dll "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Bridge" -- $GENERATED_CODE_SYMBOLS
   assembly UnityEngine.dll "" "$unity/Headless~/UnityEngine" -- -unsafe+
   assembly Collektive.Unity.dll "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll" "$unity/Runtime/Unity"
   assembly Collektive.Player.exe \
     "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $NEWTONSOFT" \
     "$unity/Headless~/Player" "$unity/Headless~/Replay" -- -target:exe
+}
+
+# Prints what Unity would serialise of all components, those of the samples too.
+serialized_fields() {
+  local references="$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll"
+  assembly Collektive.Samples.dll "$references" "$ROOT/unity/Samples~"
+  assembly Collektive.SerializedFields.exe "$CSHARP/UnityEngine.dll" "$ROOT/unity/Headless~/SerializedFields" -- -target:exe
+  managed mono-sgen "$CSHARP/Collektive.SerializedFields.exe" "$CSHARP/Collektive.Unity.dll" "$CSHARP/Collektive.Samples.dll"
 }
 
 build_replay_page() {

@@ -9,6 +9,11 @@ import os
 import re
 import sys
 
+# In a package two kinds of files come from the build. The native library is for one platform, the managed one for all.
+PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
+          "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
+          "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
+PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
 PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
 # Samples are copied into a project with their metas when the user imports them.
 IMPORTED = ["unity", "unity/Samples~"]
@@ -17,7 +22,16 @@ IMPORTERS = {
            "  icon: {instanceID: 0}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".asmdef": "AssemblyDefinitionImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".md": "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
-    ".json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".mat": "NativeFormatImporter:\n  externalObjects: {}\n  mainObjectFileID: 2100000\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".prefab": "PrefabImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".shader": "ShaderImporter:\n  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n  preprocessorOverride: 0\n"
+               "  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".dll": PLUGIN % (PLATFORM % ("Any: ", 1, " {}") + PLATFORM % ("Editor: Editor", 0, "\n        DefaultValueInitialized: true")),
+    ".so": PLUGIN % (PLATFORM % ("Any: ", 0, " {}")
+                     + PLATFORM % ("Editor: Editor", 1, "\n        CPU: x86_64\n        DefaultValueInitialized: true\n        OS: Linux")
+                     + PLATFORM % ("Standalone: Linux64", 1, "\n        CPU: x86_64")),
+    ".json": "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    "package.json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
 }
 DEFAULT = "DefaultImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 
@@ -36,13 +50,18 @@ def assets(root):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 
+def guid_for(asset):
+    """The GUID that a new asset gets."""
+    return hashlib.md5(("org.collektive.unity/" + asset.replace(os.sep, "/")).encode()).hexdigest()
+
+
 def meta_of(root, asset):
     path = os.path.join(root, asset)
-    guid = hashlib.md5(("org.collektive.unity/" + asset.replace(os.sep, "/")).encode()).hexdigest()
-    head = f"fileFormatVersion: 2\nguid: {guid}\n"
+    head = f"fileFormatVersion: 2\nguid: {guid_for(asset)}\n"
     if os.path.isdir(path):
         return head + "folderAsset: yes\n" + DEFAULT
-    return head + IMPORTERS.get(os.path.splitext(asset)[1], DEFAULT)
+    name = os.path.basename(asset)
+    return head + IMPORTERS.get(name, IMPORTERS.get(os.path.splitext(name)[1], DEFAULT))
 
 
 def problems(root):

@@ -73,7 +73,7 @@ fetch_flatbuffers() {
 # CMake builds the shim and flatc in one tree; flatc alone is enough for code generation.
 setup_flatc() {
   setup_flatbuffers
-  once flatc "$(cat "$BUILD/stamp/flatbuffers")" build_flatc
+  once flatc "$(cat "$BUILD/stamp/flatbuffers") $(declare -f cmake_configure | sha256sum)" build_flatc
 }
 
 build_flatc() {
@@ -82,6 +82,7 @@ build_flatc() {
 
 cmake_configure() {
   cmake -S "$ROOT" -B "$BUILD/cmake" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_C_FLAGS="-ffile-prefix-map=$ROOT=." -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$ROOT=." \
     -DCOLLEKTIVE_FLATBUFFERS="$FLATBUFFERS" -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
 }
 

@@ -6,7 +6,7 @@ help_test() {
   cat <<'H'
 usage: ./collektive test [SUITE]...
 
-Builds and tests everything, or the suites named: shim, jvm, csharp, roundtrip, page, acceptance.
+Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance.
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed.
 H
 }
@@ -100,6 +100,11 @@ csharp_tests() {
     managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll"
 }
 
+test_assets() {
+  serialized_fields >"$BUILD/serialized-fields.txt" || return 1
+  python3 "$ROOT/scripts/validator/tests.py" "$ROOT" "$BUILD/serialized-fields.txt"
+}
+
 test_acceptance() {
   python3 "$ROOT/scripts/acceptance/acceptance.py" "$ROOT"
 }
@@ -107,7 +112,7 @@ test_acceptance() {
 wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
 
 cmd_test() {
-  local known="shim jvm csharp roundtrip page acceptance" name jdk
+  local known="shim jvm csharp assets roundtrip page acceptance" name jdk
   SUITES=("$@")
   for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
   setup_system
@@ -123,6 +128,7 @@ cmd_test() {
     build_csharp_tests
     for jdk in $(test_jdks); do suite "csharp-on-$(basename "$jdk")" csharp_tests mono-sgen "$jdk"; done
   fi
+  if wanted assets; then suite assets test_assets; fi
   if wanted roundtrip; then suite roundtrip bash "$ROOT/schema/test/roundtrip.sh"; fi
   if wanted page || wanted acceptance; then build_replay_page; fi
   if wanted acceptance; then suite acceptance test_acceptance; fi

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Uses ./collektive as its users do. `acceptance.py ROOT [unittest arguments]`; the last line is "N passed, N failed"."""
 import csv
+import hashlib
 import json
 import os
 import re
@@ -61,10 +62,9 @@ class TheCommand(unittest.TestCase):
         self.assertIn("--nonesuch", last_error(result))
 
     def test_what_comes_later_says_so(self):
-        for command in ["bench", "package"]:
-            result = collektive(command)
-            self.assertEqual(result.returncode, 2)
-            self.assertIn("later", result.stderr)
+        result = collektive("bench")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("later", result.stderr)
 
 
 class TheDemo(Folder):
@@ -384,6 +384,86 @@ class Generated(Folder):
             self.assertIn(word, result.stderr, name)
 
 
+class ThePackage(unittest.TestCase):
+    """The tarball, unpacked into a project of its own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="collektive-package-")
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        result = collektive("package", "--out", cls.folder)
+        if result.returncode != 0:
+            raise AssertionError(result.stderr)
+        cls.archive = result.stdout.strip()
+        cls.root = os.path.join(cls.folder, "project/Packages/org.collektive.unity")
+        os.makedirs(cls.root)
+        subprocess.run(["tar", "-xzf", cls.archive, "-C", cls.root, "--strip-components=1"], check=True)
+
+    def packed(self):
+        return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
+
+    def test_it_holds_what_unity_needs_and_nothing_else(self):
+        # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
+        left_out = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
+        wanted = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not left_out.fullmatch(path)}
+        built = ["Jvm~/collektive-host.jar", "Jvm~/collektive-samples.jar", "Runtime/Plugins/Collektive.FlatBuffers.dll",
+                 "Runtime/Plugins/linux-x64/libcollektive_shim.so", "Samples~/GradientAscent/Programs/GradientAscent.kt",
+                 "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
+        wanted |= {"unity/" + path for path in built}
+        wanted |= {path + ".meta" for path in metas.assets(self.root)}
+        extra = [path for path in self.packed() - wanted if not re.match(r"unity/Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
+        self.assertEqual(extra, [])
+        self.assertEqual(sorted(wanted - self.packed()), [])
+
+    def test_every_asset_has_its_meta(self):
+        self.assertEqual(list(metas.problems(self.root)), [])
+
+    def test_its_plugins_are_for_the_platforms_that_they_run_on(self):
+        with open(os.path.join(self.root, "unity/Runtime/Plugins/linux-x64/libcollektive_shim.so.meta")) as file:
+            native = file.read()
+        self.assertRegex(native, r"Any: \n    second:\n      enabled: 0")
+        self.assertRegex(native, r"Editor: Editor\n    second:\n      enabled: 1\n      settings:\n        CPU: x86_64\n .*\n        OS: Linux")
+        self.assertRegex(native, r"Standalone: Linux64\n    second:\n      enabled: 1")
+
+    def test_the_same_sources_give_the_same_bytes(self):
+        first = digest(self.archive)
+        again = os.path.join(self.folder, "again")
+        self.assertEqual(collektive("package", "--out", again).returncode, 0)
+        self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
+
+    def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self):
+        project = os.path.join(self.folder, "project")
+        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, project], check=True, capture_output=True)
+        sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
+        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample, "schema": sample + "/gradient_ascent.fbs",
+                    "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar", "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
+        with open(os.path.join(project, "scenario.json"), "w") as file:
+            json.dump(scenario, file)
+        # No file of the project and no variable says where the clone is.
+        self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, project], capture_output=True, text=True).stdout, "")
+        jdk = subprocess.run(["bash", "-c", f'ROOT="{ROOT}"; . "$ROOT/scripts/lib.sh"; . "$ROOT/scripts/setup.sh"; find_jdk'], capture_output=True, text=True).stdout.strip()
+        environment = {"PATH": "/usr/bin:/bin", "HOME": project, "JAVA_HOME": jdk,
+                       "LD_LIBRARY_PATH": os.path.join(self.root, "unity/Runtime/Plugins/linux-x64")}
+        result = subprocess.run(
+            ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
+             "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"],
+            cwd=project, env=environment, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with open(os.path.join(project, "out/manifest.json")) as file:
+            ran = json.load(file)
+        self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
+
+    def test_unknown_arguments_are_named(self):
+        result = collektive("package", "--nonesuch")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--nonesuch", last_error(result))
+
+
+def digest(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
 class TheHouse(unittest.TestCase):
     def test_the_core_knows_no_case_study(self):
         core = ["schema", "native-shim", "unity/Runtime", "unity/Headless~/UnityEngine", "unity/Headless~/Player"]
@@ -397,26 +477,6 @@ class TheHouse(unittest.TestCase):
                     with open(path, errors="replace") as file:
                         match = words.search(file.read())
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
-
-    def test_every_asset_has_its_meta(self):
-        self.assertEqual(list(metas.problems(ROOT)), [])
-
-    def test_the_package_holds_what_unity_needs_and_nothing_else(self):
-        result = subprocess.run(["npm", "pack", "--dry-run", "--json"], cwd=ROOT, capture_output=True, text=True, check=True)
-        packed = {file["path"] for file in json.loads(result.stdout)[0]["files"]}
-        wanted = {asset for asset in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, asset))}
-        wanted |= {asset + ".meta" for asset in metas.assets(ROOT)}
-        self.assertEqual(sorted(wanted - packed), [])
-        extra = [path for path in packed - wanted if not path.startswith(("unity/Samples~/", "unity/Documentation~/"))]
-        self.assertEqual(extra, [])
-
-    def test_the_manifest_is_a_valid_package(self):
-        with open(os.path.join(ROOT, "package.json")) as file:
-            package = json.load(file)
-        self.assertRegex(package["name"], r"^[a-z0-9._-]+$")
-        self.assertRegex(package["version"], r"^\d+\.\d+\.\d+$")
-        for sample in package["samples"]:
-            self.assertTrue(os.path.isdir(os.path.join(ROOT, sample["path"])), sample["path"])
 
     def test_each_requirement_is_mapped_to_tests_that_exist(self):
         with open(os.path.join(ROOT, "docs/requirements.md")) as file:

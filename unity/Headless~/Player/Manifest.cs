@@ -74,7 +74,7 @@ namespace Collektive.Headless
             {
                 foreach (var jar in jars)
                 {
-                    hashes.Add(Path.GetFileName(jar), BitConverter.ToString(sha.ComputeHash(File.ReadAllBytes(jar))).Replace("-", "").ToLowerInvariant());
+                    hashes.Add(Path.GetFileName(jar), BitConverter.ToString(sha.ComputeHash(File.ReadAllBytes(Installation.PathOf(jar)))).Replace("-", "").ToLowerInvariant());
                 }
             }
             return hashes;

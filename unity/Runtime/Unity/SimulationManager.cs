@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
-using System.IO;
 using Collektive.Bridge;
 using UnityEngine;
 using Debug = UnityEngine.Debug;
@@ -329,7 +328,7 @@ namespace Collektive.Unity
         private SessionSettings SettingsOfSession()
         {
             var jars = new string[settings.jars.Count];
-            for (var i = 0; i < jars.Length; i++) jars[i] = Path.GetFullPath(settings.jars[i]);
+            for (var i = 0; i < jars.Length; i++) jars[i] = Installation.PathOf(settings.jars[i]);
             return new SessionSettings
             {
                 Seed = settings.seed,

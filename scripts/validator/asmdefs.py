@@ -1,0 +1,73 @@
+"""Assembly definitions: names, references, platforms, and that every C# file of the package belongs to one."""
+import json
+import os
+
+# Assemblies and plugins that Unity's own packages bring.
+UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
+UNITY_PLUGINS = {"nunit.framework.dll"}
+# What the build puts into the package.
+BUILT_PLUGINS = {"Collektive.FlatBuffers.dll"}
+PLATFORMS = {"Editor", "LinuxStandalone64", "macOSStandalone", "WindowsStandalone64"}
+
+
+def problems(assets):
+    definitions = {}
+    for path in assets.with_ending(".asmdef"):
+        try:
+            definition = json.loads(assets.read(path))
+        except json.JSONDecodeError as error:
+            yield f"{path}:{error.lineno}: not valid JSON: {error.msg}"
+            continue
+        name = definition.get("name", "")
+        if name != os.path.basename(path)[:-len(".asmdef")]:
+            yield f"{path}: its name is '{name}': file and assembly must have one name"
+        if name in definitions:
+            yield f"{path}: the name '{name}' is that of {definitions[name][0]} too"
+        definitions[name] = (path, definition)
+    for name, (path, definition) in sorted(definitions.items()):
+        yield from of_one(name, path, definition, definitions)
+    yield from cycles(definitions)
+    yield from homeless(assets, definitions)
+
+
+def of_one(name, path, definition, definitions):
+    for reference in definition.get("references", []):
+        if reference not in definitions and reference not in UNITY_ASSEMBLIES:
+            yield f"{path}: refers to the assembly '{reference}', which is not in the package"
+    for plugin in definition.get("precompiledReferences", []):
+        if plugin not in BUILT_PLUGINS | UNITY_PLUGINS:
+            yield f"{path}: refers to the plugin '{plugin}', which is not in the package"
+    if definition.get("precompiledReferences") and not definition.get("overrideReferences"):
+        yield f"{path}: names plugins, which Unity ignores without overrideReferences"
+    platforms = set(definition.get("includePlatforms", []))
+    if not platforms or platforms - PLATFORMS:
+        yield f"{path}: its platforms are {sorted(platforms)}: they must be some of {sorted(PLATFORMS)}"
+    folders = path.split("/")
+    if ("Editor" in folders) != (platforms == {"Editor"}):
+        yield f"{path}: code for the editor lies below a folder Editor and has only the platform Editor"
+    is_test = "Tests" in folders
+    if is_test != ("UNITY_INCLUDE_TESTS" in definition.get("defineConstraints", [])):
+        yield f"{path}: tests lie below a folder Tests and have the constraint UNITY_INCLUDE_TESTS"
+    if is_test and "nunit.framework.dll" not in definition.get("precompiledReferences", []):
+        yield f"{path}: tests refer to nunit.framework.dll"
+
+
+def cycles(definitions):
+    for name in sorted(definitions):
+        seen, open_names = set(), list(definitions[name][1].get("references", []))
+        while open_names:
+            reference = open_names.pop()
+            if reference == name:
+                yield f"{definitions[name][0]}: refers to itself, over others"
+                break
+            if reference in definitions and reference not in seen:
+                seen.add(reference)
+                open_names += definitions[reference][1].get("references", [])
+
+
+def homeless(assets, definitions):
+    """C# that Unity would compile into the users' own assembly."""
+    homes = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
+    for path in assets.with_ending(".cs"):
+        if not any(path.startswith(home) for home in homes):
+            yield f"{path}: belongs to no assembly definition"
