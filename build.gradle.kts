@@ -146,6 +146,7 @@ project(":host") {
         "api"(project(":engine"))
         "api"(project(":stdlib"))
         "testImplementation"(project(":generator"))
+        "testImplementation"("org.jetbrains.kotlin:abi-tools:$kotlinVersion")
     }
     val folder = layout.buildDirectory.dir("generated/flatbuffers")
     generatedJava("frames", folder, file("$rootDir/schema/frame.fbs")) {

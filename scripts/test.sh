@@ -7,7 +7,8 @@ help_test() {
 usage: ./collektive test [SUITE]...
 
 Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance.
-The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed.
+The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. A changed public API of the JVM
+side fails the suite jvm, which then shows the difference from jvm-host/*/api/*.api and the command that accepts it.
 H
 }
 

@@ -40,7 +40,7 @@ internal class FingerprintTest {
     private fun fingerprint(fields: String) = Fingerprint.of(read("", fields).sensor)
 
     private fun read(before: String, fields: String): UserSchema {
-        val folder = Files.createTempDirectory("fingerprint-test")
+        val folder = Workshop.newFolder()
         val file = Files.writeString(
             folder.resolve("user.fbs"),
             "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }",

@@ -11,8 +11,8 @@ import kotlin.test.assertTrue
 internal class GeneratedTextTest {
     @Test
     fun `the same schema gives the same files, whatever folder it lies in`() {
-        val first = Files.createTempDirectory("one")
-        val second = Files.createTempDirectory("two")
+        val first = Workshop.newFolder()
+        val second = Workshop.newFolder()
         val copy = Files.createDirectories(second.resolve("elsewhere"))
         for (file in Workshop.files(Workshop.testSchemas).filter { "$it".endsWith(".fbs") }) {
             val target = copy.resolve(Workshop.testSchemas.relativize(file).toString())
@@ -53,7 +53,7 @@ internal class GeneratedTextTest {
 
     @Test
     fun `a file whose text did not change keeps its time`() {
-        val output = Files.createTempDirectory("generator-test")
+        val output = Workshop.newFolder()
         val schema = Workshop.testSchemas.resolve("globals.fbs")
         Workshop.generate(schema, output)
         val times = Workshop.files(output).associateWith { Files.getLastModifiedTime(it) }
@@ -65,11 +65,11 @@ internal class GeneratedTextTest {
     @Test
     fun `the code that is committed for Unity is what the generator makes`() {
         for (schema in Workshop.files(Workshop.root.resolve("unity/Samples~")).filter { "$it".endsWith(".fbs") }) {
-            val output = Files.createTempDirectory("generator-test")
+            val output = Workshop.newFolder()
             Workshop.generate(schema, output)
             assertEquals(texts(output.resolve("csharp")), committed(schema.parent.resolve("Generated")), "run ./collektive generate $schema")
         }
-        val output = Files.createTempDirectory("generator-test")
+        val output = Workshop.newFolder()
         val flatc = Flatc(Workshop.flatc, listOf(Workshop.root.resolve("schema")))
         listOf("types.fbs", "frame.fbs").forEach { flatc.csharp(Workshop.root.resolve("schema/$it"), output) }
         assertEquals(texts(output), committed(Workshop.root.resolve("unity/Runtime/Bridge/Generated")), "run flatc on schema/")

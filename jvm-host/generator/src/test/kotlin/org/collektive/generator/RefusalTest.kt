@@ -67,7 +67,7 @@ internal class RefusalTest {
 
     @Test
     fun `a refused schema leaves no files`() {
-        val folder = Files.createTempDirectory("generator-test")
+        val folder = Workshop.newFolder()
         val schema = Files.writeString(folder.resolve("user.fbs"), user("union U { SensorData }", "u: U;"))
         assertFailsWith<GeneratorException> { Workshop.generate(schema, folder.resolve("out")) }
         assertFalse(Files.exists(folder.resolve("out")))

@@ -13,9 +13,16 @@ internal object Workshop {
     val flatc: Path = Path.of(System.getProperty("collektive.flatc"))
     val testSchemas: Path = root.resolve("schema/test")
 
+    private val work = Files.createTempDirectory("generator-test").also { folder ->
+        Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
+    }
+
+    /** A folder of its own, which goes when the tests are over. */
+    fun newFolder(): Path = Files.createTempDirectory(work, "")
+
     /** Generates from a schema of this text, with the right `include` before it. */
     fun generate(text: String, name: String = "user.fbs"): Path {
-        val folder = Files.createTempDirectory("generator-test")
+        val folder = newFolder()
         val schema = Files.writeString(folder.resolve(name), text)
         generate(schema, folder.resolve("out"))
         return folder.resolve("out")
@@ -28,7 +35,7 @@ internal object Workshop {
 
     /** The Java side of a schema below `schema/test`, compiled and loaded. */
     fun load(schema: String, name: String): DataSchema {
-        val output = Files.createTempDirectory("generator-test")
+        val output = newFolder()
         generate(testSchemas.resolve(schema), output)
         val sources = files(output.resolve("java")).filter { it.toString().endsWith(".java") }
         val classes = Files.createDirectories(output.resolve("classes"))

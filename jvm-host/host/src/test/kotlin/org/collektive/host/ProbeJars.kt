@@ -18,7 +18,9 @@ import org.collektive.generator.main as generate
 @OptIn(ExperimentalPathApi::class)
 internal object ProbeJars {
     private val root = Path.of(System.getProperty("collektive.root"))
-    private val work = createTempDirectory("collektive-host-test")
+    private val work = createTempDirectory("collektive-host-test").also { folder ->
+        Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
+    }
     private val generated: Path by lazy { generate("probe.fbs", work.resolve("generated"), root.resolve("jvm-host/host/src/test/schema/probe.fbs")) }
 
     /** Schema `probe.ProbeSchema` and the programs "sum" and "probe". */

@@ -1,0 +1,56 @@
+package org.collektive.host
+
+import it.unibo.collektive.Collektive
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.stdlib.util.Maybe
+import org.collektive.api.Program
+import org.jetbrains.kotlin.abi.tools.AbiFilters
+import org.jetbrains.kotlin.abi.tools.AbiToolsFactory
+import org.junit.jupiter.api.DynamicTest.dynamicTest
+import org.junit.jupiter.api.TestFactory
+import org.junit.jupiter.api.io.TempDir
+import java.io.File
+import java.nio.file.Path
+import java.util.ServiceLoader
+import kotlin.io.path.Path
+import kotlin.io.path.copyTo
+import kotlin.io.path.createParentDirectories
+import kotlin.io.path.writeText
+import kotlin.reflect.KClass
+import kotlin.test.fail
+
+/** What programs are compiled against changes only together with the dump beside its module, `jvm-host/MODULE/api/MODULE.api`. */
+internal class PublicApiTest {
+    @TempDir
+    lateinit var folder: Path
+
+    private val tools = ServiceLoader.load(AbiToolsFactory::class.java).single().get()
+
+    @TestFactory
+    fun `the public API is the one checked in`() = MODULES.map { (name, sample) -> dynamicTest(name) { check(name, sample) } }
+
+    private fun check(module: String, sample: KClass<*>) {
+        val known = Path(System.getProperty("collektive.root"), "jvm-host", module, "api", "$module.api")
+        val dump = folder.resolve("$module.api")
+        dump.writeText(dump(File(sample.java.protectionDomain.codeSource.location.toURI())))
+        if (System.getProperty("api.update").toBoolean()) dump.copyTo(known.createParentDirectories(), overwrite = true)
+        tools.filesDiff(known.toFile(), dump.toFile())?.let {
+            fail("the public API of module $module changed; if that is meant, run: $UPDATE\n$it")
+        }
+    }
+
+    private fun dump(place: File): String {
+        val classes = place.walk().filter { it.isFile && it.extension in setOf("class", "jar") }.sorted().toList()
+        return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString()
+    }
+
+    private companion object {
+        /** The modules that programs see, each with any class of its own. */
+        val MODULES = mapOf("dsl" to Field::class, "runtime" to Collektive::class, "stdlib" to Maybe::class, "api" to Program::class)
+
+        /** Of the runtime programs see Collektive's names only. */
+        val NAMES = AbiFilters(setOf("it.unibo.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet())
+
+        const val UPDATE = "mvn -f jvm-host/pom.xml -pl host -am package -Dtest=PublicApiTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
+    }
+}
