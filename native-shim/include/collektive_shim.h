@@ -11,7 +11,7 @@
  *   (org.collektive.host.Host) and returns where in the session's answer slot the answer lies. Nothing is copied.
  *
  * Threads
- *   All functions may be called from any thread. Calls that need the engine (start, open, step, close, stop) are served
+ *   All functions may be called from any thread. Calls that need the engine (start, open, step, close, control, stop) are served
  *   one at a time; a second caller waits its turn within its own limit, and gets CLK_TIMEOUT with nothing done when that
  *   passes. A call whose host does not come back within its limit and 2 s more loses the JVM: CLK_JVM_LOST. In a forked
  *   child process the JVM counts as lost.
@@ -108,6 +108,11 @@ typedef struct clk_jvm_config {
  * Refused are options that endanger the process. JAVA_TOOL_OPTIONS, _JAVA_OPTIONS and JDK_JAVA_OPTIONS are ignored. */
 CLK_API int32_t clk_jvm_start(const clk_jvm_config *config);
 
+/* Tries what clk_jvm_start would do before it makes the JVM: files, refused options, and (when check_options is not 0) the
+ * options in a child process, some 50 to 200 ms. Whatever JVM runs is left alone. A configuration found good is not tried again
+ * at the start. */
+CLK_API int32_t clk_jvm_check(const clk_jvm_config *config);
+
 /* One of enum clk_jvm_state. Never waits. */
 CLK_API int32_t clk_jvm_state(void);
 
@@ -166,6 +171,12 @@ CLK_API int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int
 
 /* Closes a session and gives its answer slot back. CLK_HANDLE when it is closed already. */
 CLK_API int32_t clk_session_close(clk_session session, int32_t limit_ms);
+
+/* ---- Control --------------------------------------------------------------------------------------------------------- */
+
+/* Asks about the JVM itself, or starts and stops its recording: the slot holds a ControlRequest, the answer a ControlResponse,
+ * valid until the next control. Needs no session; what takes long goes on in the background, so that no step waits for it. */
+CLK_API int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer);
 
 /* ---- Logs and counters ----------------------------------------------------------------------------------------------- */
 

@@ -11,7 +11,7 @@
 static struct {
     JNIEnv *env; /* the engine thread's */
     jclass host;
-    jmethodID start, open, step, close, stop;
+    jmethodID start, close, stop, calls[HOST_ENTRIES];
     jmethodID to_string, get_name;
     jclass security_exception;
     struct host_call *running;
@@ -247,8 +247,9 @@ int32_t host_bind(JNIEnv *env) {
         const char *name;
         const char *type;
     } entries[] = {{&java.start, "start", "()Ljava/lang/String;"},
-                   {&java.open, "open", CALL_TYPE},
-                   {&java.step, "step", CALL_TYPE},
+                   {&java.calls[HOST_OPEN], "open", CALL_TYPE},
+                   {&java.calls[HOST_STEP], "step", CALL_TYPE},
+                   {&java.calls[HOST_CONTROL], "control", CALL_TYPE},
                    {&java.close, "close", "(J)V"},
                    {&java.stop, "stop", "(I)V"}};
     for (jint i = 0; i < COUNT(entries); i++) {
@@ -288,7 +289,8 @@ static bool is_host_code(jlong code) {
 
 int32_t host_run(struct host_call *call) {
     JNIEnv *env = java.env;
-    const char *where = call->entry == HOST_OPEN ? "Host.open" : "Host.step";
+    static const char *const names[HOST_ENTRIES] = {"Host.open", "Host.step", "Host.control"};
+    const char *where = names[call->entry];
     free_surplus(env);
     if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");
     const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},
@@ -296,7 +298,7 @@ int32_t host_run(struct host_call *call) {
                                 {.i = call->limit_ms}};
     java.error_given = false;
     java.running = call;
-    jlong result = (*env)->CallStaticLongMethodA(env, java.host, call->entry == HOST_OPEN ? java.open : java.step, arguments);
+    jlong result = (*env)->CallStaticLongMethodA(env, java.host, java.calls[call->entry], arguments);
     java.running = NULL;
     if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, where);
     if (result < 0) {

@@ -9,9 +9,9 @@
 #include <stdint.h>
 #include "slots.h"
 
-enum host_entry { HOST_OPEN, HOST_STEP };
+enum host_entry { HOST_OPEN, HOST_STEP, HOST_CONTROL, HOST_ENTRIES };
 
-/* One call of Host.open or Host.step. The blocks are pinned by the caller, who unpins them afterwards. */
+/* One call of Host.open, Host.step or Host.control. The blocks are pinned by the caller, who unpins them afterwards. */
 struct host_call {
     enum host_entry entry;
     clk_session session;

@@ -18,13 +18,19 @@
 typedef jint(JNICALL create_function)(JavaVM **, void **, void *);
 typedef jint(JNICALL created_function)(JavaVM **, jsize, jsize *);
 
-/* By the turn, but for the atomics. What the JVM was given stays for ever. */
-static struct {
+/* What a JVM is to be started with, in one piece of words. */
+struct launch {
     char *home;
-    char *configuration;   /* home, class path and options of the last start, to compare with */
+    char *configuration;   /* home, class path and options, to compare with */
     char **options;        /* all words for the JVM */
     int32_t option_count;
     int32_t own_count;     /* how many of these are ours, at the begin */
+};
+
+/* By the turn, but for the atomics. */
+static struct {
+    struct launch launch;  /* of the last start: what the JVM was given stays for ever */
+    char *checked;         /* the configuration that was last found good by a child process */
     JavaVM *vm;
     char version[256];
     int32_t stop_limit_ms;
@@ -71,15 +77,12 @@ static char *join(const char *first, const char *second, const char *const *word
     return text;
 }
 
-static void forget_options(void) {
-    for (int32_t i = 0; i < jvm.option_count; i++) free(jvm.options[i]);
-    free(jvm.options);
-    free(jvm.configuration);
-    free(jvm.home);
-    jvm.options = NULL;
-    jvm.configuration = NULL;
-    jvm.home = NULL;
-    jvm.option_count = 0;
+static void launch_free(struct launch *launch) {
+    for (int32_t i = 0; i < launch->option_count; i++) free(launch->options[i]);
+    free(launch->options);
+    free(launch->configuration);
+    free(launch->home);
+    *launch = (struct launch){0};
 }
 
 static char *copy(const char *prefix, const char *word) {
@@ -89,26 +92,24 @@ static char *copy(const char *prefix, const char *word) {
     return text;
 }
 
-static bool add_option(const char *prefix, const char *word) {
+static bool add_option(struct launch *launch, const char *prefix, const char *word) {
     char *option = copy(prefix, word);
-    if (option != NULL) jvm.options[jvm.option_count++] = option;
+    if (option != NULL) launch->options[launch->option_count++] = option;
     return option != NULL;
 }
 
 /* Ours come first, so that the user may change what is a mere default. -Xrs leaves the host process its signals; the log
  * option silences warnings about host_refuse_exit. */
-static int32_t prepare_options(const clk_jvm_config *config) {
-    forget_options();
-    jvm.home = copy("", config->home);
-    jvm.configuration = join(config->home, config->class_path, config->options, config->option_count);
-    jvm.options = malloc(((size_t)config->option_count + 4) * sizeof *jvm.options);
-    bool good = jvm.home != NULL && jvm.configuration != NULL && jvm.options != NULL && add_option("-Xrs", "") &&
-                add_option("-Djava.awt.headless=true", "") && add_option("-Xlog:jni+resolve=error", "") &&
-                add_option("-Djava.class.path=", config->class_path);
-    jvm.own_count = jvm.option_count;
-    for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(config->options[i], "");
-    if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
-    return CLK_OK;
+static int32_t launch_fill(struct launch *launch, const clk_jvm_config *config) {
+    launch->home = copy("", config->home);
+    launch->configuration = join(config->home, config->class_path, config->options, config->option_count);
+    launch->options = malloc(((size_t)config->option_count + 4) * sizeof *launch->options);
+    bool good = launch->home != NULL && launch->configuration != NULL && launch->options != NULL && add_option(launch, "-Xrs", "") &&
+                add_option(launch, "-Djava.awt.headless=true", "") && add_option(launch, "-Xlog:jni+resolve=error", "") &&
+                add_option(launch, "-Djava.class.path=", config->class_path);
+    launch->own_count = launch->option_count;
+    for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(launch, config->options[i], "");
+    return good ? CLK_OK : error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
 }
 
 /* ---- Checks before the start ----------------------------------------------------------------------------------------- */
@@ -165,14 +166,25 @@ static int32_t check_characters(int32_t code, const char *path) {
     return CLK_OK;
 }
 
-static int32_t check(const clk_jvm_config *config, int64_t deadline) {
+static int32_t try_options(const struct launch *launch, int64_t deadline) {
+    if (jvm.checked != NULL && strcmp(jvm.checked, launch->configuration) == 0) return CLK_OK;
+    int32_t result = options_try(launch->home, launch->options, launch->option_count, deadline);
+    if (result == CLK_OK) {
+        free(jvm.checked);
+        jvm.checked = copy("", launch->configuration);
+    }
+    return result;
+}
+
+/* Fills the launch, which is empty before. */
+static int32_t check(const clk_jvm_config *config, struct launch *launch, int64_t deadline) {
     int32_t result = check_home(config->home);
     if (result == CLK_OK) result = check_characters(CLK_JVM_NOT_FOUND, config->home);
     if (result == CLK_OK) result = check_class_path(config->class_path);
     if (result == CLK_OK) result = check_characters(CLK_HOST, config->class_path);
     for (int32_t i = 0; result == CLK_OK && i < config->option_count; i++) result = options_check(config->options[i]);
-    if (result == CLK_OK) result = prepare_options(config);
-    if (result == CLK_OK && config->check_options != 0) result = options_try(jvm.home, jvm.options, jvm.option_count, deadline);
+    if (result == CLK_OK) result = launch_fill(launch, config);
+    if (result == CLK_OK && config->check_options != 0) result = try_options(launch, deadline);
     return result;
 }
 
@@ -212,7 +224,7 @@ static void JNICALL hook_abort(void) { lose("aborted"); }
 static int32_t load(create_function **create) {
     char path[4096];
     char why[512];
-    snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, jvm.home);
+    snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, jvm.launch.home);
     void *library = prim_library_open(path, why, sizeof why);
     if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s cannot be loaded: %s", path, why);
     created_function *created;
@@ -230,13 +242,13 @@ static int32_t load(create_function **create) {
 
 static int32_t create(create_function *create_vm, JNIEnv **env) {
     enum { HOOKS = 3 };
-    jint count = jvm.option_count + HOOKS;
+    jint count = jvm.launch.option_count + HOOKS;
     JavaVMOption *options = malloc((size_t)count * sizeof *options);
     if (options == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
     options[0] = (JavaVMOption){(char[]){"vfprintf"}, (void *)(uintptr_t)hook_print};
     options[1] = (JavaVMOption){(char[]){"exit"}, (void *)(uintptr_t)hook_exit};
     options[2] = (JavaVMOption){(char[]){"abort"}, (void *)(uintptr_t)hook_abort};
-    for (int32_t i = 0; i < jvm.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.options[i], NULL};
+    for (int32_t i = 0; i < jvm.launch.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.launch.options[i], NULL};
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
     signals_save_host();
     atomic_store(&jvm.began, true);
@@ -274,13 +286,18 @@ static const char *const smuggling[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "J
 enum { SMUGGLING = sizeof smuggling / sizeof smuggling[0] };
 
 static void describe(void) {
-    const char *const *words = (const char *const *)(jvm.options + jvm.own_count);
-    atomic_store(&jvm.description, join(jvm.home, jvm.version, words, jvm.option_count - jvm.own_count));
+    const struct launch *launch = &jvm.launch;
+    const char *const *words = (const char *const *)(launch->options + launch->own_count);
+    atomic_store(&jvm.description, join(launch->home, jvm.version, words, launch->option_count - launch->own_count));
 }
 
-/* Under the turn, no JVM was started before. */
+/* What start and check have in common runs under the turn, with the environment cleared of options. */
+typedef int32_t configured(const clk_jvm_config *config, int64_t deadline);
+
+/* No JVM was started before. */
 static int32_t start(const clk_jvm_config *config, int64_t deadline) {
-    int32_t result = check(config, deadline);
+    launch_free(&jvm.launch);
+    int32_t result = check(config, &jvm.launch, deadline);
     if (result != CLK_OK) return result;
     result = engine_run(work_start, deadline);
     if (result == CLK_TIMEOUT) {
@@ -295,38 +312,55 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     return result;
 }
 
-static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
-    if (engine_state() != CLK_STATE_RUNNING && engine_state() != CLK_STATE_NONE) return engine_check_running();
-    if (engine_state() == CLK_STATE_RUNNING) {
-        char *configuration = join(config->home, config->class_path, config->options, config->option_count);
-        bool equal = configuration != NULL && strcmp(configuration, jvm.configuration) == 0;
-        free(configuration);
-        return equal ? CLK_OK
-                     : error_set(CLK_JVM_RUNNING, "a JVM runs already with another home, class path or options; restart the process "
-                                                       "to change them");
-    }
+static int32_t try_only(const clk_jvm_config *config, int64_t deadline) {
+    struct launch launch = {0};
+    int32_t result = check(config, &launch, deadline);
+    launch_free(&launch);
+    return result;
+}
+
+static int32_t without_smuggling(configured *work, const clk_jvm_config *config, int64_t deadline) {
     char *hidden[SMUGGLING] = {NULL};
     for (int i = 0; i < SMUGGLING; i++) {
         if (prim_environment_hide(smuggling[i], &hidden[i])) {
             log_format(CLK_LOG_WARNING, "the environment variable %s is ignored; give JVM options in the settings", smuggling[i]);
         }
     }
-    int32_t result = start(config, deadline);
+    int32_t result = work(config, deadline);
     for (int i = SMUGGLING - 1; i >= 0; i--) {
         if (hidden[i] != NULL) prim_environment_show(hidden[i]);
     }
     return result;
 }
 
-int32_t clk_jvm_start(const clk_jvm_config *config) {
+static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
+    if (engine_state() != CLK_STATE_RUNNING && engine_state() != CLK_STATE_NONE) return engine_check_running();
+    if (engine_state() == CLK_STATE_NONE) return without_smuggling(start, config, deadline);
+    char *configuration = join(config->home, config->class_path, config->options, config->option_count);
+    bool equal = configuration != NULL && strcmp(configuration, jvm.launch.configuration) == 0;
+    free(configuration);
+    return equal ? CLK_OK
+                 : error_set(CLK_JVM_RUNNING, "a JVM runs already with another home, class path or options; restart the process "
+                                                   "to change them");
+}
+
+static int32_t check_without_start(const clk_jvm_config *config, int64_t deadline) {
+    return without_smuggling(try_only, config, deadline);
+}
+
+static int32_t take_turn(configured *work, const clk_jvm_config *config) {
     if (check_config(config) != CLK_OK) return CLK_ARGUMENT;
     int64_t deadline = prim_now() + config->start_limit_ms * PRIM_MILLI;
     int32_t result = engine_enter(deadline);
     if (result != CLK_OK) return result;
-    result = start_or_compare(config, deadline);
+    result = work(config, deadline);
     engine_leave();
     return result;
 }
+
+int32_t clk_jvm_start(const clk_jvm_config *config) { return take_turn(start_or_compare, config); }
+
+int32_t clk_jvm_check(const clk_jvm_config *config) { return take_turn(check_without_start, config); }
 
 int32_t clk_jvm_description(char *buffer, int32_t capacity) {
     const char *description = atomic_load(&jvm.description);

@@ -58,9 +58,12 @@ int32_t options_check(const char *option) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         if (matches(option, refused[i].text)) return refuse(option, refused[i].reason);
     }
-    /* The debugger's default is suspend=y. */
-    if (matches(option, "-agentlib:jdwp*") && strstr(option, "suspend=n") == NULL) {
-        return refuse(option, "the start would wait for a debugger; add suspend=n");
+    /* The debugger's default is suspend=y, and other machines could reach what listens on more than the loopback. */
+    if (matches(option, "-agentlib:jdwp*") || matches(option, "-Xrunjdwp*")) {
+        if (strstr(option, "suspend=n") == NULL) return refuse(option, "the start would wait for a debugger; add suspend=n");
+        if (strstr(option, "address=127.0.0.1:") == NULL && strstr(option, "address=localhost:") == NULL) {
+            return refuse(option, "whoever reaches a debugger's port runs code of his own here; use address=127.0.0.1:PORT");
+        }
     }
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
@@ -92,9 +95,13 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     char **arguments = malloc(((size_t)count + 3) * sizeof *arguments);
     if (arguments == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
     arguments[0] = java;
-    memcpy(arguments + 1, options, (size_t)count * sizeof *arguments);
-    arguments[count + 1] = version;
-    arguments[count + 2] = NULL;
+    int32_t used = 1;
+    for (int32_t i = 0; i < count; i++) {
+        /* An archive of what the child loaded would be of no use to the JVM. */
+        if (!matches(options[i], "-XX:ArchiveClassesAtExit=*")) arguments[used++] = options[i];
+    }
+    arguments[used++] = version;
+    arguments[used] = NULL;
     enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);
     free(arguments);
     /* The words of the version tell that the JVM came up, and was not ended in order by an option before that. */

@@ -23,6 +23,7 @@ struct session {
 /* By the turn, but for the counters. */
 static struct {
     struct session all[MAX_SESSIONS];
+    struct session control; /* of no simulation; it has the answers of clk_control */
     struct host_call call; /* what the engine thread works on */
     atomic_int count;
     _Atomic uint64_t steps;
@@ -38,6 +39,7 @@ uint64_t session_signal_repairs(void) { return atomic_load_explicit(&sessions.si
 /* ---- The table ------------------------------------------------------------------------------------------------------- */
 
 static clk_session session_handle(const struct session *session) {
+    if (session == &sessions.control) return 0;
     return (uint64_t)session->generation << 32 | (uint64_t)(session - sessions.all);
 }
 
@@ -73,6 +75,8 @@ static void session_give(struct session *session) {
 }
 
 void session_forget_all(void) {
+    if (sessions.control.open) clk_slot_release(sessions.control.answer);
+    sessions.control.open = false;
     for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
         if (session->open) session_give(session);
     }
@@ -203,6 +207,25 @@ int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t len
     if (result != CLK_OK) return result;
     const struct session *found = session_find(session);
     result = found != NULL ? call_host(HOST_STEP, found, slot, offset, length, deadline, answer) : CLK_HANDLE;
+    engine_leave();
+    return result;
+}
+
+static int32_t take_control(void) {
+    clk_memory memory = {.size = sizeof memory};
+    if (sessions.control.open) return CLK_OK;
+    int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &sessions.control.answer, &memory);
+    sessions.control.open = result == CLK_OK;
+    return result;
+}
+
+int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer) {
+    if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = enter(deadline);
+    if (result != CLK_OK) return result;
+    result = take_control();
+    if (result == CLK_OK) result = call_host(HOST_CONTROL, &sessions.control, slot, offset, length, deadline, answer);
     engine_leave();
     return result;
 }

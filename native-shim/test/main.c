@@ -67,7 +67,8 @@ const char *scratch_folder(void) {
 
 /* ---- The JVM --------------------------------------------------------------------------------------------------------- */
 
-int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms) {
+static clk_jvm_config config_of(const char *home, const char *class_path, const char *const *options, bool check_options,
+                                int32_t limit_ms) {
     clk_jvm_config config = {.size = sizeof config,
                              .home = home,
                              .class_path = class_path,
@@ -75,7 +76,17 @@ int32_t start_at(const char *home, const char *class_path, const char *const *op
                              .start_limit_ms = limit_ms,
                              .check_options = check_options};
     while (options != NULL && options[config.option_count] != NULL) config.option_count++;
+    return config;
+}
+
+int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms) {
+    clk_jvm_config config = config_of(home, class_path, options, check_options, limit_ms);
     return clk_jvm_start(&config);
+}
+
+int32_t check(const char *const *options) {
+    clk_jvm_config config = config_of(java_home(), host_classes, options, true, 60000);
+    return clk_jvm_check(&config);
 }
 
 int32_t start(const char *const *options) { return start_at(java_home(), host_classes, options, true, 60000); }

@@ -29,6 +29,7 @@ const char *scratch_folder(void);
 
 /* Starts the JVM of java_home() with the test host and these options, ended by NULL, the file checks and the child check. */
 int32_t start(const char *const *options);
+int32_t check(const char *const *options); /* the same checks without the start */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
 void start_plain(void);
 
@@ -58,12 +59,12 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(home_missing) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) X(home_with_a_broken_libjvm) \
     X(home_without_java_command) X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
     X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(option_that_ends_the_jvm) \
-    X(refused_start_may_be_repeated) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
+    X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
     X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \
     X(environment_is_ignored) X(second_start) X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \
     X(echo_of_random_data) X(answers_grow) X(session_handles) X(many_sessions_one_after_the_other) X(too_many_sessions) \
     X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
-    X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
+    X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
     X(stop_ends_all) X(stop_without_start) X(stop_times_out) X(logs_are_bounded) X(signal_handlers_are_repaired) \
     X(implicit_null_checks_and_host_faults)

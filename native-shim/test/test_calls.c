@@ -69,6 +69,39 @@ void one_wrapper_for_each_memory(void) {
     CHECK(stats().wrapped == 5 && stats().slot_bytes < 1 << 27);
 }
 
+/* ---- Control --------------------------------------------------------------------------------------------------------- */
+
+static int32_t control(enum command command, int32_t argument) {
+    int32_t words[] = {(int32_t)command, argument, 0x12345678};
+    memcpy(request_memory.address, words, sizeof words);
+    return clk_control(request, 0, sizeof words, 60000, &answer);
+}
+
+void control_needs_no_session(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(control(ECHO, 0));
+    CHECK(answer.length == 4 && memcmp(answer.address + answer.offset, "\x78\x56\x34\x12", 4) == 0);
+    CHECK_OK(open_session(&session));
+    CHECK_OK(control(GROW, 1 << 20));
+    CHECK(answer.length == 1 << 20);
+    CHECK_OK(step(session, EMPTY, 0, 60000));
+    CHECK(stats().steps == 1 && stats().sessions == 1);
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK_OK(control(EMPTY, 0));
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, NULL, control(EMPTY, 0));
+}
+
+void control_errors(void) {
+    start_plain();
+    CHECK_CODE(CLK_ARGUMENT, "answer is NULL", clk_control(request, 0, 8, 1000, NULL));
+    CHECK_CODE(CLK_ARGUMENT, "limit_ms", clk_control(request, 0, 8, 0, &answer));
+    CHECK_CODE(CLK_JAVA, "Host.control threw java.lang.IllegalStateException", control(THROW, 0));
+    CHECK_CODE(CLK_FRAME, "says no", control(FAIL, CLK_FRAME));
+    CHECK_OK(control(EMPTY, 0));
+}
+
 /* ---- Sessions -------------------------------------------------------------------------------------------------------- */
 
 void session_handles(void) {

@@ -144,7 +144,8 @@ void options_refused_by_text(void) {
         "-XX:+ExitOnOutOfMemoryError", "-XX:+CrashOnOutOfMemoryError", "-XX:OnOutOfMemoryError=ls", "-XX:OnError=gdb",
         "-XX:+AllowUserSignalHandlers", "-XX:-UseSignalChaining", "-XX:-ReduceSignalUsage", "-XX:Flags=x", "-XX:VMOptionsFile=x",
         "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
-        "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint"};
+        "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint", "-Xrunjdwp:transport=dt_socket",
+        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005"};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
@@ -170,6 +171,36 @@ void option_that_ends_the_jvm(void) {
 void refused_start_may_be_repeated(void) {
     for (int i = 0; i < 3; i++) CHECK_CODE(CLK_JVM_OPTIONS, NULL, start(OPTIONS("-Xmx64q")));
     CHECK_OK(start(OPTIONS("-Xmx64m", "-XX:+UseSerialGC")));
+}
+
+void check_starts_nothing(void) {
+    CHECK_CODE(CLK_JVM_OPTIONS, "-Xmx64q", check(OPTIONS("-Xmx64q")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "refused", check(OPTIONS("-XX:-UseSignalChaining")));
+    CHECK_OK(check(OPTIONS("-Xmx64m")));
+    CHECK(clk_jvm_state() == CLK_STATE_NONE);
+    /* What was found good is not tried again. */
+    int64_t begin = now_ns();
+    for (int i = 0; i < 100; i++) CHECK_OK(check(OPTIONS("-Xmx64m")));
+    CHECK(now_ns() - begin < 1000000000);
+    CHECK_OK(start(OPTIONS("-Xmx64m")));
+}
+
+void check_while_a_jvm_runs(void) {
+    char before[1024], after[1024];
+    CHECK_OK(start(OPTIONS("-Xmx64m")));
+    clk_jvm_description(before, sizeof before);
+    CHECK_OK(check(OPTIONS("-Xmx65m")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "-Xmx64q", check(OPTIONS("-Xmx64q")));
+    clk_jvm_description(after, sizeof after);
+    CHECK(strcmp(before, after) == 0 && clk_jvm_state() == CLK_STATE_RUNNING);
+    CHECK_OK(start(OPTIONS("-Xmx64m")));
+}
+
+void check_writes_no_archive(void) {
+    char option[128];
+    snprintf(option, sizeof option, "-XX:ArchiveClassesAtExit=%s/classes.jsa", scratch_folder());
+    CHECK_OK(check(OPTIONS("-Xmx64m", option)));
+    CHECK(access(strchr(option, '=') + 1, F_OK) != 0);
 }
 
 static void check_unchecked(const char *const *options, const char *mention) {

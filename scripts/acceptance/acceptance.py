@@ -263,12 +263,20 @@ class AForeignProject(Folder):
         self.assertIn("nowhere.json", last_error(result))
 
     def test_a_jvm_that_is_none_is_named(self):
-        self.change("lamps.json", '"jvm": {', '"jvm": { "home": "/nowhere/jdk",')
+        self.change("lamps.json", '"jvm": {', '"jvm": { "location": "Folder", "home": "/nowhere/jdk",')
         self.refused("/nowhere/jdk")
 
     def test_a_jvm_option_that_is_wrong_is_shown(self):
-        self.change("lamps.json", '"-Xmx128m"', '"-Xmx128m", "-XX:+UseNonesuchGC"')
+        self.change("lamps.json", '"-Xss2m"', '"-Xss2m", "-XX:+UseNonesuchGC"')
         self.refused("UseNonesuchGC")
+
+    def test_a_jvm_setting_out_of_its_range_is_named_with_its_line(self):
+        self.change("lamps.json", '"maximumHeapMb": 128', '"maximumHeapMb": 1')
+        self.refused("lamps.json:11", "jvm.maximumHeapMb", "16 to")
+
+    def test_an_unknown_jvm_setting_is_named(self):
+        self.change("lamps.json", '"maximumHeapMb"', '"maximumHeep"')
+        self.refused("jvm.maximumHeep", "maximumHeapMb")
 
     def test_a_jar_that_is_none_is_named(self):
         with open(self.path("project", "broken.jar"), "w") as file:

@@ -72,7 +72,8 @@ namespace Collektive.Headless
                 if (type == typeof(float) && number) return (float)token;
                 if (type == typeof(double) && number) return (double)token;
                 if (type == typeof(JObject) && kind == JTokenType.Object) return token;
-                if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key);
+                if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key).ToArray();
+                if (type == typeof(List<string>) && kind == JTokenType.Array) return Strings((JArray)token, key);
                 if (type.IsEnum && kind == JTokenType.String) return Enum.Parse(type, (string)token, true);
             }
             catch (Exception error) when (error is OverflowException || error is ArgumentException)
@@ -89,11 +90,11 @@ namespace Collektive.Headless
             return new ScenarioException(path + (line.HasLineInfo() ? ":" + line.LineNumber : "") + ": " + message);
         }
 
-        private string[] Strings(JArray array, string key)
+        private List<string> Strings(JArray array, string key)
         {
             var strings = new List<string>();
             foreach (var item in array) strings.Add((string)Convert(item, typeof(string), key));
-            return strings.ToArray();
+            return strings;
         }
 
         /// <summary>A type in the words of a user.</summary>

@@ -1,4 +1,6 @@
 using System.IO;
+using System.Linq;
+using Collektive.Bridge;
 using Newtonsoft.Json.Linq;
 using org.collektive.frame;
 
@@ -33,10 +35,7 @@ namespace Collektive.Headless
             PhysicsStep = file.Optional(root, "physicsStep", 0.02f);
             Schedule = file.Optional(root, "schedule", Schedule.Lockstep);
             Threads = file.Optional(root, "threads", 1);
-            var jvm = file.Optional(root, "jvm", new JObject());
-            file.RefuseUnknown(jvm, "jvm.", "home", "options");
-            JavaHome = file.Optional(jvm, "home", "");
-            JvmOptions = file.Optional(jvm, "options", new string[0]);
+            Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder);
             var outputs = file.Optional(root, "outputs", new JObject());
             file.RefuseUnknown(outputs, "outputs.", "metrics", "replay", "pictures");
             Metrics = file.Optional(outputs, "metrics", true);
@@ -73,9 +72,7 @@ namespace Collektive.Headless
 
         internal int Threads { get; }
 
-        internal string JavaHome { get; }
-
-        internal string[] JvmOptions { get; }
+        internal JvmSettings Jvm { get; }
 
         internal bool Metrics { get; }
 
@@ -84,6 +81,21 @@ namespace Collektive.Headless
         internal bool Pictures { get; }
 
         internal static Scenario Read(string path) => new Scenario(JsonFile.Read(path), System.IO.Path.GetFullPath(path));
+
+        private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder)
+        {
+            var settings = new JvmSettings();
+            file.RefuseUnknown(root, "jvm.", JvmSetting.All.Select(setting => setting.Key).ToArray());
+            foreach (var setting in JvmSetting.All)
+            {
+                var token = root[setting.Key];
+                if (token == null) continue;
+                var value = file.Convert(token, setting.Type, "jvm." + setting.Key);
+                setting.Set(settings, setting.Key == nameof(JvmSettings.home) ? System.IO.Path.Combine(folder, (string)value) : value);
+            }
+            foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
+            return settings;
+        }
 
         private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)
         {

@@ -62,8 +62,8 @@ namespace Collektive.Headless
             settings.physicsStep = scenario.PhysicsStep;
             settings.schedule = scenario.Schedule;
             settings.threads = scenario.Threads;
-            settings.javaHome = scenario.JavaHome;
-            settings.jvmOptions.AddRange(scenario.JvmOptions);
+            settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
+            settings.jvm.settings = scenario.Jvm;
             var problem = settings.FindProblem();
             if (problem != null) throw new ScenarioException(scenario.Path + ": " + problem);
             manager.enabled = true;

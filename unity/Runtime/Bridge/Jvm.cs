@@ -41,9 +41,31 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Starts the JVM, or does nothing when it runs with the same settings.</summary>
+        /// <summary>Starts the JVM, or does nothing when it runs with the same words.</summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
-        public static void Start(JvmSettings settings)
+        public static void Start(JvmLaunch launch)
+        {
+            CheckLibrary();
+            Configured(launch, config => Shim.clk_jvm_start((Shim.JvmConfig*)config));
+        }
+
+        /// <summary>
+        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process of some 50 to 200 ms, the options. What
+        /// was found good is not tried again at the start.
+        /// </summary>
+        /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
+        public static void Check(JvmLaunch launch)
+        {
+            CheckLibrary();
+            Configured(launch, config => Shim.clk_jvm_check((Shim.JvmConfig*)config));
+        }
+
+        /// <summary>What the JVM that runs is like now. From the main thread, a few milliseconds; the first time some 50.</summary>
+        /// <param name="collect">Collect garbage first, so that the numbers count only what is in use.</param>
+        /// <exception cref="BridgeException">No JVM runs.</exception>
+        public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
+
+        private static void CheckLibrary()
         {
             var major = Shim.clk_version() >> 16;
             if (major != Shim.Major)
@@ -53,8 +75,12 @@ namespace Collektive.Bridge
                     "the native library collektive_shim is of version " + major + ", this package needs " + Shim.Major +
                     ": reinstall the package and restart the editor");
             }
+        }
+
+        private static void Configured(JvmLaunch launch, Func<IntPtr, int> call)
+        {
             var strings = new List<IntPtr>();
-            var options = settings.Options;
+            var options = launch.Options;
             var pointers = stackalloc byte*[options.Count + 1];
             try
             {
@@ -63,13 +89,13 @@ namespace Collektive.Bridge
                 {
                     Size = (uint)sizeof(Shim.JvmConfig),
                     OptionCount = options.Count,
-                    Home = Text(strings, settings.Home),
-                    ClassPath = Text(strings, settings.ClassPath),
+                    Home = Text(strings, launch.Home),
+                    ClassPath = Text(strings, launch.ClassPath),
                     Options = pointers,
-                    StartLimitMs = settings.StartLimitMs,
+                    StartLimitMs = launch.StartLimitMs,
                     CheckOptions = 1,
                 };
-                Shim.Check(Shim.clk_jvm_start(&config));
+                Shim.Check(call((IntPtr)(&config)));
             }
             finally
             {

@@ -1,29 +1,174 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
 
 namespace Collektive.Bridge
 {
-    /// <summary>How the JVM is started. Read once, by <see cref="Jvm.Start"/>.</summary>
+    /// <summary>Where the JVM is taken from.</summary>
+    public enum JvmLocation
+    {
+        /// <summary>The package's own, else that of <c>JAVA_HOME</c>.</summary>
+        Automatic,
+        /// <summary>The package's own.</summary>
+        Bundled,
+        /// <summary>That of the environment variable <c>JAVA_HOME</c>.</summary>
+        JavaHome,
+        /// <summary>That of <see cref="JvmSettings.home"/>.</summary>
+        Folder,
+    }
+
+    /// <summary>The garbage collector.</summary>
+    public enum JvmCollector
+    {
+        /// <summary>The JVM's own choice for this machine.</summary>
+        Automatic,
+        /// <summary>A balance of throughput and short pauses.</summary>
+        G1,
+        /// <summary>One thread; the least memory and the fastest start.</summary>
+        Serial,
+        /// <summary>The highest throughput, with long pauses.</summary>
+        Parallel,
+        /// <summary>Pauses below a millisecond.</summary>
+        Z,
+        /// <summary>Pauses of a few milliseconds; not every JVM has it.</summary>
+        Shenandoah,
+    }
+
+    /// <summary>How programs become machine code.</summary>
+    public enum JvmCompiler
+    {
+        /// <summary>First quick code, then, where it is worth while, optimised code.</summary>
+        Tiered,
+        /// <summary>Quick code only: up to speed at once, slower in the long run.</summary>
+        C1,
+        /// <summary>No machine code at all: for looking for faults.</summary>
+        Interpreter,
+    }
+
+    /// <summary>
+    /// What a user wants of the JVM. Read once, when the JVM starts: once per process. <see cref="JvmSetting.All"/> describes each
+    /// field; scenario files have the same names as keys.
+    /// </summary>
+    [Serializable]
     public sealed class JvmSettings
     {
-        /// <summary>Makes settings for the JRE or JDK at <paramref name="home"/> and the host's jar.</summary>
-        public JvmSettings(string home, string classPath, IReadOnlyList<string> options)
+        /// <summary>Where the JVM is taken from.</summary>
+        public JvmLocation location = JvmLocation.Automatic;
+
+        /// <summary>Root of a JRE or JDK, for <see cref="JvmLocation.Folder"/>.</summary>
+        public string home = "";
+
+        /// <summary>MiB of heap at the start; 0: the JVM's choice.</summary>
+        public int initialHeapMb;
+
+        /// <summary>MiB of heap at most; 0: the JVM's choice, a quarter of the machine's memory.</summary>
+        public int maximumHeapMb;
+
+        /// <summary>The garbage collector.</summary>
+        public JvmCollector collector = JvmCollector.Automatic;
+
+        /// <summary>How programs become machine code.</summary>
+        public JvmCompiler compiler = JvmCompiler.Tiered;
+
+        /// <summary>Percent of the usual number of calls after which code is compiled.</summary>
+        public int compileThreshold = 100;
+
+        /// <summary>MiB for machine code; 0: the JVM's choice.</summary>
+        public int codeCacheMb;
+
+        /// <summary>Whether loaded classes are archived for a faster next start.</summary>
+        public bool cdsArchive = true;
+
+        /// <summary>Whether <c>assert</c> statements of programs are checked.</summary>
+        public bool assertions;
+
+        /// <summary>TCP port of the loopback on which debuggers may attach; 0: none.</summary>
+        public int debugPort;
+
+        /// <summary>Whether <c>sin</c>, <c>exp</c> and others give the same bits on other JVMs and processors.</summary>
+        public bool repeatableMaths;
+
+        /// <summary>More options of the JVM, each one word.</summary>
+        public List<string> flags = new List<string>();
+
+        /// <summary>All that is wrong without asking a JVM; empty when nothing is.</summary>
+        public List<JvmProblem> FindProblems()
         {
-            Home = home ?? throw new ArgumentNullException(nameof(home));
-            ClassPath = classPath ?? throw new ArgumentNullException(nameof(classPath));
-            Options = options ?? throw new ArgumentNullException(nameof(options));
+            var problems = new List<JvmProblem>();
+            foreach (var setting in JvmSetting.All)
+            {
+                var problem = setting.FindProblem(this);
+                if (problem != null) problems.Add(new JvmProblem(setting.Key, problem));
+            }
+            if (initialHeapMb > 0 && maximumHeapMb > 0 && initialHeapMb > maximumHeapMb)
+            {
+                problems.Add(new JvmProblem(
+                    nameof(initialHeapMb), "the initial heap, " + initialHeapMb + " MB, is larger than the maximum heap, " + maximumHeapMb + " MB"));
+            }
+            if (location == JvmLocation.Folder && string.IsNullOrWhiteSpace(home))
+            {
+                problems.Add(new JvmProblem(nameof(home), "choose the root folder of a JRE or JDK, or another location"));
+            }
+            foreach (var flag in flags)
+            {
+                if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove it"));
+                else if (flag.Contains(" -")) problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' is more than one flag: give each an entry of its own"));
+            }
+            return problems;
         }
 
-        /// <summary>Root folder of a JRE or JDK, version 17 or newer.</summary>
-        public string Home { get; }
+        /// <summary>The words for the JVM at <paramref name="javaHome"/>; its archive of classes is kept in <paramref name="cacheFolder"/>.</summary>
+        public JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
+        {
+            var options = new List<string>();
+            if (initialHeapMb > 0) options.Add("-Xms" + Text(initialHeapMb) + "m");
+            if (maximumHeapMb > 0) options.Add("-Xmx" + Text(maximumHeapMb) + "m");
+            if (collector != JvmCollector.Automatic) options.Add("-XX:+" + JvmSetting.FlagOf(collector));
+            if (compiler == JvmCompiler.C1) options.Add("-XX:TieredStopAtLevel=1");
+            if (compiler == JvmCompiler.Interpreter) options.Add("-Xint");
+            if (compileThreshold != 100) options.Add("-XX:CompileThresholdScaling=" + (compileThreshold / 100.0).ToString(CultureInfo.InvariantCulture));
+            if (codeCacheMb > 0) options.Add("-XX:ReservedCodeCacheSize=" + Text(codeCacheMb) + "m");
+            if (cdsArchive && JavaVersion(javaHome) >= FirstWithAutomaticArchive) AddArchive(options, javaHome, hostJar, cacheFolder);
+            if (assertions) options.Add("-ea");
+            if (debugPort != 0) options.Add("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:" + Text(debugPort));
+            if (repeatableMaths)
+            {
+                options.Add("-XX:+UnlockDiagnosticVMOptions");
+                options.Add("-XX:-UseLibmIntrinsic");
+            }
+            options.AddRange(flags);
+            return new JvmLaunch(javaHome, hostJar, options);
+        }
 
-        /// <summary>Path of the host's jar.</summary>
-        public string ClassPath { get; }
+        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 when its <c>release</c> file tells none.</summary>
+        public static int JavaVersion(string javaHome)
+        {
+            const string key = "JAVA_VERSION=\"";
+            var release = Path.Combine(javaHome, "release");
+            if (!File.Exists(release)) return 0;
+            foreach (var line in File.ReadAllLines(release))
+            {
+                if (!line.StartsWith(key, StringComparison.Ordinal)) continue;
+                var end = key.Length;
+                while (end < line.Length && char.IsDigit(line[end])) end++;
+                return int.TryParse(line.Substring(key.Length, end - key.Length), out var version) ? version : 0;
+            }
+            return 0;
+        }
 
-        /// <summary>JVM options, each one word, in order.</summary>
-        public IReadOnlyList<string> Options { get; }
+        private const int FirstWithAutomaticArchive = 19;
 
-        /// <summary>Limit for the whole start in milliseconds.</summary>
-        public int StartLimitMs { get; set; } = 30000;
+        /// <summary>The JVM writes the archive when it ends, and makes a new one when the host or the JVM itself has changed.</summary>
+        private void AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
+        {
+            var key = 14695981039346656037UL;
+            foreach (var character in javaHome + "\n" + hostJar + "\n" + collector) key = (key ^ character) * 1099511628211UL;
+            Directory.CreateDirectory(cacheFolder);
+            options.Add("-XX:+AutoCreateSharedArchive");
+            options.Add("-XX:SharedArchiveFile=" + Path.Combine(cacheFolder, "classes-" + key.ToString("x16", CultureInfo.InvariantCulture) + ".jsa"));
+        }
+
+        private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);
     }
 }

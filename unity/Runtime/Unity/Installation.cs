@@ -1,5 +1,7 @@
 using System;
 using System.IO;
+using Collektive.Bridge;
+using UnityEngine;
 
 namespace Collektive.Unity
 {
@@ -18,16 +20,25 @@ namespace Collektive.Unity
             set => hostJar = value;
         }
 
-        /// <summary>Root of the JVM: what was set, else the package's bundled one, else <c>JAVA_HOME</c>, else empty.</summary>
+        /// <summary>Root of the JVM for settings that do not say: what was set, else the package's own, else <c>JAVA_HOME</c>, else empty.</summary>
         public static string JavaHome
         {
-            get
-            {
-                if (javaHome != null) return javaHome;
-                var bundled = PathOf(Package + "/Jvm~/linux-x64");
-                return Directory.Exists(bundled) ? bundled : Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
-            }
+            get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
             set => javaHome = value;
+        }
+
+        /// <summary>Root of the package's own JVM; not every package has one.</summary>
+        public static string Bundled => PathOf(Package + "/Jvm~/linux-x64");
+
+        private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
+
+        /// <summary>The words that start the JVM of <paramref name="settings"/> on this machine.</summary>
+        /// <exception cref="BridgeException">The settings are wrong, or there is no such JVM.</exception>
+        public static JvmLaunch ToLaunch(JvmSettings settings)
+        {
+            var problems = settings.FindProblems();
+            if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are wrong: " + problems[0]);
+            return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
 
         /// <summary>
@@ -40,5 +51,22 @@ namespace Collektive.Unity
             var content = Path.GetFullPath(Package + "/unity");
             return Path.Combine(Directory.Exists(content) ? content : Path.GetFullPath(Package), file.Substring(Package.Length + 1));
         }
+
+        private static string HomeOf(JvmSettings settings)
+        {
+            switch (settings.location)
+            {
+                case JvmLocation.Bundled:
+                    return Directory.Exists(Bundled) ? Bundled : throw Missing("the package has no JVM of its own: install the package that has one, or choose another location");
+                case JvmLocation.JavaHome:
+                    return FromEnvironment.Length > 0 ? FromEnvironment : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
+                case JvmLocation.Folder:
+                    return Path.GetFullPath(settings.home);
+                default:
+                    return JavaHome.Length > 0 ? JavaHome : throw Missing("there is no JVM: install the package that has one, set JAVA_HOME, or choose a folder in the JVM settings");
+            }
+        }
+
+        private static BridgeException Missing(string message) => new BridgeException(BridgeError.JvmNotFound, message);
     }
 }

@@ -314,10 +314,9 @@ namespace Collektive.Unity
 
         private void StartJvm()
         {
-            var home = string.IsNullOrEmpty(settings.javaHome) ? Installation.JavaHome : settings.javaHome;
             try
             {
-                Jvm.Start(new JvmSettings(home, Installation.HostJar, settings.jvmOptions));
+                Jvm.Start(Installation.ToLaunch(settings.jvm == null ? new JvmSettings() : settings.jvm.settings));
             }
             catch (BridgeException error) when (error.Error == BridgeError.JvmRunning)
             {

@@ -49,13 +49,9 @@ namespace Collektive.Unity
         [Min(1)]
         public int stepLimitMs = 10000;
 
-        /// <summary>Root of a JRE or JDK; empty for the bundled one or JAVA_HOME.</summary>
-        [Tooltip("Root folder of a JRE or JDK, 17 or newer. Empty: the bundled one, else JAVA_HOME.")]
-        public string javaHome = "";
-
-        /// <summary>JVM options, each one word.</summary>
-        [Tooltip("JVM options, each one word, for instance -Xmx2g. They take effect when the JVM starts: once per editor session.")]
-        public List<string> jvmOptions = new List<string>();
+        /// <summary>What the JVM is started with, once per process; null for the usual.</summary>
+        [Tooltip("What the JVM is started with: heap, collector, compiler. Takes effect when the JVM starts, once per editor session. None: the usual.")]
+        public JvmSettingsAsset jvm;
 
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
         public string FindProblem()

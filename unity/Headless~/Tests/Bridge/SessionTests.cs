@@ -18,7 +18,7 @@ namespace Collektive.Headless.Tests.Bridge
         [SetUp]
         public void StartJvm()
         {
-            Jvm.Start(new JvmSettings(Variable("COLLEKTIVE_TEST_JAVA_HOME"), Variable("COLLEKTIVE_HOST_JAR"), new[] { "-Xmx256m", "-XX:+UseSerialGC" }));
+            TestJvm.Start();
         }
 
         [TearDown]
@@ -117,9 +117,6 @@ namespace Collektive.Headless.Tests.Bridge
         /// <summary>Keeps the control's allocation from being optimised away.</summary>
         public static byte[] Keep { get; private set; }
 
-        private static string Variable(string name) =>
-            Environment.GetEnvironmentVariable(name) ?? throw new InvalidOperationException(name + " is not set: run ./collektive test");
-
         private static long AllocatedBy(Action action)
         {
             action();
@@ -132,7 +129,7 @@ namespace Collektive.Headless.Tests.Bridge
         {
             Seed = 1,
             Program = program,
-            Jars = new[] { Variable("COLLEKTIVE_PROBE_JAR") },
+            Jars = new[] { TestJvm.Variable("COLLEKTIVE_PROBE_JAR") },
         };
 
         private static Session Open(string program) => Session.Open(Settings(program), new ProbeSchema());

@@ -27,8 +27,8 @@ namespace Collektive.Headless.Tests.Simulation
             errors.Clear();
             Log.Clear();
             Application.logMessageReceived += Keep;
-            Installation.HostJar = Variable("COLLEKTIVE_HOST_JAR");
-            Installation.JavaHome = Variable("COLLEKTIVE_TEST_JAVA_HOME");
+            Installation.HostJar = TestJvm.HostJar;
+            Installation.JavaHome = TestJvm.Home;
             Loop.Start(1);
             Manager = MakeManager("double");
         }
@@ -39,9 +39,6 @@ namespace Collektive.Headless.Tests.Simulation
             Loop.Quit();
             Application.logMessageReceived -= Keep;
         }
-
-        protected static string Variable(string name) =>
-            Environment.GetEnvironmentVariable(name) ?? throw new InvalidOperationException(name + " is not set: run ./collektive test");
 
         protected SimulationManager MakeManager(string program, Action<SimulationSettings> change = null)
         {
@@ -57,10 +54,11 @@ namespace Collektive.Headless.Tests.Simulation
         {
             var settings = manager.Settings;
             settings.schema = "probe.ProbeSchema";
-            settings.jars = new List<string> { Variable("COLLEKTIVE_PROBE_JAR") };
+            settings.jars = new List<string> { TestJvm.Variable("COLLEKTIVE_PROBE_JAR") };
             settings.program = program;
             settings.deltaTime = 0.05f;
-            settings.jvmOptions = new List<string> { "-Xmx256m", "-XX:+UseSerialGC" };
+            settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
+            settings.jvm.settings = TestJvm.Settings;
             change?.Invoke(settings);
             // A changed seed counts from the next enabling on.
             manager.enabled = false;

@@ -14,6 +14,16 @@ namespace UnityEngine
 
         static Application() => ResetState();
 
+        /// Of the user; without a home folder there is none.
+        private static string DataFolder
+        {
+            get
+            {
+                var folder = Environment.GetFolderPath(Environment.SpecialFolder.LocalApplicationData);
+                return folder.Length > 0 ? folder : Path.GetTempPath();
+            }
+        }
+
         public static bool isPlaying => true;
         public static bool isEditor => false;
         public static bool isBatchMode => true;
@@ -21,7 +31,7 @@ namespace UnityEngine
         public static int targetFrameRate { get; set; }
         public static string dataPath => AppDomain.CurrentDomain.BaseDirectory;
         public static string streamingAssetsPath => Path.Combine(dataPath, "StreamingAssets");
-        public static string persistentDataPath => Path.Combine(Environment.GetFolderPath(Environment.SpecialFolder.LocalApplicationData), productName);
+        public static string persistentDataPath => Path.Combine(DataFolder, productName);
         public static string temporaryCachePath => Path.GetTempPath();
         public static string unityVersion => "6000.0.0f1";
         public static string version => "1.0";

@@ -68,6 +68,9 @@ namespace Collektive.Bridge
         internal static extern int clk_jvm_start(JvmConfig* config);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_check(JvmConfig* config);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_jvm_state();
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -95,6 +98,9 @@ namespace Collektive.Bridge
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_session_close(ulong session, int limitMs);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_control(ulong slot, int offset, int length, int limitMs, Answer* answer);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_log_read(int* level, byte* buffer, int capacity);

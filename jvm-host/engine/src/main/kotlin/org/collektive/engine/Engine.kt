@@ -20,11 +20,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val rounds = Array(settings.threads) { Round(it) }
     private val task = RoundPool.Task(::runRange)
     private var data: RoundData? = null
-    private var lastTick = 0L
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
     }
+
+    /** The last tick whose changes were applied; 0 before the first. */
+    public var lastTick: Long = 0
+        private set
 
     /** Nodes that there are. */
     public val nodeCount: Int get() = nodes.size
@@ -139,6 +142,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             if (pool.isClosed) return
             val node = result.node(index)
             thread.node = node.id
+            thread.rounds++
             try {
                 val answer = round.run(node, index)
                 if (isSequential) commit(node)

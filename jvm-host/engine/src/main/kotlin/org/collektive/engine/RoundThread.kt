@@ -11,6 +11,10 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
     public var node: Int = -1
         internal set
 
+    /** Rounds that this thread has begun. */
+    public var rounds: Long = 0
+        internal set
+
     private companion object {
         const val STACK_BYTES = 4L shl 20
     }

@@ -1,6 +1,7 @@
 package org.collektive.host
 
 import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.host.jfr.SlotGrownEvent
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
@@ -30,8 +31,13 @@ internal class AnswerBuffer(private val shim: ShimCalls) : FlatBufferBuilder.Byt
     val memory: ByteBuffer get() = buffer
 
     override fun newByteBuffer(capacity: Int): ByteBuffer {
+        val before = buffer.capacity()
         buffer = shim.grow(slot, capacity)?.order(ByteOrder.LITTLE_ENDIAN)
             ?: throw OutOfMemoryError("no native memory for an answer of $capacity bytes")
+        val event = SlotGrownEvent()
+        event.before = before.toLong()
+        event.after = buffer.capacity().toLong()
+        event.commit()
         return buffer
     }
 

@@ -27,6 +27,15 @@ internal object FrameShapes {
         string("program"),
     )
 
+    val controlRequest = Shape(
+        "ControlRequest",
+        strings("flags"),
+        inline("collect", 1),
+        inline("recording", 1),
+        string("settings"),
+        string("path"),
+    )
+
     private val parameter = Shape("parameters", string("name", isRequired = true), string("value", isRequired = true))
 
     private val nodeAdded = Shape("nodes_added", inline("id", 4), string("program"), tables("parameters", parameter))

@@ -15,6 +15,7 @@ public object Host {
 
     internal var shim: ShimCalls = NativeShim
     private val sessions = HashMap<Long, Session>()
+    private val control by lazy { Control(shim) }
 
     /** Takes over standard output and `java.util.logging`. Once; returns one line about this host and its JVM. */
     @JvmStatic
@@ -64,6 +65,22 @@ public object Host {
         running.step(FrameVerifier.frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
     }
 
+    /** Answers the `ControlRequest` in [request]; it belongs to no session, so [session] is 0. */
+    @JvmStatic
+    public fun control(
+        session: Long,
+        request: ByteBuffer,
+        offset: Int,
+        length: Int,
+        slot: Long,
+        answer: ByteBuffer,
+        limitMillis: Int,
+    ): Long = answering {
+        requireLimit(limitMillis)
+        if (session != 0L) throw HostException(HostError.ARGUMENT, "a control belongs to no session, but names $session")
+        control.answer(FrameVerifier.frame(request, offset, length), slot, answer)
+    }
+
     /** Closes [session]; an unknown one is ignored. */
     @JvmStatic
     public fun close(session: Long) {
@@ -75,6 +92,7 @@ public object Host {
     public fun stop(limitMillis: Int) {
         sessions.values.forEach(Session::close)
         sessions.clear()
+        control.close(limitMillis)
         val deadline = System.nanoTime() + millis(limitMillis)
         val left = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
         left.forEach(Thread::interrupt)

@@ -6,6 +6,8 @@ import org.collektive.api.Parameters
 import org.collektive.api.Program
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.UnusableAnswer
+import org.collektive.host.jfr.ProgramRounds
+import org.collektive.runtime.DeviceRuntime
 import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
@@ -14,8 +16,10 @@ import java.lang.invoke.MethodType
  *
  * The [function] has exactly the type of [TYPE], so that a call allocates nothing. A generated lambda would be a little cheaper, but the JDK
  * makes none for a class of another loader: the lookup lacks the right of its module.
+ *
+ * @property place class and method, for profiles.
  */
-internal class LoadedProgram(private val info: Program, private val function: MethodHandle) : NodeProgram {
+internal class LoadedProgram(private val info: Program, private val function: MethodHandle, private val place: String) : NodeProgram {
     override val name: String get() = info.name
 
     /** Name, default and description of each parameter. */
@@ -23,8 +27,14 @@ internal class LoadedProgram(private val info: Program, private val function: Me
 
     private val defaults = Parameters(parameters.associate { it.name to it.default })
 
-    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? =
-        function.invokeExact(aggregate, sensors, device)
+    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? {
+        val event = ProgramRounds.begin() ?: return function.invokeExact(aggregate, sensors, device)
+        try {
+            return function.invokeExact(aggregate, sensors, device)
+        } finally {
+            ProgramRounds.end(event, device, name, place, (aggregate as? DeviceRuntime)?.exports ?: 0)
+        }
+    }
 
     override fun describe(failure: Throwable): String = RoundFailure.describe(failure)
 

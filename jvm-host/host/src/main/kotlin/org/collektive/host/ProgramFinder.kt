@@ -26,7 +26,7 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
                     if (other != null) {
                         throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one")
                     }
-                    programs[info.name] = LoadedProgram(info, function(method, place))
+                    programs[info.name] = LoadedProgram(info, function(method, place), "${method.declaringClass.name}.${method.name}")
                 }
             }
         }

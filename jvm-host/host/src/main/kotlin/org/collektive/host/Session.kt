@@ -16,6 +16,10 @@ import org.collektive.frame.ParameterInfo
 import org.collektive.frame.ProgramInfo
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
+import org.collektive.host.jfr.ProgramErrorEvent
+import org.collektive.host.jfr.SessionEndEvent
+import org.collektive.host.jfr.SessionStartEvent
+import org.collektive.host.jfr.TickEvent
 import org.collektive.runtime.AggregateRuntimes
 import java.nio.ByteBuffer
 
@@ -34,6 +38,8 @@ internal class Session private constructor(
     private val digest = RoundDigest()
     private val buffer = AnswerBuffer(shim)
     private val engine = Engine(settings, AggregateRuntimes(ViewRule))
+    private val tickEvent = TickEvent()
+    private var lastEnd = 0L
     private var failure: String? = null
 
     // What the writer takes: the answers without gaps, and where their bytes went.
@@ -67,6 +73,7 @@ internal class Session private constructor(
      */
     fun step(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
+        tickEvent.begin()
         frame.read(request)
         readUserData(request)
         val result = try {
@@ -80,15 +87,41 @@ internal class Session private constructor(
             throw fail("tick ${frame.tick.number} failed inside the engine: $e", e)
         }
         if (frame.globals != 0) globals?.accept()
-        return try {
+        val writeBegin = System.nanoTime()
+        val place = try {
             write(result, slot, answer, begin)
         } catch (e: Throwable) {
             throw fail("the answer of tick ${frame.tick.number} could not be written: $e", e)
         }
+        val end = System.nanoTime()
+        record(result, request.remaining(), place.toInt(), if (lastEnd == 0L) 0 else begin - lastEnd, end - writeBegin)
+        lastEnd = end
+        return place
     }
 
     override fun close() {
         engine.close()
+        val event = SessionEndEvent()
+        event.ticks = engine.lastTick
+        event.failure = failure
+        event.commit()
+    }
+
+    private fun record(result: TickResult, bytesIn: Int, bytesOut: Int, wait: Long, write: Long) {
+        val event = tickEvent
+        event.end()
+        if (!event.shouldCommit()) return
+        event.tick = frame.tick.number
+        event.nodes = engine.nodeCount
+        event.dueNodes = result.size
+        event.failedRounds = result.failureCount
+        event.links = engine.linkCount
+        event.bytesIn = bytesIn.toLong()
+        event.bytesOut = bytesOut.toLong()
+        event.wait = wait
+        event.rounds = result.roundNanos
+        event.write = write
+        event.commit()
     }
 
     private fun fail(why: String, cause: Throwable): HostException {
@@ -167,11 +200,22 @@ internal class Session private constructor(
         val builder = buffer.builder
         val errors = (0 until result.size).mapNotNull { index ->
             result.failure(index)?.let { message ->
+                record(result, index, message)
                 val text = builder.createString(message)
                 RoundError.createRoundError(builder, result.id(index), builder.createString(result.program(index).name), text)
             }
         }
         return StepResponse.createErrorsVector(builder, errors.toIntArray())
+    }
+
+    private fun record(result: TickResult, index: Int, message: String) {
+        val event = ProgramErrorEvent()
+        if (!event.isEnabled) return
+        event.tick = frame.tick.number
+        event.node = result.id(index)
+        event.program = result.program(index).name
+        event.message = message
+        event.commit()
     }
 
     private fun micros(nanos: Long) = (nanos / 1000).coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
@@ -202,6 +246,8 @@ internal class Session private constructor(
     companion object {
         /** Loads what the `OpenRequest` in [frame] asks for. */
         fun open(frame: ByteBuffer, shim: ShimCalls): Session {
+            val event = SessionStartEvent()
+            event.begin()
             val root = FrameVerifier().verify(frame, FrameShapes.openRequest)
             val request = OpenRequest().__assign(root, frame)
             if (request.protocol() != Host.PROTOCOL.toLong()) {
@@ -218,7 +264,14 @@ internal class Session private constructor(
             val programs = ProgramFinder(jars, loader, schema).find()
             val name = request.program().orEmpty()
             val program = if (name.isEmpty()) null else programs[name] ?: throw StepFrame.noSuchProgram("the session", name, programs.keys)
-            return Session(schema, programs, program, settings, shim)
+            return Session(schema, programs, program, settings, shim).also {
+                event.programs = programs.keys.joinToString()
+                event.schema = schema.name
+                event.schedule = settings.schedule.name
+                event.seed = settings.seed
+                event.threads = settings.threads
+                event.commit()
+            }
         }
 
         private fun settings(request: OpenRequest): EngineSettings {

@@ -44,6 +44,8 @@ internal class AggregateDevice<ID : Any>(
         return program.run(this as Aggregate<Int>)
     }
 
+    override val exports: Int get() = running.countSent()
+
     override fun commit(): Export {
         val last = valid
         valid = running

@@ -11,6 +11,9 @@ public interface DeviceRuntime {
      */
     public fun round(inbox: Inbox, program: RoundProgram): Any?
 
+    /** How many values the last round sends, one per place in the program, whether there are neighbours or not. Not for every round. */
+    public val exports: Int
+
     /**
      * Makes the state of the last round the valid one and returns what that round sends.
      *

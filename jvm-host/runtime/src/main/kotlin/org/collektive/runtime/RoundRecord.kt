@@ -64,6 +64,9 @@ internal class RoundRecord : Export() {
         return if (wasKnown) field.getOrLocal(receiver) else field.local.value
     }
 
+    /** At how many paths something was sent. */
+    fun countSent(): Int = paths.indices.count { paths[it] != null && sent[it] !== Nothing }
+
     inline fun forEachPath(action: (PathNode) -> Unit) {
         for (path in paths) if (path != null) action(path)
     }

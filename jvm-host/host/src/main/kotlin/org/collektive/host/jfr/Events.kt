@@ -1,0 +1,175 @@
+package org.collektive.host.jfr
+
+import jdk.jfr.Category
+import jdk.jfr.DataAmount
+import jdk.jfr.Description
+import jdk.jfr.Event
+import jdk.jfr.Label
+import jdk.jfr.Name
+import jdk.jfr.StackTrace
+import jdk.jfr.Timespan
+
+/** One tick, from the call that brings its frame to the answer; made once per session and used again. */
+@Name("collektive.Tick")
+@Label("Tick")
+@Category("Collektive")
+@StackTrace(false)
+internal class TickEvent : Event() {
+    @Label("Tick")
+    @JvmField
+    var tick = 0L
+
+    @Label("Nodes")
+    @JvmField
+    var nodes = 0
+
+    @Label("Due Nodes")
+    @Description("Nodes that ran a round in this tick")
+    @JvmField
+    var dueNodes = 0
+
+    @Label("Failed Rounds")
+    @JvmField
+    var failedRounds = 0
+
+    @Label("Links")
+    @Description("Directed links")
+    @JvmField
+    var links = 0
+
+    @Label("Bytes In")
+    @DataAmount
+    @JvmField
+    var bytesIn = 0L
+
+    @Label("Bytes Out")
+    @DataAmount
+    @JvmField
+    var bytesOut = 0L
+
+    @Label("Wait")
+    @Description("Since the end of the tick before: sensors, actuators, physics and drawing outside of the JVM")
+    @Timespan(Timespan.NANOSECONDS)
+    @JvmField
+    var wait = 0L
+
+    @Label("Rounds")
+    @Timespan(Timespan.NANOSECONDS)
+    @JvmField
+    var rounds = 0L
+
+    @Label("Write")
+    @Description("Building the answer and its digest")
+    @Timespan(Timespan.NANOSECONDS)
+    @JvmField
+    var write = 0L
+}
+
+/** The program's part of a round; see [ProgramRounds] for which rounds. */
+@Name("collektive.ProgramRound")
+@Label("Program Round")
+@Description("One in ${ProgramRounds.EVERY} rounds of each thread")
+@Category("Collektive")
+@StackTrace(false)
+internal class ProgramRoundEvent : Event() {
+    @Label("Node")
+    @JvmField
+    var node = 0
+
+    @Label("Program")
+    @JvmField
+    var program: String? = null
+
+    @Label("Function")
+    @Description("Class and method of the program")
+    @JvmField
+    var function: String? = null
+
+    @Label("Exports")
+    @Description("Values sent to the neighbours, one per place in the program")
+    @JvmField
+    var exports = 0
+}
+
+/** A session was opened; the duration is that of the opening. */
+@Name("collektive.SessionStart")
+@Label("Session Start")
+@Category("Collektive")
+@StackTrace(false)
+internal class SessionStartEvent : Event() {
+    @Label("Programs")
+    @JvmField
+    var programs: String? = null
+
+    @Label("Schema")
+    @JvmField
+    var schema: String? = null
+
+    @Label("Schedule")
+    @JvmField
+    var schedule: String? = null
+
+    @Label("Seed")
+    @JvmField
+    var seed = 0L
+
+    @Label("Threads")
+    @JvmField
+    var threads = 0
+}
+
+/** A session was closed. */
+@Name("collektive.SessionEnd")
+@Label("Session End")
+@Category("Collektive")
+@StackTrace(false)
+internal class SessionEndEvent : Event() {
+    @Label("Ticks")
+    @JvmField
+    var ticks = 0L
+
+    @Label("Failure")
+    @Description("Why the session ended early")
+    @JvmField
+    var failure: String? = null
+}
+
+/** A round that failed. */
+@Name("collektive.ProgramError")
+@Label("Program Error")
+@Category("Collektive")
+@StackTrace(false)
+internal class ProgramErrorEvent : Event() {
+    @Label("Tick")
+    @JvmField
+    var tick = 0L
+
+    @Label("Node")
+    @JvmField
+    var node = 0
+
+    @Label("Program")
+    @JvmField
+    var program: String? = null
+
+    @Label("Message")
+    @JvmField
+    var message: String? = null
+}
+
+/** An answer outgrew its slot. */
+@Name("collektive.SlotGrown")
+@Label("Slot Grown")
+@Category("Collektive")
+@StackTrace(false)
+internal class SlotGrownEvent : Event() {
+    @Label("Before")
+    @DataAmount
+    @JvmField
+    var before = 0L
+
+    @Label("After")
+    @DataAmount
+    @JvmField
+    var after = 0L
+}

@@ -1,0 +1,163 @@
+package org.collektive.host.jfr
+
+import jdk.jfr.Configuration
+import jdk.jfr.Recording
+import org.collektive.host.LogLevel
+import org.collektive.host.ShimCalls
+import java.io.IOException
+import java.nio.file.Files
+import java.nio.file.NoSuchFileException
+import java.nio.file.Path
+import java.nio.file.StandardCopyOption.REPLACE_EXISTING
+import java.text.ParseException
+import java.util.concurrent.ExecutorService
+import java.util.concurrent.Executors
+import java.util.concurrent.TimeUnit
+
+/**
+ * The one flight recording of this JVM.
+ *
+ * All that takes long (the first start some hundred milliseconds, writing a file) goes on in a thread of its own, one action after the
+ * other: whoever asks only learns later what came of it, in [state], [error] and the log. Called by one thread.
+ */
+internal class Recorder(private val shim: ShimCalls) {
+    enum class State { OFF, STARTING, ON, DUMPING, STOPPING }
+
+    private var worker: ExecutorService? = null
+    private var recording: Recording? = null
+
+    /** What the worker is at, and what is left when it has done all that was asked. */
+    @Volatile
+    var state = State.OFF
+        private set
+
+    /** File of the recording that runs, or of the last one. */
+    @Volatile
+    var path: String? = null
+        private set
+
+    /** Why the last action failed. */
+    @Volatile
+    var error: String? = null
+        private set
+
+    /** How long the last action took. */
+    @Volatile
+    var millis = 0
+        private set
+
+    /** Recordings and dumps written so far. */
+    @Volatile
+    var written = 0
+        private set
+
+    /** Starts a recording with the [settings] "default", "profile" or those of a `.jfc` file; [file] is written at its stop. */
+    fun start(settings: String, file: String) = act(State.STARTING) {
+        check(recording == null) { "a recording runs already, to $path; stop it first" }
+        val target = target(file)
+        val started = Recording(configuration(settings))
+        try {
+            started.name = "collektive"
+            started.maxSize = MAX_BYTES
+            started.start()
+        } catch (e: Throwable) {
+            started.close()
+            throw e
+        }
+        path = target.toString()
+        recording = started
+    }
+
+    /** Writes what there is so far to [file]. */
+    fun dump(file: String) = act(State.DUMPING) { write(running(), target(file)) }
+
+    /** Ends the recording and writes its file. */
+    fun stop() = act(State.STOPPING) { finish(running()) }
+
+    /** Stops a recording that runs, and waits for its file at most [limitMillis]. */
+    fun close(limitMillis: Int) {
+        val worker = worker ?: return
+        if (state != State.OFF) act(State.STOPPING) { recording?.let(::finish) }
+        worker.shutdown()
+        if (!worker.awaitTermination(limitMillis.toLong(), TimeUnit.MILLISECONDS)) {
+            shim.log(LogLevel.ERROR, "the flight recording to $path was not written within $limitMillis ms")
+        }
+        this.worker = null
+    }
+
+    private fun act(busy: State, action: () -> Unit) {
+        state = busy
+        error = null
+        val worker = worker ?: Executors.newSingleThreadExecutor { Thread(it, "collektive-jfr").apply { isDaemon = true } }.also { worker = it }
+        worker.execute {
+            val begin = System.nanoTime()
+            try {
+                action()
+            } catch (e: Throwable) {
+                val text = "flight recording: ${text(e)}"
+                error = text
+                shim.log(LogLevel.ERROR, text)
+            }
+            millis = TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - begin).toInt()
+            state = if (recording == null) State.OFF else State.ON
+        }
+    }
+
+    private fun text(failure: Throwable): String = when (failure) {
+        is NoSuchFileException -> "there is no file or folder ${failure.file}"
+        is IOException -> "it cannot be written: ${failure.message ?: failure}; make room or choose another file"
+        is IllegalStateException, is IllegalArgumentException -> failure.message ?: failure.toString()
+        else -> failure.toString()
+    }
+
+    private fun running() = checkNotNull(recording) { "none runs; start one first" }
+
+    private fun target(file: String): Path {
+        require(file.isNotBlank()) { "name the file it is written to" }
+        val target = Path.of(file).toAbsolutePath()
+        require(!Files.isDirectory(target)) { "$target is a folder; name a file in it" }
+        Files.createDirectories(target.parent)
+        return target
+    }
+
+    private fun configuration(settings: String): Configuration {
+        Configuration.getConfigurations().find { it.name == settings }?.let { return it }
+        require(settings.endsWith(".jfc")) {
+            val known = Configuration.getConfigurations().joinToString { it.name }
+            "there are no settings '$settings'; there are $known and the paths of .jfc files"
+        }
+        return try {
+            Configuration.create(Path.of(settings))
+        } catch (e: ParseException) {
+            throw IllegalArgumentException("$settings is no file of recording settings: ${e.message}", e)
+        }
+    }
+
+    private fun finish(ending: Recording) {
+        recording = null
+        ending.use {
+            it.stop()
+            write(it, Path.of(checkNotNull(path)))
+        }
+    }
+
+    /** A file is there as a whole or not at all. */
+    private fun write(source: Recording, target: Path) {
+        val part = target.resolveSibling("${target.fileName}.part")
+        try {
+            source.dump(part)
+            Files.move(part, target, REPLACE_EXISTING)
+        } finally {
+            Files.deleteIfExists(part)
+        }
+        written++
+        shim.log(LogLevel.INFO, "flight recording written to $target (${Files.size(target) / KIB} KiB)")
+    }
+
+    private companion object {
+        const val KIB = 1024
+
+        /** What is older than this many bytes of events is dropped: a recording that nobody stops does not fill the disk. */
+        const val MAX_BYTES = 512L shl 20
+    }
+}

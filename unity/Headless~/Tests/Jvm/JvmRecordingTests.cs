@@ -1,0 +1,101 @@
+using System;
+using System.Diagnostics;
+using System.IO;
+using System.Threading;
+using Collektive.Bridge;
+using NUnit.Framework;
+using org.collektive.frame;
+using probe;
+
+namespace Collektive.Headless.Tests
+{
+    /// <summary>Flight recordings while a session runs, read with the JDK's own tool.</summary>
+    [TestFixture]
+    public sealed class JvmRecordingTests
+    {
+        private string folder;
+
+        [SetUp]
+        public void StartJvm()
+        {
+            TestJvm.Start();
+            folder = Path.Combine(Path.GetTempPath(), "collektive-recording-" + Guid.NewGuid().ToString("N"));
+        }
+
+        [TearDown]
+        public void RemoveFiles()
+        {
+            if (Directory.Exists(folder)) Directory.Delete(folder, true);
+        }
+
+        [Test]
+        public void A_recording_between_two_ticks_shows_each_tick_after_it()
+        {
+            var file = Path.Combine(folder, "play.jfr");
+            using (var session = TestJvm.Open("double"))
+            {
+                TestJvm.Tick(session);
+                JvmRecording.Start(file, JvmRecording.Profile);
+                WaitFor(RecordingState.On);
+                for (var i = 0; i < 40; i++) TestJvm.Tick(session);
+                JvmRecording.Dump(Path.Combine(folder, "dump.jfr"));
+                WaitFor(RecordingState.On);
+                for (var i = 0; i < 10; i++) TestJvm.Tick(session);
+            }
+            JvmRecording.Stop();
+            var status = WaitFor(RecordingState.Off);
+            Assert.That(status.RecordingError, Is.Empty);
+            Assert.That(status.RecordingPath, Is.EqualTo(file));
+            Assert.That(Count(Jfr("summary", file), "collektive.Tick"), Is.EqualTo(50));
+            Assert.That(Count(Jfr("summary", file), "collektive.SessionEnd"), Is.EqualTo(1));
+            Assert.That(Count(Jfr("summary", Path.Combine(folder, "dump.jfr")), "collektive.Tick"), Is.EqualTo(40));
+            var text = Jfr("print --events collektive.Tick", file);
+            Assert.That(text, Is.StringContaining("dueNodes = 1"));
+            Assert.That(text, Is.StringContaining("bytesIn = "));
+        }
+
+        [Test]
+        public void What_cannot_be_recorded_says_why()
+        {
+            JvmRecording.Start(Path.Combine(folder, "a.jfr"), "fastest");
+            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("no settings 'fastest'"));
+            JvmRecording.Stop();
+            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("none runs"));
+            Assert.Throws<ArgumentException>(() => JvmRecording.Start(" "));
+        }
+
+        private static JvmStatus WaitFor(RecordingState state)
+        {
+            var clock = Stopwatch.StartNew();
+            while (true)
+            {
+                var status = Jvm.GetStatus();
+                if (status.Recording == state) return status;
+                Assert.That(clock.Elapsed.TotalSeconds, Is.LessThan(60), "the recording is still " + status.Recording);
+                Thread.Sleep(5);
+            }
+        }
+
+        private static int Count(string summary, string name)
+        {
+            foreach (var line in summary.Split('\n'))
+            {
+                var words = line.Split(new[] { ' ' }, StringSplitOptions.RemoveEmptyEntries);
+                if (words.Length > 1 && words[0] == name) return int.Parse(words[1]);
+            }
+            return 0;
+        }
+
+        private static string Jfr(string command, string file)
+        {
+            var start = new ProcessStartInfo(TestJvm.Home + "/bin/jfr", command + " " + file) { RedirectStandardOutput = true, UseShellExecute = false };
+            using (var process = Process.Start(start))
+            {
+                var text = process.StandardOutput.ReadToEnd();
+                process.WaitForExit();
+                Assert.That(process.ExitCode, Is.EqualTo(0), text);
+                return text;
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Reflection;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests
+{
+    /// <summary>From wishes to the words of the JVM, and back from the JVM that runs.</summary>
+    [TestFixture]
+    public sealed class JvmSettingsTests
+    {
+        [SetUp]
+        public void StartJvm()
+        {
+            TestJvm.Start();
+        }
+
+        [Test]
+        public void Each_field_has_a_label_a_tooltip_and_for_numbers_a_range()
+        {
+            var fields = typeof(JvmSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Select(field => field.Name);
+            Assert.That(JvmSetting.All.Select(setting => setting.Key), Is.EquivalentTo(fields));
+            foreach (var setting in JvmSetting.All)
+            {
+                Assert.That(setting.Label, Is.Not.Empty);
+                Assert.That(setting.Tooltip, Is.StringEnding("."));
+                Assert.That(setting.Maximum > 0, Is.EqualTo(setting.Type == typeof(int)), setting.Key);
+            }
+        }
+
+        [Test]
+        public void Untouched_settings_leave_all_to_the_jvm()
+        {
+            Assert.That(Words(new JvmSettings { cdsArchive = false }), Is.Empty);
+            Assert.That(new JvmSettings().FindProblems(), Is.Empty);
+        }
+
+        [Test]
+        public void Each_setting_becomes_its_words_and_free_flags_come_last()
+        {
+            var settings = new JvmSettings
+            {
+                initialHeapMb = 64, maximumHeapMb = 128, collector = JvmCollector.Z, compiler = JvmCompiler.C1, compileThreshold = 50, codeCacheMb = 48,
+                cdsArchive = false, assertions = true, debugPort = 5005, repeatableMaths = true, flags = new List<string> { "-Xss2m" },
+            };
+            Assert.That(Words(settings), Is.EqualTo(
+                "-Xms64m -Xmx128m -XX:+UseZGC -XX:TieredStopAtLevel=1 -XX:CompileThresholdScaling=0.5 -XX:ReservedCodeCacheSize=48m -ea " +
+                "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
+                "-XX:+UnlockDiagnosticVMOptions -XX:-UseLibmIntrinsic -Xss2m"));
+            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }), Is.EqualTo("-Xint"));
+        }
+
+        [Test]
+        public void The_class_archive_is_one_file_per_jvm_and_host_in_the_cache_of_those_that_can_make_it()
+        {
+            var folder = Path.Combine(Path.GetTempPath(), "collektive-cache-test");
+            var words = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options;
+            if (JvmSettings.JavaVersion(TestJvm.Home) < 19)
+            {
+                Assert.That(words, Is.Empty);
+                return;
+            }
+            Assert.That(words[0], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
+            Assert.That(words[1], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
+            Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
+            Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
+        }
+
+        [TestCase("initialHeapMb", 7)]
+        [TestCase("maximumHeapMb", -1)]
+        [TestCase("maximumHeapMb", 15)]
+        [TestCase("codeCacheMb", 5000)]
+        [TestCase("compileThreshold", 0)]
+        [TestCase("debugPort", 80)]
+        [TestCase("debugPort", 70000)]
+        public void A_number_out_of_its_range_is_a_problem_of_its_field(string key, int value)
+        {
+            var settings = new JvmSettings();
+            JvmSetting.Find(key).Set(settings, value);
+            var problem = settings.FindProblems().Single();
+            Assert.That(problem.Key, Is.EqualTo(key));
+            Assert.That(problem.Message, Is.StringContaining("is " + value + ": it must be "));
+        }
+
+        [Test]
+        public void What_contradicts_itself_is_a_problem()
+        {
+            Assert.That(Problem(new JvmSettings { initialHeapMb = 200, maximumHeapMb = 100 }, "initialHeapMb"), Is.StringContaining("200 MB"));
+            Assert.That(Problem(new JvmSettings { location = JvmLocation.Folder }, "home"), Is.StringContaining("choose"));
+            Assert.That(Problem(new JvmSettings { flags = { "" } }, "flags"), Is.StringContaining("empty"));
+            Assert.That(Problem(new JvmSettings { flags = { "-Xss2m -Xint" } }, "flags"), Is.StringContaining("more than one"));
+            Assert.That(Problem(new JvmSettings { collector = (JvmCollector)42 }, "collector"), Is.StringContaining("42"));
+        }
+
+        [TestCase("-XX:+NoSuchThing", "flags", "NoSuchThing")]
+        [TestCase("-XX:+ExitOnOutOfMemoryError", "flags", "ends the whole process")]
+        [TestCase("-XX:-UseSignalChaining", "flags", "signal handlers")]
+        [TestCase("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "flags", "address=127.0.0.1")]
+        [TestCase("-XX:+UseParallelGC", "collector", "ollectors selected")]
+        public void A_flag_that_the_jvm_or_the_editor_cannot_bear_is_refused_at_its_field_with_the_reason(string flag, string key, string reason)
+        {
+            var settings = TestJvm.Settings;
+            settings.flags.Add(flag);
+            var report = JvmReport.Of(settings, TestJvm.Launch);
+            Assert.That(report.IsGood, Is.False);
+            Assert.That(report.Problem(JvmSetting.Find(key)), Is.StringContaining(reason));
+        }
+
+        [Test]
+        public void A_heap_that_the_machine_cannot_give_is_a_problem_of_the_heap()
+        {
+            var report = JvmReport.Of(new JvmSettings { initialHeapMb = 1 << 20, maximumHeapMb = 1 << 20, cdsArchive = false }, TestJvm.Launch);
+            Assert.That(report.IsGood, Is.False);
+            var problems = JvmSetting.All.Where(setting => report.Problem(setting).Length > 0).Select(setting => setting.Key).ToArray();
+            Assert.That(problems, Is.SubsetOf(new[] { "initialHeapMb", "maximumHeapMb" }));
+        }
+
+        [Test]
+        public void A_port_that_is_taken_is_a_problem_of_the_debugger()
+        {
+            var other = new System.Net.Sockets.TcpListener(System.Net.IPAddress.Loopback, 0);
+            other.Start();
+            try
+            {
+                var settings = TestJvm.Settings;
+                settings.debugPort = ((System.Net.IPEndPoint)other.LocalEndpoint).Port;
+                var report = JvmReport.Of(settings, TestJvm.Launch);
+                Assert.That(report.Problem(JvmSetting.Find("debugPort")), Is.Not.Empty);
+            }
+            finally
+            {
+                other.Stop();
+            }
+        }
+
+        [Test]
+        public void The_jvm_is_looked_for_where_the_settings_say()
+        {
+            Installation.HostJar = TestJvm.HostJar;
+            Installation.JavaHome = TestJvm.Home;
+            Assert.That(Installation.ToLaunch(TestJvm.Settings).Home, Is.EqualTo(TestJvm.Home));
+            var report = JvmReport.Of(new JvmSettings { location = JvmLocation.Folder, home = "/nowhere/jdk" }, Installation.ToLaunch);
+            Assert.That(report.Problem(JvmSetting.Find("home")), Is.StringContaining("/nowhere/jdk"));
+            report = JvmReport.Of(new JvmSettings { location = JvmLocation.Bundled }, Installation.ToLaunch);
+            Assert.That(report.Problem(JvmSetting.Find("location")), Is.StringContaining("no JVM of its own"));
+        }
+
+        [Test]
+        public void Beside_each_wish_stands_what_is_in_effect()
+        {
+            var report = JvmReport.Of(TestJvm.Settings, TestJvm.Launch);
+            Assert.That(report.IsGood, Is.True);
+            Assert.That(report.Notice, Is.Empty);
+            Func<string, string> effective = key => report.Effective(JvmSetting.Find(key));
+            Assert.That(effective("maximumHeapMb"), Is.EqualTo("256 MB"));
+            Assert.That(effective("collector"), Is.EqualTo("Serial"));
+            Assert.That(effective("compiler"), Is.EqualTo("Tiered"));
+            Assert.That(effective("compileThreshold"), Is.EqualTo("100 %"));
+            Assert.That(effective("debugPort"), Is.EqualTo("off"));
+            Assert.That(effective("assertions"), Is.EqualTo("off"));
+            Assert.That(effective("repeatableMaths"), Is.EqualTo("off"));
+            Assert.That(effective("location"), Is.EqualTo(TestJvm.Home));
+            Assert.That(effective("initialHeapMb"), Is.StringEnding(" MB"));
+            Assert.That(effective("flags"), Is.EqualTo("-Xmx256m -XX:+UseSerialGC"));
+        }
+
+        [Test]
+        public void Changed_settings_say_that_a_restart_is_due_and_what_runs_now()
+        {
+            var settings = TestJvm.Settings;
+            settings.maximumHeapMb = 512;
+            var report = JvmReport.Of(settings, TestJvm.Launch);
+            Assert.That(report.IsGood, Is.True);
+            Assert.That(report.Notice, Is.StringContaining("after an editor restart"));
+            Assert.That(report.Notice, Is.StringContaining("-Xmx256m"));
+            Assert.That(report.Effective(JvmSetting.Find("maximumHeapMb")), Is.EqualTo("256 MB"));
+        }
+
+        [Test]
+        public void A_new_asset_has_untouched_settings()
+        {
+            Assert.That(ScriptableObject.CreateInstance<JvmSettingsAsset>().settings.FindProblems(), Is.Empty);
+        }
+
+        private static string Words(JvmSettings settings) => string.Join(" ", settings.ToLaunch(TestJvm.Home, TestJvm.HostJar, "unused").Options);
+
+        private static string Problem(JvmSettings settings, string key) => settings.FindProblems().Single(problem => problem.Key == key).Message;
+    }
+}

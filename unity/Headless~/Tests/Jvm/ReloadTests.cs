@@ -1,0 +1,41 @@
+using Collektive.Bridge;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests
+{
+    /// <summary>Each session loads its programs anew; what an ended one loaded goes.</summary>
+    [TestFixture]
+    public sealed class ReloadTests
+    {
+        private const long Mebi = 1 << 20;
+
+        [SetUp]
+        public void StartJvm()
+        {
+            TestJvm.Start();
+        }
+
+        [Test]
+        public void A_hundred_reloads_leave_classes_and_metaspace_as_they_were()
+        {
+            for (var i = 0; i < 10; i++) Play();
+            var before = Jvm.GetStatus(collect: true);
+            for (var i = 0; i < 100; i++) Play();
+            var after = Jvm.GetStatus(collect: true);
+            using (TestJvm.Open("sum"))
+            {
+                Assert.That(Jvm.GetStatus(collect: true).Classes - after.Classes, Is.GreaterThan(3), "the count sees the classes of one session");
+            }
+            Assert.That(after.Classes - before.Classes, Is.LessThan(100), "classes: " + before.Classes + " -> " + after.Classes);
+            Assert.That(after.MetaspaceUsed - before.MetaspaceUsed, Is.LessThan(Mebi), "metaspace: " + before.MetaspaceUsed + " -> " + after.MetaspaceUsed);
+        }
+
+        private static void Play()
+        {
+            using (var session = TestJvm.Open("sum"))
+            {
+                for (var i = 0; i < 3; i++) TestJvm.Tick(session);
+            }
+        }
+    }
+}

@@ -1,0 +1,40 @@
+using System;
+using Collektive.Bridge;
+using probe;
+
+namespace Collektive.Headless.Tests
+{
+    /// <summary>The one JVM of the tests' process.</summary>
+    internal static class TestJvm
+    {
+        internal static string Home => Variable("COLLEKTIVE_TEST_JAVA_HOME");
+
+        internal static string HostJar => Variable("COLLEKTIVE_HOST_JAR");
+
+        /// <summary>Its settings; a new object each time.</summary>
+        internal static JvmSettings Settings => new JvmSettings { maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false };
+
+        internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");
+
+        internal static void Start() => Jvm.Start(Launch(Settings));
+
+        /// <summary>A session of the probe programs on it.</summary>
+        internal static Session Open(string program) => Session.Open(
+            new SessionSettings { Seed = 1, Program = program, Jars = new[] { Variable("COLLEKTIVE_PROBE_JAR") } }, new ProbeSchema());
+
+        /// <summary>One tick with one node.</summary>
+        internal static void Tick(Session session)
+        {
+            var request = session.Request;
+            if (session.Tick == 0) request.AddNode(1, "", null);
+            request.Sensors.EnsureCapacity(1);
+            request.Sensors.Clear(0);
+            request.ClearDue();
+            request.AddDue(1);
+            session.Step(0.05, 10000);
+        }
+
+        internal static string Variable(string name) =>
+            Environment.GetEnvironmentVariable(name) ?? throw new InvalidOperationException(name + " is not set: run ./collektive test");
+    }
+}

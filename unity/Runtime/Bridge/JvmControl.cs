@@ -1,0 +1,57 @@
+using System.Collections.Generic;
+using Google.FlatBuffers;
+using Frame = org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Asks the host about the JVM itself, in frames that belong to no session. From one thread at a time; allocates.</summary>
+    internal static unsafe class JvmControl
+    {
+        private const int FirstCapacity = 4096;
+        private const int LimitMs = 10000;
+
+        private static readonly string[] Flags =
+        {
+            "InitialHeapSize", "MaxHeapSize", "ReservedCodeCacheSize", "TieredCompilation", "TieredStopAtLevel", "CompileThresholdScaling",
+            "UseSharedSpaces", "AutoCreateSharedArchive", "UseLibmIntrinsic", "UseG1GC", "UseSerialGC", "UseParallelGC", "UseZGC", "UseShenandoahGC",
+        };
+
+        internal static JvmStatus Ask(Question question)
+        {
+            var slot = new SlotAllocator(FirstCapacity);
+            try
+            {
+                var builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));
+                Write(builder, question);
+                var offset = builder.DataBuffer.Position;
+                var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
+                Shim.Check(Shim.clk_control(slot.Slot, offset, builder.DataBuffer.Length - offset, LimitMs, &answer));
+                var memory = new AnswerMemory();
+                memory.Point(answer);
+                return new JvmStatus(Frame.ControlResponse.GetRootAsControlResponse(new ByteBuffer(memory, answer.Offset)));
+            }
+            finally
+            {
+                slot.Release();
+            }
+        }
+
+        private static void Write(FlatBufferBuilder builder, Question question)
+        {
+            var names = new List<StringOffset>();
+            foreach (var flag in Flags) names.Add(builder.CreateString(flag));
+            var flags = Frame.ControlRequest.CreateFlagsVector(builder, names.ToArray());
+            var settings = builder.CreateString(question.Settings ?? "");
+            var path = builder.CreateString(question.Path ?? "");
+            builder.Finish(Frame.ControlRequest.CreateControlRequest(builder, flags, question.Collect, question.Recording, settings, path).Value);
+        }
+
+        internal struct Question
+        {
+            internal bool Collect;
+            internal Frame.RecordingAction Recording;
+            internal string Settings;
+            internal string Path;
+        }
+    }
+}

@@ -1,0 +1,29 @@
+using System;
+using System.Collections.Generic;
+
+namespace Collektive.Bridge
+{
+    /// <summary>The words a JVM is started with: what becomes of <see cref="JvmSettings"/> on this machine.</summary>
+    public sealed class JvmLaunch
+    {
+        /// <summary>Makes a launch of the JRE or JDK at <paramref name="home"/> with the host's jar.</summary>
+        public JvmLaunch(string home, string classPath, IReadOnlyList<string> options)
+        {
+            Home = home ?? throw new ArgumentNullException(nameof(home));
+            ClassPath = classPath ?? throw new ArgumentNullException(nameof(classPath));
+            Options = options ?? throw new ArgumentNullException(nameof(options));
+        }
+
+        /// <summary>Root folder of a JRE or JDK, version 17 or newer.</summary>
+        public string Home { get; }
+
+        /// <summary>Path of the host's jar.</summary>
+        public string ClassPath { get; }
+
+        /// <summary>JVM options, each one word, in order.</summary>
+        public IReadOnlyList<string> Options { get; }
+
+        /// <summary>Limit for the whole start in milliseconds.</summary>
+        public int StartLimitMs { get; set; } = 30000;
+    }
+}

@@ -1,0 +1,45 @@
+using System;
+using System.IO;
+using org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// The flight recording of the JVM, which may be started and ended at any time while it runs, also between two ticks of a scene.
+    /// Each member returns at once: starting and writing go on in the background, and <see cref="Jvm.GetStatus"/> tells how far they are.
+    /// At the end of the JVM a running recording is written. From the main thread.
+    /// </summary>
+    public static class JvmRecording
+    {
+        /// <summary>Settings with little overhead, for recordings without end.</summary>
+        public const string Default = "default";
+
+        /// <summary>Settings with more samples, for a closer look.</summary>
+        public const string Profile = "profile";
+
+        /// <summary>Starts a recording; <paramref name="path"/> (usually <c>.jfr</c>) is written at its stop.</summary>
+        /// <param name="path">A file; one that is there already is replaced.</param>
+        /// <param name="settings"><see cref="Default"/>, <see cref="Profile"/>, or the path of a <c>.jfc</c> file.</param>
+        /// <exception cref="BridgeException">No JVM runs.</exception>
+        public static void Start(string path, string settings = Default)
+        {
+            if (settings == null) throw new ArgumentNullException(nameof(settings));
+            var isFile = settings.EndsWith(".jfc", StringComparison.Ordinal);
+            Ask(RecordingAction.Start, path, isFile ? Path.GetFullPath(settings) : settings);
+        }
+
+        /// <summary>Writes what has been recorded so far; the recording goes on.</summary>
+        /// <exception cref="BridgeException">No JVM runs.</exception>
+        public static void Dump(string path) => Ask(RecordingAction.Dump, path, "");
+
+        /// <summary>Ends the recording and writes its file.</summary>
+        /// <exception cref="BridgeException">No JVM runs.</exception>
+        public static void Stop() => JvmControl.Ask(new JvmControl.Question { Recording = RecordingAction.Stop });
+
+        private static void Ask(RecordingAction action, string path, string settings)
+        {
+            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("name the file of the recording", nameof(path));
+            JvmControl.Ask(new JvmControl.Question { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
+        }
+    }
+}

@@ -1,0 +1,89 @@
+using System;
+using System.Collections.Generic;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// What an inspector shows beside JVM settings: for each what is in effect and what is wrong with it, and whether a restart is due.
+    /// Made anew when the settings change; the check of the options takes some 50 to 200 ms.
+    /// </summary>
+    public sealed class JvmReport
+    {
+        private readonly Dictionary<string, string> problems = new Dictionary<string, string>();
+        private readonly JvmStatus status;
+
+        private JvmReport(JvmStatus status)
+        {
+            this.status = status;
+        }
+
+        /// <summary>Whether the JVM would start with these settings.</summary>
+        public bool IsGood => problems.Count == 0;
+
+        /// <summary>Something to say about all of the settings, in one or two sentences; may be empty.</summary>
+        public string Notice { get; private set; } = "";
+
+        /// <summary>Looks at <paramref name="settings"/>; nothing is started.</summary>
+        /// <param name="settings">What the user wants.</param>
+        /// <param name="toLaunch">Makes the words for the JVM; throws <see cref="BridgeException"/> when there is none to be had.</param>
+        public static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
+        {
+            var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);
+            foreach (var problem in settings.FindProblems()) report.Add(problem.Key, problem.Message);
+            if (report.IsGood) report.Try(settings, toLaunch);
+            return report;
+        }
+
+        /// <summary>What is wrong with a setting, and what to do; empty when nothing is.</summary>
+        public string Problem(JvmSetting setting) => problems.TryGetValue(setting.Key, out var problem) ? problem : "";
+
+        /// <summary>What is in effect in the JVM that runs; empty when none does.</summary>
+        public string Effective(JvmSetting setting) => status == null ? "" : setting.Effective(status);
+
+        private void Try(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
+        {
+            try
+            {
+                var launch = toLaunch(settings);
+                Jvm.Check(launch);
+                Compare(launch);
+            }
+            catch (BridgeException error) when (error.Error == BridgeError.JvmNotFound)
+            {
+                Add(settings.location == JvmLocation.Folder ? nameof(JvmSettings.home) : nameof(JvmSettings.location), error.Message);
+            }
+            catch (BridgeException error)
+            {
+                Add(JvmSetting.Blamed(error.Message, settings).Key, error.Message);
+            }
+        }
+
+        private void Compare(JvmLaunch launch)
+        {
+            if (status == null)
+            {
+                if (Jvm.State == JvmState.Lost) Notice = "The JVM is lost. Restart the editor to get a new one.";
+                else if (Jvm.State == JvmState.Stopped) Notice = "The JVM was ended. Restart the editor to get a new one.";
+                return;
+            }
+            if (launch.Home == status.Home && Same(launch.Options, status.Options)) return;
+            Notice = "Changes take effect after an editor restart. The JVM that runs now has: " +
+                (status.Options.Count == 0 ? "no options" : string.Join(" ", status.Options)) + " (" + status.Home + ").";
+        }
+
+        private static bool Same(IReadOnlyList<string> a, IReadOnlyList<string> b)
+        {
+            if (a.Count != b.Count) return false;
+            for (var i = 0; i < a.Count; i++)
+            {
+                if (a[i] != b[i]) return false;
+            }
+            return true;
+        }
+
+        private void Add(string key, string message)
+        {
+            problems[key] = problems.TryGetValue(key, out var before) ? before + "\n" + message : message;
+        }
+    }
+}

@@ -1,0 +1,211 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Reflection;
+
+namespace Collektive.Bridge
+{
+    /// <summary>One field of <see cref="JvmSettings"/>, as inspectors, scenario files and error texts know it.</summary>
+    public sealed class JvmSetting
+    {
+        private readonly FieldInfo field;
+        private readonly Func<JvmStatus, string> effective;
+
+        private JvmSetting(
+            string key, string label, string tooltip, Func<JvmStatus, string> effective, string unit = "", int minimum = 0, int maximum = 0,
+            int otherwise = 0, string marks = "")
+        {
+            field = typeof(JvmSettings).GetField(key);
+            this.effective = effective;
+            Key = key;
+            Label = label;
+            Tooltip = tooltip;
+            Unit = unit;
+            Minimum = minimum;
+            Maximum = maximum;
+            Otherwise = otherwise;
+            Marks = marks.Split(new[] { ' ' }, StringSplitOptions.RemoveEmptyEntries);
+        }
+
+        /// <summary>All settings, in the order to show them in.</summary>
+        public static IReadOnlyList<JvmSetting> All { get; } = new[]
+        {
+            new JvmSetting(
+                nameof(JvmSettings.location), "Location",
+                "Where the JVM is taken from. Automatic: the package's own, else that of JAVA_HOME.", status => status.Home),
+            new JvmSetting(
+                nameof(JvmSettings.home), "Folder",
+                "Root folder of a JRE or JDK, 17 or newer. Only for the location Folder.", status => status.Home),
+            new JvmSetting(
+                nameof(JvmSettings.initialHeapMb), "Initial heap",
+                "Heap at the start. The same as the maximum heap avoids growing it. 0: the JVM's choice.",
+                status => status.Megabytes("InitialHeapSize"), "MB", 8, 1 << 20, marks: "Xms Initial"),
+            new JvmSetting(
+                nameof(JvmSettings.maximumHeapMb), "Maximum heap",
+                "Programs that want more get an OutOfMemoryError. 0: the JVM's choice, a quarter of the machine's memory.",
+                status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
+            new JvmSetting(
+                nameof(JvmSettings.collector), "Collector",
+                "The garbage collector. Serial for small scenes, Parallel for the most ticks per second, Z for the shortest pauses. " +
+                "Shenandoah is not in every JVM.", EffectiveCollector, marks: "collector ollectors GC"),
+            new JvmSetting(
+                nameof(JvmSettings.compiler), "Compiler",
+                "Tiered is the fastest in the long run. C1 is up to speed sooner. Interpreter is slow; it is for looking for faults.",
+                EffectiveCompiler, marks: "TieredStopAtLevel Xint"),
+            new JvmSetting(
+                nameof(JvmSettings.compileThreshold), "Compile threshold",
+                "Percent of the usual number of calls after which code is compiled. Lower: sooner, with less knowledge of how it is used.",
+                EffectiveThreshold, "%", 1, 10000, 100, "CompileThreshold"),
+            new JvmSetting(
+                nameof(JvmSettings.codeCacheMb), "Code cache",
+                "Room for machine code. 0: the JVM's choice.", status => status.Megabytes("ReservedCodeCacheSize"), "MB", 4, 2048,
+                marks: "CodeCache"),
+            new JvmSetting(
+                nameof(JvmSettings.cdsArchive), "Class archive",
+                "The JVM keeps its loaded classes in a file of the user's cache when it ends, and starts faster the next time (JVM 19 or newer).",
+                EffectiveArchive, marks: "Shared archive"),
+            new JvmSetting(
+                nameof(JvmSettings.assertions), "Assertions",
+                "Check assert statements of programs.", status => status.Has("-ea") ? "on" : "off"),
+            new JvmSetting(
+                nameof(JvmSettings.debugPort), "Debug port",
+                "TCP port on which debuggers of this machine may attach (JDWP). Whoever can, can run any code here. 0: off.",
+                EffectivePort, "", 1024, 65535, marks: "jdwp transport JDWP"),
+            new JvmSetting(
+                nameof(JvmSettings.repeatableMaths), "Repeatable maths",
+                "sin, exp, pow and others of Math give the same bits on all JVMs and processors; they become slower.",
+                status => status.Flag("UseLibmIntrinsic") == "false" ? "on" : "off", marks: "LibmIntrinsic"),
+            new JvmSetting(
+                nameof(JvmSettings.flags), "More flags",
+                "Options of the JVM, each one word, for instance -XX:MaxGCPauseMillis=5. They come last and win over the fields above.",
+                status => string.Join(" ", status.Options)),
+        };
+
+        /// <summary>Name of the field and key in scenario files.</summary>
+        public string Key { get; }
+
+        /// <summary>What inspectors call it.</summary>
+        public string Label { get; }
+
+        /// <summary>What it does.</summary>
+        public string Tooltip { get; }
+
+        /// <summary>Unit of a number; may be empty.</summary>
+        public string Unit { get; }
+
+        /// <summary>Smallest number, beside <see cref="Otherwise"/>.</summary>
+        public int Minimum { get; }
+
+        /// <summary>Largest number; 0 for what is no number.</summary>
+        public int Maximum { get; }
+
+        /// <summary>The number that leaves it to the JVM.</summary>
+        public int Otherwise { get; }
+
+        /// <summary>Type of the field.</summary>
+        public Type Type => field.FieldType;
+
+        private string[] Marks { get; }
+
+        /// <summary>The setting of that name; null when there is none.</summary>
+        public static JvmSetting Find(string key)
+        {
+            foreach (var setting in All)
+            {
+                if (setting.Key == key) return setting;
+            }
+            return null;
+        }
+
+        /// <summary>The field's value.</summary>
+        public object Get(JvmSettings settings) => field.GetValue(settings);
+
+        /// <summary>Gives the field a value of <see cref="Type"/>.</summary>
+        public void Set(JvmSettings settings, object value) => field.SetValue(settings, value);
+
+        /// <summary>What is in effect in the JVM that runs.</summary>
+        public string Effective(JvmStatus status) => effective(status);
+
+        /// <summary>What is wrong with the field taken by itself; null when nothing is.</summary>
+        internal string FindProblem(JvmSettings settings)
+        {
+            var value = Get(settings);
+            if (Type.IsEnum && !Enum.IsDefined(Type, value)) return "there is no " + Label.ToLowerInvariant() + " " + value;
+            if (value == null) return Label.ToLowerInvariant() + " is not set";
+            if (Maximum == 0) return null;
+            var number = (int)value;
+            if (number == Otherwise || (number >= Minimum && number <= Maximum)) return null;
+            var off = Otherwise == 0 ? ", or 0" : "";
+            return Label.ToLowerInvariant() + " is " + number.ToString(CultureInfo.InvariantCulture) + ": it must be " + Minimum + " to " + Maximum +
+                (Unit.Length > 0 ? " " + Unit : "") + off;
+        }
+
+        /// <summary>The setting that a JVM's complaint about its options is about; the free flags when no other fits.</summary>
+        internal static JvmSetting Blamed(string complaint, JvmSettings settings)
+        {
+            foreach (var flag in settings.flags)
+            {
+                if (!string.IsNullOrWhiteSpace(flag) && complaint.Contains(Core(flag))) return Find(nameof(JvmSettings.flags));
+            }
+            foreach (var setting in All)
+            {
+                foreach (var mark in setting.Marks)
+                {
+                    if (complaint.Contains(mark)) return setting;
+                }
+            }
+            return Find(nameof(JvmSettings.flags));
+        }
+
+        /// <summary>A flag as JVMs quote it: without dashes, sign and value.</summary>
+        private static string Core(string flag)
+        {
+            var core = flag.StartsWith("-XX:", StringComparison.Ordinal) ? flag.Substring(4).TrimStart('+', '-') : flag;
+            var value = core.IndexOf('=');
+            return value > 0 ? core.Substring(0, value) : core;
+        }
+
+        private static string EffectiveCollector(JvmStatus status)
+        {
+            foreach (JvmCollector collector in Enum.GetValues(typeof(JvmCollector)))
+            {
+                if (status.Flag(FlagOf(collector)) == "true") return collector.ToString();
+            }
+            return "another";
+        }
+
+        internal static string FlagOf(JvmCollector collector) => collector == JvmCollector.Z ? "UseZGC" : "Use" + collector + "GC";
+
+        private static string EffectiveCompiler(JvmStatus status)
+        {
+            if (status.Has("-Xint")) return nameof(JvmCompiler.Interpreter);
+            var level = status.Flag("TieredStopAtLevel");
+            return level == "1" ? nameof(JvmCompiler.C1) : status.Flag("TieredCompilation") == "true" ? nameof(JvmCompiler.Tiered) : "C2 only";
+        }
+
+        private static string EffectiveThreshold(JvmStatus status)
+        {
+            var scaling = status.Flag("CompileThresholdScaling");
+            return double.TryParse(scaling, NumberStyles.Float, CultureInfo.InvariantCulture, out var factor)
+                ? Math.Round(factor * 100).ToString(CultureInfo.InvariantCulture) + " %"
+                : "unknown";
+        }
+
+        private static string EffectiveArchive(JvmStatus status)
+        {
+            if (status.Flag("UseSharedSpaces") != "true") return "off";
+            return status.Flag("AutoCreateSharedArchive") == "true" ? "on" : "the JVM's own";
+        }
+
+        private static string EffectivePort(JvmStatus status)
+        {
+            const string mark = "address=127.0.0.1:";
+            foreach (var option in status.Options)
+            {
+                var at = option.IndexOf(mark, StringComparison.Ordinal);
+                if (option.StartsWith("-agentlib:jdwp", StringComparison.Ordinal) && at > 0) return option.Substring(at + mark.Length);
+            }
+            return "off";
+        }
+    }
+}

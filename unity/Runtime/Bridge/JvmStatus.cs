@@ -1,0 +1,103 @@
+using System.Collections.Generic;
+using System.Globalization;
+using org.collektive.frame;
+
+namespace Collektive.Bridge
+{
+    /// <summary>The JVM that runs, as it was at one moment.</summary>
+    public sealed class JvmStatus
+    {
+        private const long Mebi = 1 << 20;
+
+        private readonly Dictionary<string, string> flags = new Dictionary<string, string>();
+
+        internal JvmStatus(ControlResponse response)
+        {
+            for (var i = 0; i < response.FlagsLength; i++)
+            {
+                var flag = response.Flags(i).GetValueOrDefault();
+                flags.Add(flag.Name, flag.Value);
+            }
+            var words = Jvm.Description.Split('\n');
+            Home = words[0];
+            Version = words.Length > 1 ? words[1] : "";
+            var options = new List<string>();
+            for (var i = 2; i < words.Length; i++) options.Add(words[i]);
+            Options = options;
+            HeapUsed = response.HeapUsed;
+            HeapCommitted = response.HeapCommitted;
+            HeapMaximum = response.HeapMaximum;
+            MetaspaceUsed = response.MetaspaceUsed;
+            Classes = response.Classes;
+            Collections = response.Collections;
+            CollectionMs = response.CollectionMillis;
+            Recording = response.Recording;
+            RecordingPath = response.RecordingPath ?? "";
+            RecordingError = response.RecordingError ?? "";
+            RecordingMs = response.RecordingMillis;
+            RecordingsWritten = response.RecordingsWritten;
+        }
+
+        /// <summary>Root of the JVM.</summary>
+        public string Home { get; }
+
+        /// <summary>One line about the host and the JVM.</summary>
+        public string Version { get; }
+
+        /// <summary>The options it was started with.</summary>
+        public IReadOnlyList<string> Options { get; }
+
+        /// <summary>Bytes of the heap in use.</summary>
+        public long HeapUsed { get; }
+
+        /// <summary>Bytes that the heap has taken from the system.</summary>
+        public long HeapCommitted { get; }
+
+        /// <summary>Bytes that the heap may take.</summary>
+        public long HeapMaximum { get; }
+
+        /// <summary>Bytes of the classes.</summary>
+        public long MetaspaceUsed { get; }
+
+        /// <summary>Classes that are loaded.</summary>
+        public int Classes { get; }
+
+        /// <summary>Garbage collections so far.</summary>
+        public long Collections { get; }
+
+        /// <summary>Milliseconds in garbage collections so far.</summary>
+        public long CollectionMs { get; }
+
+        /// <summary>What the flight recording is doing.</summary>
+        public RecordingState Recording { get; }
+
+        /// <summary>File of the recording that runs, or of the last one; empty before the first.</summary>
+        public string RecordingPath { get; }
+
+        /// <summary>Why the last action of the recording failed; empty when it did not.</summary>
+        public string RecordingError { get; }
+
+        /// <summary>Milliseconds that the last action of the recording took, in the background.</summary>
+        public int RecordingMs { get; }
+
+        /// <summary>Recordings and dumps written so far.</summary>
+        public int RecordingsWritten { get; }
+
+        /// <summary>A flag of the JVM as it is in effect; null for one that this JVM does not know.</summary>
+        internal string Flag(string name) => flags.TryGetValue(name, out var value) ? value : null;
+
+        internal bool Has(string option)
+        {
+            foreach (var each in Options)
+            {
+                if (each == option) return true;
+            }
+            return false;
+        }
+
+        internal string Megabytes(string flag) =>
+            long.TryParse(Flag(flag), NumberStyles.None, CultureInfo.InvariantCulture, out var bytes)
+                ? (bytes / Mebi).ToString(CultureInfo.InvariantCulture) + " MB"
+                : "unknown";
+    }
+}

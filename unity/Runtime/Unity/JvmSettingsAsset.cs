@@ -1,0 +1,13 @@
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>JVM settings as an asset of the project, for all scenes that want the same JVM.</summary>
+    [CreateAssetMenu(menuName = "Collektive/JVM Settings", fileName = "JvmSettings")]
+    public sealed class JvmSettingsAsset : ScriptableObject
+    {
+        /// <summary>The settings; <see cref="JvmSetting.All"/> has their labels, units, ranges and tooltips.</summary>
+        public JvmSettings settings = new JvmSettings();
+    }
+}
