@@ -87,12 +87,13 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     char output[1024];
     int status = 0;
     static char version[] = "-version";
+    static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* of a child that dies: its words are enough */
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
     if (!prim_executable(java)) {
         log_format(CLK_LOG_INFO, "the JVM options are not tried before the start, as %s is missing or not executable", java);
         return CLK_OK;
     }
-    char **arguments = malloc(((size_t)count + 3) * sizeof *arguments);
+    char **arguments = malloc(((size_t)count + 4) * sizeof *arguments);
     if (arguments == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
     arguments[0] = java;
     int32_t used = 1;
@@ -100,6 +101,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
         /* An archive of what the child loaded would be of no use to the JVM. */
         if (!matches(options[i], "-XX:ArchiveClassesAtExit=*")) arguments[used++] = options[i];
     }
+    arguments[used++] = no_report;
     arguments[used++] = version;
     arguments[used] = NULL;
     enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);

@@ -12,6 +12,7 @@
 #define PRIM_PATH_SEPARATOR ':'
 #define PRIM_LIBJVM "lib/server/libjvm.so"
 #define PRIM_JAVA "bin/java"
+#define PRIM_NULL_FILE "/dev/null"
 
 /* ---- Time: monotonic nanoseconds, also as deadlines ------------------------------------------------------------------ */
 
