@@ -98,8 +98,9 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[0] = java;
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
-        /* An archive of what the child loaded would be of no use to the JVM. */
-        if (!matches(options[i], "-XX:ArchiveClassesAtExit=*")) arguments[used++] = options[i];
+        /* An archive of the few classes that the child loads would be of no use to the JVM. */
+        bool writes_archive = matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:+AutoCreateSharedArchive");
+        if (!writes_archive) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;
     arguments[used++] = version;

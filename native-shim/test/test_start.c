@@ -197,10 +197,15 @@ void check_while_a_jvm_runs(void) {
 }
 
 void check_writes_no_archive(void) {
-    char option[128];
-    snprintf(option, sizeof option, "-XX:ArchiveClassesAtExit=%s/classes.jsa", scratch_folder());
-    CHECK_OK(check(OPTIONS("-Xmx64m", option)));
-    CHECK(access(strchr(option, '=') + 1, F_OK) != 0);
+    const char *folder = scratch_folder();
+    char at_exit[128], automatic[128];
+    snprintf(at_exit, sizeof at_exit, "-XX:ArchiveClassesAtExit=%s/classes.jsa", folder);
+    snprintf(automatic, sizeof automatic, "-XX:SharedArchiveFile=%s/classes.jsa", folder);
+    CHECK_OK(check(OPTIONS("-Xmx64m", at_exit)));
+    CHECK(access(strchr(at_exit, '=') + 1, F_OK) != 0);
+    if (java_is_17()) return; /* which has no such option */
+    CHECK_OK(check(OPTIONS("-Xmx64m", "-XX:+AutoCreateSharedArchive", automatic)));
+    CHECK(access(strchr(at_exit, '=') + 1, F_OK) != 0);
 }
 
 static void check_unchecked(const char *const *options, const char *mention) {
