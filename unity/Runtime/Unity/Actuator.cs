@@ -1,5 +1,6 @@
 using System;
 using Collektive.Bridge;
+using UnityEngine;
 
 namespace Collektive.Unity
 {
@@ -9,6 +10,14 @@ namespace Collektive.Unity
         internal abstract Type DataType { get; }
 
         internal abstract void Act(ActuatorBuffer buffer, int index);
+
+        /// <summary>A vector of the program's answer, for physics, which does not recover from one that is not finite.</summary>
+        internal static Vector3 Finite(Vector3 answer)
+        {
+            if (float.IsFinite(answer.x) && float.IsFinite(answer.y) && float.IsFinite(answer.z)) return answer;
+            throw new InvalidOperationException(
+                "the program answered (" + answer.x + ", " + answer.y + ", " + answer.z + "), which is not finite: correct the program");
+        }
 
         internal sealed override void Attach(Node node) => node.Actuators.Add(this);
 

@@ -58,6 +58,15 @@ namespace Collektive.Unity
         public RandomStream Random =>
             random ?? throw new InvalidOperationException("node '" + name + "' has random numbers only while it takes part in a simulation");
 
+        /// <summary>Simulated time in seconds of the last round that gave an answer; -1 before the first.</summary>
+        public double AnswerTime { get; private set; } = -1;
+
+        /// <summary>
+        /// Simulated seconds between the last two answers, for actuators whose effect grows with time; at the first answer the manager's
+        /// delta time.
+        /// </summary>
+        public float AnswerInterval { get; private set; }
+
         /// <summary>The last error of this node's round, sensors or actuators; empty while there was none.</summary>
         public string LastError { get; internal set; } = "";
 
@@ -76,6 +85,13 @@ namespace Collektive.Unity
             joinedId = newId;
             random = new RandomStream(seed, newId, RandomPurpose.Node);
             LastError = "";
+            AnswerTime = -1;
+        }
+
+        internal void Answered(double time, float deltaTime)
+        {
+            AnswerInterval = AnswerTime < 0 ? deltaTime : (float)(time - AnswerTime);
+            AnswerTime = time;
         }
 
         internal void Left()

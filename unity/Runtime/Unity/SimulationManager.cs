@@ -40,17 +40,16 @@ namespace Collektive.Unity
         private readonly List<Node> roster = new List<Node>();
         private readonly List<Node> due = new List<Node>();
         private readonly GrowingArray<int> dueIds = new GrowingArray<int>();
-        private readonly NodeGrid grid = new NodeGrid();
         // By node id: whether the JVM knows the node, and whether it left since the last tick.
         private bool[] isKnown = new bool[64];
         private bool[] isGone = new bool[64];
         private bool anyGone;
-        private float searchRadius = 1;
         private Session session;
         private SimulationMode modeBefore;
         private double accumulated;
         private int nextId;
         private bool stepping;
+        private ulong tickInProgress;
 
         /// <summary>Called after each tick, when physics have advanced.</summary>
         public event Action<SimulationManager> Ticked;
@@ -101,7 +100,13 @@ namespace Collektive.Unity
         /// <summary>Microseconds of the last step that the JVM spent, and of these in rounds.</summary>
         public (int Host, int Rounds) HostMicros { get; private set; }
 
+        /// <summary>All ids are below it.</summary>
+        internal int IdCapacity => isKnown.Length;
+
         internal LinkTable Links { get; } = new LinkTable();
+
+        /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
+        internal NodeGrid Grid { get; } = new NodeGrid();
 
         /// <summary>
         /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> hears <paramref name="a"/>, and unless it is
@@ -151,14 +156,16 @@ namespace Collektive.Unity
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances)
         {
-            found.Clear();
-            distances.Clear();
-            var hits = Search(centre, radius);
-            for (var i = 0; i < hits.Length; i++)
-            {
-                found.Add(grid.NodeAt(hits[i]));
-                distances.Add(hits[i].Distance);
-            }
+            Copy(Grid.Find(centre, radius), found, distances);
+        }
+
+        /// <summary>
+        /// The <paramref name="count"/> nodes nearest to a point at the beginning of this tick, or all if there are fewer, the nearest first and
+        /// by id at equal distances. For neighbourhood rules: it is up to date while they are asked.
+        /// </summary>
+        public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
+        {
+            Copy(count < 1 ? default : Grid.FindNearest(centre, count, Grid.MeanRadius), found, distances);
         }
 
         /// <summary>Does one tick now, paused or not.</summary>
@@ -193,12 +200,6 @@ namespace Collektive.Unity
             Failure = message;
             Debug.LogError("Simulation stopped: " + message, this);
             enabled = false;
-        }
-
-        internal Span<NodeGrid.Hit> Search(Vector3 centre, float radius)
-        {
-            if (radius > searchRadius) searchRadius = radius;
-            return grid.Find(centre, radius);
         }
 
         internal void Join(Node node)
@@ -356,6 +357,7 @@ namespace Collektive.Unity
         private void DoTick()
         {
             var start = Stopwatch.GetTimestamp();
+            tickInProgress = session.Tick + 1;
             Physics.SyncTransforms();
             FlushChanges();
             if (session == null) return;
@@ -394,10 +396,21 @@ namespace Collektive.Unity
             // Users' code may make nodes join and leave from here on; this tick is for those of the roster that stay.
             roster.Clear();
             roster.AddRange(nodes);
-            grid.Build(roster, searchRadius);
+            Grid.Build(roster, Grid.MeanRadius);
             for (var i = 0; i < roster.Count && session != null; i++)
             {
                 if (roster[i].Id >= 0) UpdateRules(roster[i]);
+            }
+        }
+
+        private void Copy(Span<NodeGrid.Hit> hits, List<Node> found, List<float> distances)
+        {
+            found.Clear();
+            distances.Clear();
+            for (var i = 0; i < hits.Length; i++)
+            {
+                found.Add(Grid.NodeAt(hits[i]));
+                distances.Add(hits[i].Distance);
             }
         }
 
@@ -513,6 +526,7 @@ namespace Collektive.Unity
 
         private void Act(Node node, ActuatorBuffer buffer, int index)
         {
+            node.Answered(session.Time, settings.deltaTime);
             var actuators = node.Actuators;
             for (var i = 0; i < actuators.Count; i++)
             {
@@ -546,7 +560,7 @@ namespace Collektive.Unity
             ErrorCount++;
             node.LastError = error.Message;
             Debug.LogException(
-                new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + (Tick + 1), error), part);
+                new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tickInProgress + ": " + error.Message, error), part);
             part.Failed();
         }
 

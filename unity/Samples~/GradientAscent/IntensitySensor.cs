@@ -6,23 +6,9 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives the intensity of a source at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Intensity Sensor")]
-    public sealed class IntensitySensor : Sensor<SensorDataDraft>
+    public sealed class IntensitySensor : IntensitySensor<SensorDataDraft>
     {
-        [SerializeField]
-        [Tooltip("The source to perceive.")]
-        private IntensitySource source;
-
-        /// <summary>The source to perceive.</summary>
-        public IntensitySource Source
-        {
-            get => source;
-            set => source = value;
-        }
-
         /// <inheritdoc/>
-        protected override void Sense(ref SensorDataDraft data)
-        {
-            data.Intensity = source.IntensityAt(transform.position);
-        }
+        protected override void Write(ref SensorDataDraft data, float intensity) => data.Intensity = intensity;
     }
 }

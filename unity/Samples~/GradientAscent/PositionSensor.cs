@@ -6,12 +6,9 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives where the node is.</summary>
     [AddComponentMenu("Collektive/Samples/Position Sensor")]
-    public sealed class PositionSensor : Sensor<SensorDataDraft>
+    public sealed class PositionSensor : PositionSensor<SensorDataDraft>
     {
         /// <inheritdoc/>
-        protected override void Sense(ref SensorDataDraft data)
-        {
-            data.Position = transform.position.ToValue();
-        }
+        protected override void Write(ref SensorDataDraft data, Vector3 position) => data.Position = position.ToValue();
     }
 }

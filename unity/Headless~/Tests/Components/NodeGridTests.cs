@@ -1,4 +1,6 @@
+using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -49,6 +51,112 @@ namespace Collektive.Headless.Tests.Components
             grid.Build(nodes, 3);
             Assert.That(Found(new Vector3(5, 0, 5), 0.001f).Count, Is.EqualTo(200));
             Assert.That(Found(new Vector3(9, 0, 5), 3).Count, Is.EqualTo(0));
+        }
+
+        [TestCase(1, 3, 1f)]
+        [TestCase(300, 1, 3f)]
+        [TestCase(300, 8, 0.1f)]
+        [TestCase(300, 8, 50f)]
+        [TestCase(300, 400, 3f)]
+        public void It_finds_the_nearest_nodes_in_order_whatever_the_guess(int count, int wanted, float guess)
+        {
+            var random = new RandomStream(4, 0, RandomPurpose.Scene);
+            for (var i = 0; i < count; i++) Make(new Vector3(random.Range(-20f, 20f), 0, random.Range(-20f, 20f)));
+            grid.Build(nodes, 2);
+            for (var probe = 0; probe < 20; probe++)
+            {
+                var centre = new Vector3(random.Range(-30f, 30f), random.Range(-2f, 2f), random.Range(-30f, 30f));
+                var sorted = new List<Node>(nodes);
+                sorted.Sort((a, b) => DistanceTo(centre, a).CompareTo(DistanceTo(centre, b)));
+                Assert.That(Nearest(centre, wanted, guess), Is.EqualTo(sorted.GetRange(0, Math.Min(wanted, count))));
+            }
+        }
+
+        [Test]
+        public void The_nearest_of_nodes_at_one_point_are_those_of_the_smallest_ids()
+        {
+            for (var i = 0; i < 50; i++) Make(Vector3.one, 50 - i);
+            grid.Build(nodes, 1);
+            var found = grid.FindNearest(Vector3.one, 3, 1);
+            Assert.That(new[] { found[0].Id, found[1].Id, found[2].Id }, Is.EqualTo(new[] { 1, 2, 3 }));
+        }
+
+        [Test]
+        public void Nodes_at_the_end_of_the_world_are_found_and_harm_no_others()
+        {
+            var far = new Vector3(1e12f, 0, -1e12f);
+            Make(far);
+            Make(Vector3.zero);
+            Make(Vector3.right);
+            grid.Build(nodes, 1);
+            Assert.That(Found(far, 1), Is.EqualTo(new[] { nodes[0] }));
+            Assert.That(Found(Vector3.zero, 1).Count, Is.EqualTo(2));
+            Assert.That(Found(Vector3.zero, float.PositiveInfinity).Count, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Its_cells_follow_the_mean_of_what_is_searched_for()
+        {
+            Make(Vector3.zero);
+            grid.Build(nodes, 5);
+            Assert.That(grid.MeanRadius, Is.EqualTo(5), "before any search");
+            grid.Find(Vector3.zero, 1);
+            grid.Find(Vector3.zero, 1);
+            grid.Find(Vector3.zero, 4);
+            Assert.That(grid.MeanRadius, Is.EqualTo(2));
+        }
+
+        /// <summary>Every node searches once; looking at all nodes takes the same grid, with cells so small that it does so.</summary>
+        [TestCase(500, false, 2)]
+        [TestCase(500, true, 2)]
+        [TestCase(5000, false, 10)]
+        [TestCase(5000, true, 10)]
+        [TestCase(20000, false, 20)]
+        [TestCase(20000, true, 20)]
+        public void Searching_is_far_faster_than_looking_at_all_nodes(int count, bool nearest, int times)
+        {
+            var random = new RandomStream(5, 0, RandomPurpose.Scene);
+            var side = (float)Math.Sqrt(count);
+            for (var i = 0; i < count; i++) Make(new Vector3(random.Range(0, side), 0, random.Range(0, side)));
+            var all = Search(1e-3f, nearest);
+            var few = Search(2, nearest);
+            Console.WriteLine("  " + count + " nodes: " + few.ToString("0.00") + " us a search, " + all.ToString("0.00") + " us through all nodes");
+            Assert.That(few * times, Is.LessThan(all));
+        }
+
+        /// <returns>Microseconds of a search, of the fastest of several hundreds.</returns>
+        private double Search(float cell, bool nearest)
+        {
+            grid.Build(nodes, cell);
+            var best = double.MaxValue;
+            for (var turn = 0; turn < 10; turn++)
+            {
+                var clock = Stopwatch.StartNew();
+                for (var i = 0; i < 200; i++)
+                {
+                    var place = nodes[i * (nodes.Count / 200)].transform.position;
+                    if (nearest) grid.FindNearest(place, 8, 2);
+                    else grid.Find(place, 2);
+                }
+                best = Math.Min(best, clock.Elapsed.TotalMilliseconds * 1000 / 200);
+            }
+            return best;
+        }
+
+        private static float DistanceTo(Vector3 centre, Node node) => (node.transform.position - centre).magnitude;
+
+        private List<Node> Nearest(Vector3 centre, int wanted, float guess)
+        {
+            var found = new List<Node>();
+            var hits = grid.FindNearest(centre, wanted, guess);
+            for (var i = 0; i < hits.Length; i++) found.Add(grid.NodeAt(hits[i]));
+            return found;
+        }
+
+        private void Make(Vector3 place, int id)
+        {
+            Make(place);
+            nodes[nodes.Count - 1].Joined(id, 1);
         }
 
         private void Make(Vector3 place)

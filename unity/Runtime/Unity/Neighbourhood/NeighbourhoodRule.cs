@@ -1,5 +1,4 @@
 using System;
-using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -11,7 +10,7 @@ namespace Collektive.Unity
     public abstract class NeighbourhoodRule : NodePart
     {
         /// <summary>By node id: 1 + place among the wanted, 0 for all others. Scratch of one update; main thread only.</summary>
-        private static int[] places = new int[64];
+        private static int[] places = Array.Empty<int>();
 
         [SerializeField]
         [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
@@ -22,9 +21,10 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        private GrowingArray<Neighbour> wanted = new GrowingArray<Neighbour>();
-        private GrowingArray<Neighbour> held = new GrowingArray<Neighbour>();
-
+        private Neighbour[] wanted = Array.Empty<Neighbour>();
+        private Neighbour[] held = Array.Empty<Neighbour>();
+        private int wantedCount;
+        private int heldCount;
         private int drops;
 
         private struct Neighbour
@@ -65,6 +65,7 @@ namespace Collektive.Unity
 
         internal void UpdateLinks(SimulationManager manager)
         {
+            if (places.Length < manager.IdCapacity) Array.Resize(ref places, manager.IdCapacity);
             try
             {
                 FindNeighbours(manager);
@@ -72,35 +73,39 @@ namespace Collektive.Unity
             catch
             {
                 // The links stay as they were.
-                for (var w = 0; w < wanted.Count; w++) places[wanted.Items[w].Id] = 0;
-                wanted.Clear();
+                for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
+                wantedCount = 0;
                 throw;
             }
             var links = manager.Links;
             var dropped = links.Drops != drops;
             drops = links.Drops;
-            for (var h = 0; h < held.Count; h++)
+            var now = wanted;
+            var before = held;
+            for (var h = 0; h < heldCount; h++)
             {
-                ref var before = ref held.Items[h];
-                var place = places[before.Id];
-                if (place == 0 || !Keep(links, before, ref wanted.Items[place - 1], dropped)) Release(links, before);
+                ref var old = ref before[h];
+                var place = places[old.Id];
+                if (place == 0) Release(links, old);
+                // Most links of most ticks go this way: nothing to look up, nothing to send.
+                else if (!dropped && IsSame(old, now[place - 1])) now[place - 1] = old;
+                else if (!Keep(links, old, ref now[place - 1])) Release(links, old);
             }
-            for (var w = 0; w < wanted.Count; w++)
+            for (var w = 0; w < wantedCount; w++)
             {
-                ref var neighbour = ref wanted.Items[w];
-                places[neighbour.Id] = 0;
-                if (!neighbour.IsHeld) Hold(links, ref neighbour);
+                places[now[w].Id] = 0;
+                if (!now[w].IsHeld) Hold(links, ref now[w]);
             }
-            held.Clear();
-            var free = held;
-            held = wanted;
-            wanted = free;
+            held = now;
+            heldCount = wantedCount;
+            wanted = before;
+            wantedCount = 0;
         }
 
         internal void ReleaseAll(LinkTable links)
         {
-            for (var i = 0; i < held.Count; i++) Release(links, held.Items[i]);
-            held.Clear();
+            for (var i = 0; i < heldCount; i++) Release(links, held[i]);
+            heldCount = 0;
         }
 
         /// <summary>Names this node's neighbours by <see cref="Connect(Node)"/>. Called once before each tick; must not allocate.</summary>
@@ -121,17 +126,45 @@ namespace Collektive.Unity
             Connect(other.Id, length, attenuation);
         }
 
+        /// <summary>Names all nodes that a search found, without attenuation.</summary>
+        internal void Connect(Span<NodeGrid.Hit> hits)
+        {
+            EnsureCapacity(wantedCount + hits.Length);
+            // A large scene comes by here a million times a second.
+            var self = Node.Id;
+            var marks = places;
+            var all = wanted;
+            var count = wantedCount;
+            for (var i = 0; i < hits.Length; i++)
+            {
+                ref var hit = ref hits[i];
+                var id = hit.Id;
+                if (id == self || marks[id] != 0) continue;
+                ref var neighbour = ref all[count];
+                neighbour.Id = id;
+                neighbour.Length = hit.Distance;
+                neighbour.Attenuation = 0;
+                neighbour.IsHeld = false;
+                marks[id] = ++count;
+            }
+            wantedCount = count;
+        }
+
         internal void Connect(int id, float length, float attenuation)
         {
-            if (id < 0 || id == Node.Id) return;
-            if (id >= places.Length) Array.Resize(ref places, Math.Max(id + 1, places.Length * 2));
-            if (places[id] != 0) return;
-            ref var neighbour = ref wanted.Add();
+            if (id < 0 || id == Node.Id || places[id] != 0) return;
+            EnsureCapacity(wantedCount + 1);
+            ref var neighbour = ref wanted[wantedCount];
             neighbour.Id = id;
             neighbour.Length = length;
             neighbour.Attenuation = attenuation;
             neighbour.IsHeld = false;
-            places[id] = wanted.Count;
+            places[id] = ++wantedCount;
+        }
+
+        private void EnsureCapacity(int count)
+        {
+            if (count > wanted.Length) Array.Resize(ref wanted, Math.Max(count, wanted.Length * 2));
         }
 
         private void Hold(LinkTable links, ref Neighbour neighbour)
@@ -142,14 +175,15 @@ namespace Collektive.Unity
             neighbour.IsHeld = true;
         }
 
+        private bool IsSame(in Neighbour before, in Neighbour now) =>
+            Math.Abs(before.Length - now.Length) <= lengthTolerance && before.Attenuation == now.Attenuation;
+
         /// <returns>False when the link is gone, because the other node left and came back.</returns>
-        private bool Keep(LinkTable links, in Neighbour before, ref Neighbour now, bool dropped)
+        private bool Keep(LinkTable links, in Neighbour before, ref Neighbour now)
         {
-            // Most links of most ticks go the short way: nothing to look up, nothing to send.
-            var differs = Math.Abs(before.Length - now.Length) > lengthTolerance || before.Attenuation != now.Attenuation;
-            if (!differs) now.Length = before.Length;
-            if ((differs || dropped) && !links.Update(before.Out, now.Length, now.Attenuation)) return false;
-            if ((differs || dropped) && before.BothWays) links.Update(before.In, now.Length, now.Attenuation);
+            if (IsSame(before, now)) now.Length = before.Length;
+            if (!links.Update(before.Out, now.Length, now.Attenuation)) return false;
+            if (before.BothWays) links.Update(before.In, now.Length, now.Attenuation);
             now.Out = before.Out;
             now.In = before.In;
             now.BothWays = before.BothWays;

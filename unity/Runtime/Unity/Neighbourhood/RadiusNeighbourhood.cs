@@ -21,8 +21,9 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(SimulationManager manager)
         {
-            var hits = manager.Search(Node.Body.position, radius);
-            for (var i = 0; i < hits.Length; i++) Connect(hits[i].Id, hits[i].Distance, 0);
+            Connect(manager.Grid.Find(Node.Body.position, radius));
         }
+
+        private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);
     }
 }

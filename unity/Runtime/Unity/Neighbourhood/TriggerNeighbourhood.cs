@@ -17,6 +17,8 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
+            // A component that is disabled by itself goes on hearing of entries and exits; an inactive GameObject does not.
+            if (gameObject.activeInHierarchy) return;
             inside.Clear();
             owners.Clear();
         }
@@ -26,8 +28,7 @@ namespace Collektive.Unity
         {
             for (var i = inside.Count - 1; i >= 0; i--)
             {
-                // Unity reports no exit of a collider that was destroyed or disabled inside the zone.
-                if (inside[i] == null || !inside[i].enabled || !inside[i].gameObject.activeInHierarchy) Remove(i);
+                if (inside[i].IsGone()) Remove(i);
             }
             for (var i = 0; i < owners.Count; i++)
             {
@@ -38,9 +39,9 @@ namespace Collektive.Unity
 
         private void OnTriggerEnter(Collider other)
         {
-            if (!isActiveAndEnabled || other.isTrigger || inside.Contains(other)) return;
+            if (other.isTrigger || inside.Contains(other)) return;
             var node = other.GetComponentInParent<Node>();
-            if (node == null || node == Node) return;
+            if (node == null) return;
             inside.Add(other);
             owners.Add(node);
         }

@@ -1,0 +1,182 @@
+using Collektive.Unity;
+using NUnit.Framework;
+using probe;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>What each ready actuator does with an answer; the program doubles the sensed value.</summary>
+    [TestFixture]
+    public sealed class ActuatorTests : SimulationFixture
+    {
+        [Test]
+        public void A_node_without_a_body_goes_to_its_target_no_faster_than_it_may()
+        {
+            var node = MakeNode(5).Node;
+            var move = node.gameObject.AddComponent<Move>();
+            move.MaxSpeed = 4;
+            move.ReachTime = 0;
+            Play(1);
+            Assert.That(node.transform.position.x, Is.EqualTo(0.2f).Within(1e-6f));
+            Play(60);
+            Assert.That(node.transform.position.x, Is.EqualTo(10).Within(1e-4f), "it stops there");
+        }
+
+        [Test]
+        public void A_node_slows_down_near_its_target()
+        {
+            var node = MakeNode(0.5f).Node;
+            var move = node.gameObject.AddComponent<Move>();
+            move.MaxSpeed = 4;
+            move.ReachTime = 1;
+            Play(1);
+            Assert.That(node.transform.position.x, Is.EqualTo(0.05f).Within(1e-6f));
+        }
+
+        [Test]
+        public void A_body_is_driven_towards_its_target_and_falls_by_itself()
+        {
+            var node = MakeNode(500).Node;
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            Play(20);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(2).Within(0.01f));
+            Assert.That(body.linearVelocity.y, Is.EqualTo(-9.81f).Within(0.1f));
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.1f));
+        }
+
+        [Test]
+        public void A_kinematic_body_is_moved_through_physics()
+        {
+            var node = MakeNode(500).Node;
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.isKinematic = true;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            Play(20);
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.01f));
+        }
+
+        [TestCase(ForceMode.Force, 6 * 0.05f / 3)]
+        [TestCase(ForceMode.Acceleration, 6 * 0.05f)]
+        [TestCase(ForceMode.Impulse, 6 / 3f)]
+        [TestCase(ForceMode.VelocityChange, 6f)]
+        public void A_push_acts_over_the_whole_tick(ForceMode mode, float speedAfterOneTick)
+        {
+            var node = MakeNode(3).Node;
+            var push = node.gameObject.AddComponent<Push>();
+            push.Mode = mode;
+            var body = node.GetComponent<Rigidbody>();
+            body.mass = 3;
+            body.useGravity = false;
+            Play(1);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(speedAfterOneTick).Within(1e-4f));
+        }
+
+        [Test]
+        public void A_velocity_is_set_and_the_fall_kept_if_wanted()
+        {
+            var node = MakeNode(3).Node;
+            var fly = node.gameObject.AddComponent<Fly>();
+            var body = node.GetComponent<Rigidbody>();
+            Play(2);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(6));
+            Assert.That(body.linearVelocity.y, Is.EqualTo(-0.05f * 9.81f).Within(1e-3f), "of one tick only");
+            fly.KeepVertical = true;
+            Play(1);
+            Assert.That(body.linearVelocity.y, Is.EqualTo(-0.1f * 9.81f).Within(1e-3f));
+        }
+
+        [Test]
+        public void A_node_is_coloured_without_a_material_of_its_own()
+        {
+            var node = MakeNode(0.5f).Node;
+            var ball = GameObject.CreatePrimitive(PrimitiveType.Sphere).GetComponent<Renderer>();
+            ball.transform.SetParent(node.transform, false);
+            var material = ball.sharedMaterial;
+            node.gameObject.AddComponent<Tint>();
+            Play(1);
+            var block = new MaterialPropertyBlock();
+            ball.GetPropertyBlock(block);
+            Assert.That(block.GetColor("_Color"), Is.EqualTo(Color.red));
+            Assert.That(block.GetColor("_BaseColor"), Is.EqualTo(Color.red));
+            Assert.That(ball.sharedMaterial, Is.SameAs(material));
+        }
+
+        [Test]
+        public void Nothing_to_colour_is_told_with_the_object_and_costs_the_component_alone()
+        {
+            var node = MakeNode(1);
+            node.Node.name = "bare";
+            Assert.That(node.Node.gameObject.AddComponent<Tint>().enabled, Is.False);
+            Assert.That(Errors[0], Is.StringContaining("Tint").And.StringContaining("bare").And.StringContaining("Renderer"));
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void Components_of_any_kind_are_enabled_and_disabled()
+        {
+            var node = MakeNode(0);
+            var ball = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            var other = MakeNode(0).Actuator;
+            var switches = new[] { node.Node.gameObject.AddComponent<Switch>(), node.Node.gameObject.AddComponent<Switch>(), node.Node.gameObject.AddComponent<Switch>() };
+            switches[0].Target = ball.GetComponent<Renderer>();
+            switches[1].Target = ball.GetComponent<Collider>();
+            switches[2].Target = other;
+            Play(1);
+            Assert.That(ball.GetComponent<Renderer>().enabled || ball.GetComponent<Collider>().enabled || other.enabled, Is.False);
+            node.Sensor.Value = 1;
+            Play(1);
+            Assert.That(ball.GetComponent<Renderer>().enabled && ball.GetComponent<Collider>().enabled && other.enabled, Is.True);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_switch_without_a_target_says_so()
+        {
+            var node = MakeNode(0).Node;
+            var toggle = node.gameObject.AddComponent<Switch>();
+            Play(1);
+            Assert.That(Errors[0], Is.StringContaining("Switch").And.StringContaining("not set"));
+            toggle.Target = node.transform;
+            Play(1);
+            Assert.That(Errors[1], Is.StringContaining("Transform"));
+        }
+
+        [Test]
+        public void An_answer_that_is_not_finite_is_refused_before_physics_see_it()
+        {
+            var node = MakeNode(float.MaxValue).Node;
+            node.gameObject.AddComponent<Fly>();
+            Play(1);
+            Assert.That(Errors[0], Is.StringContaining("Fly").And.StringContaining("node 0"));
+            Assert.That(node.LastError, Is.StringContaining("not finite"));
+            Assert.That(node.GetComponent<Rigidbody>().linearVelocity.x, Is.EqualTo(0));
+        }
+
+        public sealed class Move : MoveActuator<ActuatorDataValue>
+        {
+            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+        }
+
+        public sealed class Push : AddForceActuator<ActuatorDataValue>
+        {
+            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+        }
+
+        public sealed class Fly : SetVelocityActuator<ActuatorDataValue>
+        {
+            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+        }
+
+        public sealed class Tint : ColorActuator<ActuatorDataValue>
+        {
+            protected override Color Read(ActuatorDataValue data) => data.Value > 0 ? Color.red : Color.blue;
+        }
+
+        public sealed class Switch : EnableActuator<ActuatorDataValue>
+        {
+            protected override bool Read(ActuatorDataValue data) => data.Value > 0;
+        }
+    }
+}

@@ -1,0 +1,207 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Who hears whom by each ready rule.</summary>
+    [TestFixture]
+    public sealed class NeighbourhoodTests : SimulationFixture
+    {
+        [Test]
+        public void The_nearest_nodes_are_neighbours_and_hear_each_other()
+        {
+            // On a line at 0, 1, 3 and 7 metres each node's nearest is the one to its left, and that of the first is the second.
+            var line = MakeLine(0, 1, 3, 7);
+            foreach (var node in line) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 1;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0 1>2 2>1 2>3 3>2"));
+            line[3].Node.transform.position = new Vector3(-1, 0, 0);
+            Play(1);
+            // 0 lies between 3 and 1 now, both a metre away: the smaller id comes first.
+            Assert.That(Links(), Is.EqualTo("0>1 0>3 1>0 1>2 2>1 3>0"));
+        }
+
+        [Test]
+        public void A_directed_rule_lets_only_the_neighbours_hear()
+        {
+            var line = MakeLine(0, 1, 3, 7);
+            foreach (var node in line)
+            {
+                var rule = node.Node.gameObject.AddComponent<KNearestNeighbourhood>();
+                rule.Count = 1;
+                rule.Directed = true;
+            }
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0 2>1 3>2"));
+        }
+
+        [Test]
+        public void More_neighbours_than_there_are_nodes_means_all_of_them()
+        {
+            foreach (var node in MakeLine(0, 1000, 2000000)) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 5;
+            Play(1);
+            Assert.That(Manager.LinkCount, Is.EqualTo(6));
+        }
+
+        [Test]
+        public void A_wall_between_two_nodes_prevents_their_link_until_it_is_gone()
+        {
+            foreach (var node in MakeLine(0, 2, 4)) AddSight(node, 3);
+            var wall = MakeWall(3);
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            wall.transform.position = new Vector3(0, 100, 0);
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0 1>2 2>1"));
+        }
+
+        [Test]
+        public void Walls_add_to_the_attenuation_of_a_rule_that_does_not_block()
+        {
+            foreach (var node in MakeLine(0, 10))
+            {
+                var rule = AddSight(node, 20);
+                rule.Blocking = false;
+                rule.Attenuation = 2.5f;
+            }
+            MakeWall(3);
+            var second = MakeWall(6);
+            Play(1);
+            Assert.That(Attenuation(), Is.EqualTo(5));
+            second.GetComponent<Collider>().enabled = false;
+            Play(1);
+            Assert.That(Attenuation(), Is.EqualTo(2.5f));
+        }
+
+        [Test]
+        public void Bodies_of_the_two_nodes_triggers_and_other_layers_do_not_stand_in_the_way()
+        {
+            var line = MakeLine(0, 10);
+            foreach (var node in line)
+            {
+                AddSight(node, 20).Layers = 1;
+                node.Node.gameObject.AddComponent<SphereCollider>().radius = 1;
+                var antenna = new GameObject("Antenna");
+                antenna.transform.SetParent(node.Node.transform, false);
+                antenna.transform.localPosition = new Vector3(node.Node.transform.position.x > 0 ? -2 : 2, 0, 0);
+                antenna.AddComponent<SphereCollider>().radius = 0.1f;
+            }
+            MakeWall(4).GetComponent<Collider>().isTrigger = true;
+            MakeWall(6).layer = 4;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            // Another node's body does.
+            MakeNode(0, new Vector3(5, 0, 0)).Node.gameObject.AddComponent<SphereCollider>();
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>2 1>2 2>0 2>1"));
+        }
+
+        [Test]
+        public void Listed_nodes_are_neighbours_while_they_take_part()
+        {
+            var line = MakeLine(0, 100, 200);
+            var rule = line[0].Node.gameObject.AddComponent<ExplicitNeighbourhood>();
+            rule.Neighbours.AddRange(new[] { line[1].Node, null, line[2].Node, line[0].Node });
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 0>2 1>0 2>0"));
+            line[1].Node.enabled = false;
+            Object.Destroy(line[2].Node.gameObject);
+            Play(2);
+            Assert.That(Links(), Is.Empty);
+            line[1].Node.RequestedId = 7;
+            line[1].Node.enabled = true;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>7 7>0"));
+            rule.Neighbours.Clear();
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_rule_of_the_users_own_asks_the_manager_for_nodes()
+        {
+            foreach (var node in MakeLine(0, 1, 2, 3)) node.Node.gameObject.AddComponent<SecondNearest>();
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>2 1>2 2>3 3>1"));
+        }
+
+        [Test]
+        public void A_trigger_rule_knows_who_came_in_while_it_was_disabled()
+        {
+            var zone = MakeNode(1);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            var rule = zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var visitor = MakeNode(2, new Vector3(1, 0, 0));
+            visitor.Node.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
+            visitor.Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            rule.enabled = false;
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+            rule.enabled = true;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+        }
+
+        private static ProbeNode[] MakeLine(params float[] places)
+        {
+            var line = new ProbeNode[places.Length];
+            for (var i = 0; i < places.Length; i++) line[i] = MakeNode(i, new Vector3(places[i], 0, 0));
+            return line;
+        }
+
+        private static LineOfSightNeighbourhood AddSight(ProbeNode node, float radius)
+        {
+            var rule = node.Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
+            rule.Radius = radius;
+            return rule;
+        }
+
+        private static GameObject MakeWall(float place)
+        {
+            var wall = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            wall.transform.position = new Vector3(place, 0, 0);
+            wall.transform.localScale = new Vector3(0.2f, 4, 4);
+            return wall;
+        }
+
+        private float Attenuation()
+        {
+            var links = new List<LinkRecord>();
+            Manager.CopyLinks(links);
+            Assert.That(links.Count, Is.EqualTo(2));
+            Assert.That(links[0].Attenuation, Is.EqualTo(links[1].Attenuation));
+            return links[0].Attenuation;
+        }
+
+        /// <summary>All directed links as text, sorted.</summary>
+        private string Links()
+        {
+            var links = new List<LinkRecord>();
+            Manager.CopyLinks(links);
+            links.Sort((a, b) => a.From != b.From ? a.From.CompareTo(b.From) : a.To.CompareTo(b.To));
+            return string.Join(" ", links.ConvertAll(link => link.From + ">" + link.To));
+        }
+
+        public sealed class SecondNearest : NeighbourhoodRule
+        {
+            private readonly List<Node> found = new List<Node>();
+            private readonly List<float> distances = new List<float>();
+
+            public SecondNearest() => Directed = true;
+
+            protected override void FindNeighbours(SimulationManager manager)
+            {
+                manager.FindNearestNodes(Node.transform.position, 3, found, distances);
+                Connect(found[2], distances[2], 0);
+            }
+        }
+    }
+}

@@ -1,0 +1,355 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using NUnit.Framework;
+using probe;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>What each ready sensor tells of a scene that can be worked out by hand.</summary>
+    [TestFixture]
+    public sealed class SensorTests : SimulationFixture
+    {
+        [Test]
+        public void Position_is_where_the_node_is_also_for_a_sensor_on_a_child()
+        {
+            var node = MakeNode(0, new Vector3(1, 2, 3)).Node;
+            var child = new GameObject("Child");
+            child.transform.SetParent(node.transform, false);
+            child.transform.localPosition = Vector3.up;
+            var sensor = child.AddComponent<Position>();
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(new Vector3(1, 2, 3)));
+        }
+
+        [Test]
+        public void Velocity_of_a_node_without_a_body_is_its_way_over_the_time_between_rounds()
+        {
+            var node = MakeNode(0).Node;
+            var sensor = node.gameObject.AddComponent<Velocity>();
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(Vector3.zero));
+            node.transform.position = new Vector3(0.1f, 0, 0);
+            Play(1);
+            Assert.That(sensor.Value.x, Is.EqualTo(2).Within(1e-4f));
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void Velocity_of_a_body_is_the_bodys_own()
+        {
+            var node = MakeNode(0).Node;
+            var body = Weightless(node);
+            body.linearVelocity = new Vector3(0, 0, 3);
+            var sensor = node.gameObject.AddComponent<Velocity>();
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(new Vector3(0, 0, 3)));
+        }
+
+        [Test]
+        public void A_rigidbody_sensor_brings_its_body_and_shows_it()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Body>();
+            sensor.GetComponent<Rigidbody>().mass = 7;
+            Play(1);
+            Assert.That(sensor.Mass, Is.EqualTo(7));
+        }
+
+        [Test]
+        public void Obstacles_are_the_other_colliders_within_reach_the_nearest_first()
+        {
+            var node = MakeNode(0).Node;
+            node.gameObject.AddComponent<SphereCollider>();
+            var sensor = node.gameObject.AddComponent<Obstacles>();
+            sensor.Reach = 3;
+            var wall = MakeBox(new Vector3(2.5f, 0, 0));
+            var near = MakeBox(new Vector3(0, 0, -2));
+            Weightless(near);
+            MakeBox(new Vector3(0, 4, 0));
+            MakeBox(Vector3.forward).GetComponent<Collider>().isTrigger = true;
+            MakeBox(Vector3.back).layer = 2;
+            Play(1);
+            Assert.That(sensor.Values.Count, Is.EqualTo(2));
+            Assert.That(sensor.Values[0].Vector, Is.EqualTo(new Vector3(0, 0, -1.5f)));
+            Assert.That(sensor.Values[0].Body, Is.SameAs(near.GetComponent<Rigidbody>()));
+            Assert.That(sensor.Values[1].Vector, Is.EqualTo(new Vector3(2, 0, 0)));
+            Assert.That(sensor.Values[1].Collider, Is.SameAs(wall.GetComponent<Collider>()));
+            Assert.That(sensor.Values[1].Body == null, Is.True);
+            Assert.That(sensor.Values[1].Distance, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void More_obstacles_than_there_was_room_for_are_all_found()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
+            sensor.Reach = 100;
+            for (var i = 0; i < 100; i++) MakeBox(new Vector3(i % 10, 5, i / 10));
+            Play(1);
+            Assert.That(sensor.Values.Count, Is.EqualTo(100));
+            for (var i = 1; i < 100; i++) Assert.That(sensor.Values[i].Distance, Is.GreaterThanOrEqualTo(sensor.Values[i - 1].Distance));
+        }
+
+        [Test]
+        public void Rays_all_around_begin_straight_ahead_and_turn_with_the_node()
+        {
+            var node = MakeNode(0).Node;
+            node.gameObject.AddComponent<SphereCollider>();
+            var sensor = node.gameObject.AddComponent<Rays>();
+            sensor.Rays = 4;
+            sensor.Range = 10;
+            var wall = MakeBox(new Vector3(3, 0, 0));
+            Play(1);
+            Assert.That(Distances(sensor), Is.EqualTo("10 2.5 10 10"));
+            Assert.That(sensor.Values[1].Collider, Is.SameAs(wall.GetComponent<Collider>()));
+            Assert.That(sensor.Values[1].Direction.x, Is.EqualTo(1).Within(1e-6f));
+            Assert.That(sensor.Values[0].Collider == null, Is.True);
+            node.transform.rotation = Quaternion.Euler(0, 90, 0);
+            Play(1);
+            Assert.That(Distances(sensor), Is.EqualTo("2.5 10 10 10"));
+        }
+
+        [Test]
+        public void A_narrow_fan_goes_from_left_to_right_and_passes_through_the_nodes_own_colliders()
+        {
+            var node = MakeNode(0).Node;
+            var sensor = node.gameObject.AddComponent<Rays>();
+            sensor.Rays = 3;
+            sensor.Angle = 180;
+            sensor.Range = 4;
+            MakeBox(new Vector3(-3, 0, 0));
+            MakeBox(new Vector3(0, 0, 3));
+            var arm = MakeBox(new Vector3(0, 0, 1.5f));
+            arm.transform.localScale = 0.5f * Vector3.one;
+            arm.transform.SetParent(node.transform, true);
+            Play(1);
+            Assert.That(Distances(sensor), Is.EqualTo("2.5 2.5 4"));
+            sensor.Rays = 1;
+            Play(1);
+            Assert.That(Distances(sensor), Is.EqualTo("2.5"));
+        }
+
+        [Test]
+        public void A_contact_has_its_place_and_the_push_against_the_fall()
+        {
+            MakeBox(new Vector3(0, -0.5f, 0));
+            var ball = MakeBall(new Vector3(0, 0.49f, 0));
+            var sensor = ball.gameObject.AddComponent<Contacts>();
+            Play(1);
+            Assert.That(sensor.Values, Is.Empty, "nothing touched before the first physics step");
+            Play(40);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Assert.That(sensor.Values[0].Body == null, Is.True);
+            Assert.That(sensor.Values[0].Point.y, Is.EqualTo(0).Within(0.05f));
+            Assert.That(sensor.Values[0].Normal.y, Is.EqualTo(1).Within(1e-3f));
+            // 2 kg lie on the box for 0.05 s between two rounds.
+            Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.2f));
+            ball.linearVelocity = 10 * Vector3.up;
+            Play(3);
+            Assert.That(sensor.Values, Is.Empty);
+        }
+
+        [Test]
+        public void A_short_bump_between_two_rounds_is_told_once()
+        {
+            Configure("double", settings => settings.deltaTime = 0.5f);
+            Physics.gravity = Vector3.zero;
+            var box = MakeBox(Vector3.zero).GetComponent<Collider>();
+            box.sharedMaterial = new PhysicsMaterial { bounciness = 1, bounceCombine = PhysicsMaterialCombine.Maximum };
+            var ball = MakeBall(new Vector3(0, 3, 0));
+            var sensor = ball.gameObject.AddComponent<Contacts>();
+            ball.linearVelocity = 8 * Vector3.down;
+            Play(1);
+            Assert.That(ball.linearVelocity.y, Is.GreaterThan(0), "it bounced");
+            Play(1);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * (8 + ball.linearVelocity.y)).Within(1));
+            Play(1);
+            Assert.That(sensor.Values, Is.Empty);
+        }
+
+        [Test]
+        public void A_body_that_vanishes_is_no_contact_any_more()
+        {
+            var box = MakeBox(new Vector3(0, -0.5f, 0));
+            var sensor = MakeBall(new Vector3(0, 0.49f, 0)).gameObject.AddComponent<Contacts>();
+            Play(20);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Object.Destroy(box);
+            Play(2);
+            Assert.That(sensor.Values, Is.Empty);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Zones_are_entered_stayed_in_and_left()
+        {
+            var zone = MakeBox(new Vector3(5, 0, 0)).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(2);
+            Assert.That(sensor.Told, Is.Empty);
+            ball.transform.position = new Vector3(5, 0, 0);
+            Play(4);
+            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "in" }));
+            Assert.That(sensor.Last, Is.SameAs(zone));
+            ball.transform.position = Vector3.zero;
+            Play(3);
+            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "in", "in", "left" }));
+        }
+
+        [Test]
+        public void A_zone_that_is_switched_off_is_left_and_a_nodes_trigger_is_no_zone()
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var other = MakeNode(0).Node.gameObject.AddComponent<SphereCollider>();
+            other.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(3);
+            zone.enabled = false;
+            Play(2);
+            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "left" }));
+        }
+
+        [Test]
+        public void Intensity_falls_with_the_distance_and_adds_up_over_all_sources()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
+            var first = MakeSource(new Vector3(10, 0, 0));
+            var second = MakeSource(new Vector3(0, 30, 0));
+            second.Falloff = 2;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(90 + 40));
+            sensor.Source = first;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(90));
+            first.enabled = false;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(0));
+            sensor.Source = second;
+            second.Falloff = 10;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(0), "never below");
+        }
+
+        private static string Distances(Rays sensor) =>
+            string.Join(" ", sensor.Values.ConvertAll(hit => Math.Round(hit.Distance, 3).ToString(System.Globalization.CultureInfo.InvariantCulture)));
+
+        private static GameObject MakeBox(Vector3 place)
+        {
+            var box = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            box.transform.position = place;
+            return box;
+        }
+
+        private static Rigidbody Weightless(Component part) => Weightless(part.gameObject);
+
+        private static Rigidbody Weightless(GameObject holder)
+        {
+            var body = holder.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            return body;
+        }
+
+        /// <summary>A node of 2 kg and half a metre radius.</summary>
+        private static Rigidbody MakeBall(Vector3 place)
+        {
+            var node = MakeNode(0, place).Node;
+            node.gameObject.AddComponent<SphereCollider>();
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.mass = 2;
+            return body;
+        }
+
+        private static IntensitySource MakeSource(Vector3 place)
+        {
+            var source = new GameObject("Source").AddComponent<IntensitySource>();
+            source.transform.position = place;
+            return source;
+        }
+
+        public sealed class Position : PositionSensor<SensorDataValue>
+        {
+            public Vector3 Value { get; private set; }
+
+            protected override void Write(ref SensorDataValue data, Vector3 position) => Value = position;
+        }
+
+        public sealed class Velocity : VelocitySensor<SensorDataValue>
+        {
+            public Vector3 Value { get; private set; }
+
+            protected override void Write(ref SensorDataValue data, Vector3 velocity) => Value = velocity;
+        }
+
+        public sealed class Body : RigidbodySensor<SensorDataValue>
+        {
+            public float Mass { get; private set; }
+
+            protected override void Write(ref SensorDataValue data, Rigidbody body) => Mass = body.mass;
+        }
+
+        public sealed class Obstacles : ObstacleSensor<SensorDataValue>
+        {
+            public List<Obstacle> Values { get; } = new List<Obstacle>();
+
+            protected override void Write(ref SensorDataValue data, Span<Obstacle> obstacles)
+            {
+                Values.Clear();
+                foreach (var obstacle in obstacles) Values.Add(obstacle);
+            }
+        }
+
+        public sealed class Rays : RayFanSensor<SensorDataValue>
+        {
+            public List<RayHit> Values { get; } = new List<RayHit>();
+
+            protected override void Write(ref SensorDataValue data, Span<RayHit> hits)
+            {
+                Values.Clear();
+                foreach (var hit in hits) Values.Add(hit);
+            }
+        }
+
+        public sealed class Contacts : ContactSensor<SensorDataValue>
+        {
+            public List<Contact> Values { get; } = new List<Contact>();
+
+            protected override void Write(ref SensorDataValue data, Span<Contact> contacts)
+            {
+                Values.Clear();
+                foreach (var contact in contacts) Values.Add(contact);
+            }
+        }
+
+        public sealed class Zones : ZoneSensor<SensorDataValue>
+        {
+            public List<string> Told { get; } = new List<string>();
+
+            public Collider Last { get; private set; }
+
+            protected override void Write(ref SensorDataValue data, Span<Zone> zones)
+            {
+                foreach (var zone in zones)
+                {
+                    Last = zone.Collider;
+                    Told.Add(zone.Left ? "left" : zone.Entered ? "entered" : "in");
+                }
+            }
+        }
+
+        public sealed class Intensity : IntensitySensor<SensorDataValue>
+        {
+            public float Value { get; private set; }
+
+            protected override void Write(ref SensorDataValue data, float intensity) => Value = intensity;
+        }
+    }
+}

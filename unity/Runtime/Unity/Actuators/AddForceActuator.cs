@@ -1,0 +1,46 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Pushes the node's body by the program's answer. A force or an acceleration acts over the simulated time since the node's last answer, all at
+    /// once at the beginning of the physics steps that follow; an impulse or a velocity change is applied as it is.
+    /// </summary>
+    /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    [RequireComponent(typeof(Rigidbody))]
+    public abstract class AddForceActuator<TData> : Actuator<TData>
+    {
+        [SerializeField]
+        [Tooltip("What the answer is: a force in newtons, an acceleration in m/s², an impulse in newton seconds, or a velocity change in m/s.")]
+        private ForceMode mode = ForceMode.Force;
+
+        private Rigidbody body;
+
+        /// <summary>What the answer is: newtons, m/s², newton seconds or m/s.</summary>
+        public ForceMode Mode
+        {
+            get => mode;
+            set => mode = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            body = GetComponent<Rigidbody>();
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Act(TData data)
+        {
+            var push = Finite(Read(data));
+            // A tick may have several physics steps, and Unity's forces end with the first.
+            if (mode == ForceMode.Force) body.AddForce(Node.AnswerInterval * push, ForceMode.Impulse);
+            else if (mode == ForceMode.Acceleration) body.AddForce(Node.AnswerInterval * push, ForceMode.VelocityChange);
+            else body.AddForce(push, mode);
+        }
+
+        /// <summary>The push in the program's answer, in the unit of <see cref="Mode"/>, in the world's directions.</summary>
+        protected abstract Vector3 Read(TData data);
+    }
+}

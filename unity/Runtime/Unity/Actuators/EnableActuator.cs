@@ -1,0 +1,34 @@
+using System;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Enables and disables a component, a light, a script, a renderer or a collider, by the program's answer.</summary>
+    /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    public abstract class EnableActuator<TData> : Actuator<TData>
+    {
+        [SerializeField]
+        [Tooltip("The component to enable and disable: a script, light or other behaviour, a renderer or a collider.")]
+        private Component target;
+
+        /// <summary>The component to enable and disable: a behaviour, a renderer or a collider.</summary>
+        public Component Target
+        {
+            get => target;
+            set => target = value;
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Act(TData data)
+        {
+            var on = Read(data);
+            if (target is Behaviour behaviour) behaviour.enabled = on;
+            else if (target is Renderer renderer) renderer.enabled = on;
+            else if (target is Collider collider) collider.enabled = on;
+            else throw new InvalidOperationException("its target is " + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": name a behaviour, a renderer or a collider");
+        }
+
+        /// <summary>Whether the program's answer wants the component enabled.</summary>
+        protected abstract bool Read(TData data);
+    }
+}

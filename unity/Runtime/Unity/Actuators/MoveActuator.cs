@@ -1,0 +1,75 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Moves the node towards the program's target, as fast as it may. A node with a Rigidbody is driven by its velocity, and falling is left to
+    /// gravity if it has any; a kinematic body and a node without one are put from place to place. A subclass of one line says which
+    /// field of the schema's data the target is.
+    /// </summary>
+    /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    public abstract class MoveActuator<TData> : Actuator<TData>
+    {
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Metres per second.")]
+        private float maxSpeed = 5;
+
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Seconds in which the node would reach its target if it were fast enough: it slows down as it comes near.")]
+        private float reachTime = 0.5f;
+
+        private Rigidbody body;
+
+        /// <summary>Metres per second, 0 or greater.</summary>
+        public float MaxSpeed
+        {
+            get => maxSpeed;
+            set => maxSpeed = value;
+        }
+
+        /// <summary>Seconds in which the node would reach its target if it were fast enough, 0 or greater.</summary>
+        public float ReachTime
+        {
+            get => reachTime;
+            set => reachTime = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            body = GetComponentInParent<Rigidbody>();
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Act(TData data)
+        {
+            var target = Finite(Read(data));
+            if (body == null) Go(target);
+            else if (body.isKinematic) body.MovePosition(body.position + Node.AnswerInterval * Velocity(target - body.position));
+            else Drive(target - body.position);
+        }
+
+        /// <summary>The target in the program's answer, in metres.</summary>
+        protected abstract Vector3 Read(TData data);
+
+        private void Go(Vector3 target)
+        {
+            var place = Node.Body.position;
+            Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);
+        }
+
+        private void Drive(Vector3 way)
+        {
+            var fall = body.linearVelocity.y;
+            if (body.useGravity) way.y = 0;
+            var velocity = Velocity(way);
+            if (body.useGravity) velocity.y = fall;
+            body.linearVelocity = velocity;
+        }
+
+        private Vector3 Velocity(Vector3 way) => Vector3.ClampMagnitude(way / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed);
+    }
+}

@@ -1,0 +1,41 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Gives the node's body the velocity that the program answers.</summary>
+    /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    [RequireComponent(typeof(Rigidbody))]
+    public abstract class SetVelocityActuator<TData> : Actuator<TData>
+    {
+        [SerializeField]
+        [Tooltip("On: the body's vertical velocity stays, so that it can fall.")]
+        private bool keepVertical;
+
+        private Rigidbody body;
+
+        /// <summary>Whether the body's vertical velocity stays, so that it can fall.</summary>
+        public bool KeepVertical
+        {
+            get => keepVertical;
+            set => keepVertical = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            body = GetComponent<Rigidbody>();
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Act(TData data)
+        {
+            var velocity = Finite(Read(data));
+            if (keepVertical) velocity.y = body.linearVelocity.y;
+            body.linearVelocity = velocity;
+        }
+
+        /// <summary>The velocity in the program's answer, in metres per second.</summary>
+        protected abstract Vector3 Read(TData data);
+    }
+}

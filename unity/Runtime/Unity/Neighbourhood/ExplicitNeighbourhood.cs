@@ -1,0 +1,34 @@
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Neighbours are the nodes of a list, wherever they are. Nodes that take no part at the moment are passed over.</summary>
+    [AddComponentMenu("Collektive/Neighbourhoods/Explicit Neighbourhood")]
+    public sealed class ExplicitNeighbourhood : NeighbourhoodRule
+    {
+        [SerializeField]
+        [Tooltip("The nodes that hear this one, and unless the rule is directed are heard by it.")]
+        private List<Node> neighbours = new List<Node>();
+
+        /// <summary>The neighbours; may be changed at any time.</summary>
+        public List<Node> Neighbours => neighbours;
+
+        /// <inheritdoc/>
+        protected override void FindNeighbours(SimulationManager manager)
+        {
+            for (var i = 0; i < neighbours.Count; i++)
+            {
+                if (neighbours[i] != null) Connect(neighbours[i]);
+            }
+        }
+
+        private void OnDrawGizmosSelected()
+        {
+            for (var i = 0; i < neighbours.Count; i++)
+            {
+                if (neighbours[i] != null) Gizmos.DrawLine(transform.position, neighbours[i].transform.position);
+            }
+        }
+    }
+}

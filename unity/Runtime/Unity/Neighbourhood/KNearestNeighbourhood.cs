@@ -1,0 +1,43 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Neighbours are the nodes nearest to this one, wherever they are; at equal distances the smaller id comes first. A node may be among the
+    /// nearest of another that is not among its own: unless the rule is directed, both hear each other then, and a node can have more
+    /// neighbours than <see cref="Count"/>.
+    /// </summary>
+    [AddComponentMenu("Collektive/Neighbourhoods/K Nearest Neighbourhood")]
+    public sealed class KNearestNeighbourhood : NeighbourhoodRule
+    {
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("How many nodes.")]
+        private int count = 8;
+
+        private float reach;
+
+        /// <summary>How many nodes, 0 or more.</summary>
+        public int Count
+        {
+            get => count;
+            set => count = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void FindNeighbours(SimulationManager manager)
+        {
+            if (count <= 0) return;
+            // One more than wanted, since the node finds itself. What was far enough last time is nearly so now.
+            var hits = manager.Grid.FindNearest(Node.Body.position, count + 1, reach > 0 ? 1.25f * reach : manager.Grid.MeanRadius);
+            reach = hits.Length == 0 ? 0 : hits[hits.Length - 1].Distance;
+            var left = count;
+            for (var i = 0; i < hits.Length && left > 0; i++)
+            {
+                if (hits[i].Id == Node.Id) continue;
+                Connect(hits[i].Id, hits[i].Distance, 0);
+                left--;
+            }
+        }
+    }
+}

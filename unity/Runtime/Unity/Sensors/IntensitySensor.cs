@@ -1,0 +1,38 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Perceives the intensity of an <see cref="IntensitySource"/> at the node, or of all enabled ones together.</summary>
+    /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
+    public abstract class IntensitySensor<TData> : Sensor<TData>
+    {
+        [SerializeField]
+        [Tooltip("The source to perceive. None: all enabled sources of the scene together.")]
+        private IntensitySource source;
+
+        /// <summary>The source to perceive, nothing while it is disabled; null: all enabled sources together.</summary>
+        public IntensitySource Source
+        {
+            get => source;
+            set => source = value;
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Sense(ref TData data)
+        {
+            var place = Node.Body.position;
+            Write(ref data, source == null ? AllAt(place) : source.isActiveAndEnabled ? source.IntensityAt(place) : 0);
+        }
+
+        /// <summary>Writes the intensity.</summary>
+        protected abstract void Write(ref TData data, float intensity);
+
+        private static float AllAt(Vector3 place)
+        {
+            var sources = IntensitySource.All;
+            var intensity = 0f;
+            for (var i = 0; i < sources.Count; i++) intensity += sources[i].IntensityAt(place);
+            return intensity;
+        }
+    }
+}

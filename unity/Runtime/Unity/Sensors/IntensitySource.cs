@@ -1,0 +1,58 @@
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Something that can be sensed from afar, a light, a sound or a smell: its intensity falls evenly with the distance, down to 0. A subclass
+    /// may have another law.
+    /// </summary>
+    [AddComponentMenu("Collektive/Intensity Source")]
+    public class IntensitySource : MonoBehaviour
+    {
+        private static readonly List<IntensitySource> EnabledSources = new List<IntensitySource>();
+
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Intensity at the source itself.")]
+        private float peak = 100;
+
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("What the intensity loses with each metre.")]
+        private float falloff = 1;
+
+        /// <summary>Intensity at the source itself, 0 or greater.</summary>
+        public float Peak
+        {
+            get => peak;
+            set => peak = value;
+        }
+
+        /// <summary>What the intensity loses with each metre, 0 or greater.</summary>
+        public float Falloff
+        {
+            get => falloff;
+            set => falloff = value;
+        }
+
+        internal static List<IntensitySource> All => EnabledSources;
+
+        /// <summary>The intensity at a point, 0 or greater. Called for each node that senses the source; must not allocate.</summary>
+        public virtual float IntensityAt(Vector3 point) => Mathf.Max(0, peak - falloff * Vector3.Distance(transform.position, point));
+
+        /// <summary>Takes part in what sensors perceive.</summary>
+        protected virtual void OnEnable() => EnabledSources.Add(this);
+
+        /// <summary>Is perceived no longer.</summary>
+        protected virtual void OnDisable() => EnabledSources.Remove(this);
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void ResetStatics() => EnabledSources.Clear();
+
+        private void OnDrawGizmosSelected()
+        {
+            if (falloff > 0) Gizmos.DrawWireSphere(transform.position, peak / falloff);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Perceives how the node moves: the velocity of its Rigidbody, or without one, or with a kinematic one, the mean velocity since the node's
+    /// last round (zero in its first).
+    /// </summary>
+    /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
+    public abstract class VelocitySensor<TData> : Sensor<TData>
+    {
+        private Rigidbody body;
+        private Vector3 place;
+        private double time = -1;
+
+        /// <inheritdoc/>
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            body = GetComponentInParent<Rigidbody>();
+            time = -1;
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Sense(ref TData data)
+        {
+            var now = SimulationManager.Current.SimulatedTime;
+            var here = Node.Body.position;
+            var velocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
+            place = here;
+            time = now;
+            Write(ref data, body != null && !body.isKinematic ? body.linearVelocity : velocity);
+        }
+
+        /// <summary>Writes the node's velocity in metres per second.</summary>
+        protected abstract void Write(ref TData data, Vector3 velocity);
+    }
+}

@@ -1,0 +1,86 @@
+using System;
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Perceives the trigger zones that the node is in, entered or left since its last round: trigger colliders that belong to no node. As
+    /// everywhere in Unity, the node or the zone needs a Rigidbody, and the sensor stands on the GameObject with the node's collider or body.
+    /// </summary>
+    /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
+    public abstract class ZoneSensor<TData> : Sensor<TData>
+    {
+        private readonly GrowingArray<Visit> visits = new GrowingArray<Visit>();
+        private Zone[] zones = Array.Empty<Zone>();
+
+        [SerializeField]
+        [Tooltip("Layers of the zones to perceive.")]
+        private LayerMask layers = Physics.AllLayers;
+
+        private struct Visit
+        {
+            internal Collider Zone;
+            // A node with several colliders enters a zone several times.
+            internal int Entries;
+            internal bool IsNew;
+        }
+
+        /// <summary>Layers of the zones to perceive. It counts for zones that are entered from now on.</summary>
+        public LayerMask Layers
+        {
+            get => layers;
+            set => layers = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void OnDisable()
+        {
+            base.OnDisable();
+            // A component that is disabled by itself goes on hearing of zones; an inactive GameObject does not.
+            if (!gameObject.activeInHierarchy) visits.Clear();
+        }
+
+        /// <inheritdoc/>
+        protected sealed override void Sense(ref TData data)
+        {
+            var count = visits.Count;
+            if (zones.Length < count) zones = new Zone[visits.Items.Length];
+            var kept = 0;
+            for (var i = 0; i < count; i++)
+            {
+                var visit = visits.Items[i];
+                var left = visit.Entries == 0 || visit.Zone.IsGone();
+                zones[i] = new Zone(visit.Zone, visit.IsNew, left);
+                visit.IsNew = false;
+                if (!left) visits.Items[kept++] = visit;
+            }
+            visits.Truncate(kept);
+            Write(ref data, new Span<Zone>(zones, 0, count));
+        }
+
+        /// <summary>Writes the zones, those entered first at the beginning. They are valid during the call only.</summary>
+        protected abstract void Write(ref TData data, Span<Zone> zones);
+
+        private void OnTriggerEnter(Collider other)
+        {
+            if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
+            var place = Find(other);
+            if (place == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
+            visits.Items[place].Entries++;
+        }
+
+        private void OnTriggerExit(Collider other)
+        {
+            var place = Find(other);
+            if (place < visits.Count && visits.Items[place].Entries > 0) visits.Items[place].Entries--;
+        }
+
+        private int Find(Collider zone)
+        {
+            var place = 0;
+            while (place < visits.Count && !ReferenceEquals(visits.Items[place].Zone, zone)) place++;
+            return place;
+        }
+    }
+}
