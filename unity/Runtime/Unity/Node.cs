@@ -32,6 +32,9 @@ namespace Collektive.Unity
         private readonly List<NeighbourhoodRule> rules = new List<NeighbourhoodRule>();
         private RandomStream random;
         private int joinedId = -1;
+        private ActuatorBuffer answers;
+        private int answerIndex;
+        private ulong answerTick;
 
         /// <summary>The id in the running simulation; -1 while the node takes no part.</summary>
         public int Id => joinedId;
@@ -67,6 +70,20 @@ namespace Collektive.Unity
         /// </summary>
         public float AnswerInterval { get; private set; }
 
+        /// <summary>
+        /// What the program answered in the last tick, in the type that actuators get. Data of a table is a view of the bridge's memory: valid until
+        /// the next tick.
+        /// </summary>
+        /// <returns>False when the node gave no answer in the last tick, or the schema's type is another.</returns>
+        public bool TryGetAnswer<TData>(out TData data)
+        {
+            data = default;
+            var manager = SimulationManager.Current;
+            if (joinedId < 0 || manager == null || answerTick != manager.Tick || !(answers is ActuatorBuffer<TData> typed)) return false;
+            data = typed[answerIndex];
+            return true;
+        }
+
         /// <summary>The last error of this node's round, sensors or actuators; empty while there was none.</summary>
         public string LastError { get; internal set; } = "";
 
@@ -86,10 +103,14 @@ namespace Collektive.Unity
             random = new RandomStream(seed, newId, RandomPurpose.Node);
             LastError = "";
             AnswerTime = -1;
+            answers = null;
         }
 
-        internal void Answered(double time, float deltaTime)
+        internal void Answered(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)
         {
+            answers = buffer;
+            answerIndex = index;
+            answerTick = tick;
             AnswerInterval = AnswerTime < 0 ? deltaTime : (float)(time - AnswerTime);
             AnswerTime = time;
         }
@@ -98,6 +119,7 @@ namespace Collektive.Unity
         {
             joinedId = -1;
             random = null;
+            answers = null;
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

@@ -526,7 +526,7 @@ namespace Collektive.Unity
 
         private void Act(Node node, ActuatorBuffer buffer, int index)
         {
-            node.Answered(session.Time, settings.deltaTime);
+            node.Answered(buffer, index, tickInProgress, session.Time, settings.deltaTime);
             var actuators = node.Actuators;
             for (var i = 0; i < actuators.Count; i++)
             {

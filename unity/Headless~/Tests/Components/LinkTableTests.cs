@@ -87,6 +87,19 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(table.Update(handle, 1, 0), Is.False);
         }
 
+        [Test]
+        public void Scripts_hold_each_link_once_however_many_there_are()
+        {
+            var table = new LinkTable();
+            for (var turn = 0; turn < 2; turn++)
+            {
+                for (var i = 0; i < 1000; i++) table.HoldForScripts(i, i + 1, 1, 0);
+                Assert.That(table.Count, Is.EqualTo(1000));
+            }
+            for (var i = 0; i < 1000; i++) Assert.That(table.ReleaseForScripts(i, i + 1), Is.True);
+            Assert.That(table.Count, Is.EqualTo(0));
+        }
+
         private static int Sent(LinkTable table, bool[] known)
         {
             var request = new StepRequest(null, null);

@@ -154,7 +154,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_short_bump_between_two_rounds_is_told_once()
         {
-            Configure("double", settings => settings.deltaTime = 0.5f);
+            Configure("double", settings => settings.deltaTime = 0.3f);
             Physics.gravity = Vector3.zero;
             var box = MakeBox(Vector3.zero).GetComponent<Collider>();
             box.sharedMaterial = new PhysicsMaterial { bounciness = 1, bounceCombine = PhysicsMaterialCombine.Maximum };

@@ -10,12 +10,17 @@ namespace UnityEngine.Headless
             public readonly Material Material;
             public readonly Mesh Mesh;
             public readonly int Instances;
+            /// The caller's own array or list of what is drawn from the first instance on; null for a single mesh.
+            public readonly object Data;
+            public readonly int Start;
 
-            internal Draw(Material material, Mesh mesh, int instances)
+            internal Draw(Material material, Mesh mesh, int instances, object data, int start)
             {
                 Material = material;
                 Mesh = mesh;
                 Instances = instances;
+                Data = data;
+                Start = start;
             }
         }
 
@@ -23,7 +28,9 @@ namespace UnityEngine.Headless
 
         public static IReadOnlyList<Draw> Draws => Recorded;
 
-        internal static void Add(Material material, Mesh mesh, int instances) => Recorded.Add(new Draw(material, mesh, instances));
+        internal static void Add(Material material, Mesh mesh, int instances, object data = null, int start = 0) =>
+            Recorded.Add(new Draw(material, mesh, instances, data, start));
+
         internal static void Clear() => Recorded.Clear();
     }
 }

@@ -27,10 +27,10 @@ namespace UnityEngine
             Headless.DrawLog.Add(rparams.material, mesh, 1);
 
         public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1, int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount);
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount, instanceData, startInstance);
 
         public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, List<T> instanceData, int instanceCount = -1, int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount);
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount, instanceData, startInstance);
     }
 
     public sealed class Gizmos

@@ -98,7 +98,9 @@ namespace Collektive.Unity
                 SetValues(index, length, attenuation);
                 return;
             }
-            entries[Hold(from, to, length, attenuation).Index].ByScript = true;
+            // Not in one expression: holding may replace the array.
+            var handle = Hold(from, to, length, attenuation);
+            entries[handle.Index].ByScript = true;
         }
 
         /// <summary>Ends the scripts' hold.</summary>

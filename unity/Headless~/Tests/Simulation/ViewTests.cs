@@ -1,0 +1,217 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using NUnit.Framework;
+using probe;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>What the views hand to Unity's Graphics and renderers.</summary>
+    [TestFixture]
+    public sealed class ViewTests : SimulationFixture
+    {
+        [Test]
+        public void Each_directed_link_is_a_bar_from_its_sender_half_of_the_way()
+        {
+            var view = AddLinkView();
+            view.Width = 0.1f;
+            MakeNode(0, new Vector3(1, 2, 3));
+            MakeNode(0, new Vector3(1, 2, 7));
+            Manager.AddLink(0, 1, directed: true);
+            Play(1);
+            var bars = Bars();
+            Assert.That(bars.Count, Is.EqualTo(1));
+            Assert.That(bars[0].Place.MultiplyPoint3x4(Vector3.zero), Is.EqualTo(new Vector3(1, 2, 3)));
+            Assert.That(bars[0].Place.MultiplyPoint3x4(Vector3.forward), Is.EqualTo(new Vector3(1, 2, 5)));
+            Assert.That(bars[0].Place.MultiplyVector(Vector3.right).magnitude, Is.EqualTo(0.1f).Within(1e-6f));
+            Assert.That(bars[0].Place.MultiplyVector(Vector3.up).magnitude, Is.EqualTo(0.1f).Within(1e-6f));
+            Manager.AddLink(1, 0, directed: true);
+            Play(1);
+            Assert.That(Bars().Count, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void Bars_have_no_slant_whatever_their_direction()
+        {
+            AddLinkView();
+            MakeNode(0, Vector3.zero);
+            foreach (var place in new[] { Vector3.up, Vector3.down, Vector3.left, new Vector3(1, 5, 2) }) Manager.AddLink(0, MakeNode(0, place).Node.Id, true);
+            Play(1);
+            var bars = Bars();
+            Assert.That(bars.Count, Is.EqualTo(4));
+            foreach (var bar in bars)
+            {
+                Vector3 side = bar.Place.MultiplyVector(Vector3.right), top = bar.Place.MultiplyVector(Vector3.up), way = bar.Place.MultiplyVector(Vector3.forward);
+                Assert.That(Vector3.Dot(side, top), Is.EqualTo(0).Within(1e-6f));
+                Assert.That(Vector3.Dot(side, way), Is.EqualTo(0).Within(1e-6f));
+                Assert.That(Vector3.Dot(top, way), Is.EqualTo(0).Within(1e-6f));
+            }
+        }
+
+        [Test]
+        public void Links_that_only_one_side_hears_have_their_own_colour()
+        {
+            var view = AddLinkView();
+            view.Scale.low = Color.red;
+            view.Scale.high = Color.green;
+            for (var i = 0; i < 3; i++) MakeNode(0, i * Vector3.right);
+            Manager.AddLink(0, 1);
+            Manager.AddLink(1, 2, directed: true);
+            Play(1);
+            Assert.That(Bars().FindAll(bar => bar.Color == Color.green).Count, Is.EqualTo(2));
+            Assert.That(Bars().FindAll(bar => bar.Color == Color.red).Count, Is.EqualTo(1));
+            Manager.AddLink(2, 1, directed: true);
+            Play(1);
+            Assert.That(Bars().FindAll(bar => bar.Color == Color.green).Count, Is.EqualTo(4));
+        }
+
+        [TestCase(LinkColoring.Length)]
+        [TestCase(LinkColoring.Value)]
+        public void Links_are_coloured_by_a_number(LinkColoring coloring)
+        {
+            var view = AddLinkView();
+            view.Coloring = coloring;
+            view.Value = link => link.To * link.To;
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            MakeNode(0, Vector3.zero);
+            for (var i = 1; i <= 3; i++) Manager.AddLink(0, MakeNode(0, i * i * Vector3.right).Node.Id, true);
+            Play(1);
+            // 1, 4 and 9: the middle one lies 3/8 of the way, in the seventh of sixteen steps.
+            var shades = Bars().ConvertAll(bar => (float)Math.Round(bar.Color.r, 3));
+            shades.Sort();
+            Assert.That(shades, Is.EqualTo(new[] { 0, 0.4f, 1 }));
+        }
+
+        [Test]
+        public void Thousands_of_links_are_a_few_draws_of_at_most_1023_and_nothing_else()
+        {
+            AddLinkView();
+            for (var i = 0; i < 60; i++) MakeNode(0, new Vector3(i, i * i % 7, 0));
+            for (var i = 0; i < 60; i++)
+            {
+                for (var j = 0; j < i; j++) Manager.AddLink(i, j);
+            }
+            Play(1);
+            var instances = 0;
+            foreach (var draw in DrawLog.Draws)
+            {
+                Assert.That(draw.Instances, Is.LessThanOrEqualTo(1023));
+                Assert.That(draw.Material.enableInstancing, Is.True);
+                Assert.That(draw.Mesh.vertexCount, Is.GreaterThan(0));
+                instances += draw.Instances;
+            }
+            Assert.That(instances, Is.EqualTo(60 * 59));
+            Assert.That(DrawLog.Draws.Count, Is.EqualTo(4));
+        }
+
+        [Test]
+        public void A_view_that_is_disabled_or_whose_manager_is_gone_draws_nothing()
+        {
+            var view = AddLinkView();
+            MakeNode(0);
+            MakeNode(0, Vector3.right);
+            Manager.AddLink(0, 1);
+            Play(1);
+            Assert.That(DrawLog.Draws, Is.Not.Empty);
+            view.enabled = false;
+            Play(1);
+            Assert.That(DrawLog.Draws, Is.Empty);
+            view.enabled = true;
+            Play(1);
+            Assert.That(DrawLog.Draws, Is.Not.Empty);
+            Manager.enabled = false;
+            Loop.Frame(0.05f);
+            Assert.That(DrawLog.Draws, Is.Empty);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Nodes_are_coloured_by_a_number_of_their_answers()
+        {
+            var view = new GameObject("View").AddComponent<DoubleView>();
+            view.Title = "double";
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            var nodes = new[] { MakeBall(1), MakeBall(2), MakeBall(3) };
+            Play(1);
+            Assert.That(ColorOf(nodes[0]), Is.EqualTo(Color.black));
+            Assert.That(ColorOf(nodes[1]).r, Is.EqualTo(8 / 15f).Within(1e-3f));
+            Assert.That(ColorOf(nodes[2]), Is.EqualTo(Color.white));
+            Assert.That(view.Legend, Is.StringContaining("double  2 ").And.StringContaining("<color=#000000>").And.StringEnding(" 6"));
+            nodes[2].Sensor.Value = 101;
+            Play(1);
+            Assert.That(ColorOf(nodes[1]), Is.EqualTo(Color.black));
+            Assert.That(view.Legend, Is.StringEnding(" 202"));
+        }
+
+        [Test]
+        public void A_fixed_scale_stays_and_a_node_without_an_answer_keeps_its_colour()
+        {
+            Configure("trouble");
+            var view = new GameObject("View").AddComponent<DoubleView>();
+            view.Scale.automatic = false;
+            view.Scale.highest = 15;
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            var node = MakeBall(0);
+            Play(3);
+            Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
+            node.Sensor.Value = 13;
+            Play(1);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
+            node.Sensor.Value = 0;
+            Play(20);
+            Assert.That(ColorOf(node), Is.EqualTo(Color.white));
+        }
+
+        [Test]
+        public void A_node_shows_its_last_answer_in_the_type_of_the_schema_only()
+        {
+            var node = MakeNode(4).Node;
+            Assert.That(node.TryGetAnswer(out ActuatorDataValue _), Is.False, "before the first tick");
+            Play(1);
+            Assert.That(node.TryGetAnswer(out ActuatorDataValue data), Is.True);
+            Assert.That(data.Value, Is.EqualTo(8));
+            Assert.That(node.AnswerTime, Is.EqualTo(0.05).Within(1e-6));
+            Assert.That(node.TryGetAnswer(out int _), Is.False);
+            node.enabled = false;
+            Assert.That(node.TryGetAnswer(out data), Is.False);
+        }
+
+        private static LinkView AddLinkView() => new GameObject("Links").AddComponent<LinkView>();
+
+        private static ProbeNode MakeBall(float value)
+        {
+            var node = MakeNode(value);
+            GameObject.CreatePrimitive(PrimitiveType.Sphere).transform.SetParent(node.Node.transform, false);
+            return node;
+        }
+
+        private static Color ColorOf(ProbeNode node)
+        {
+            var block = new MaterialPropertyBlock();
+            node.Node.GetComponentInChildren<Renderer>().GetPropertyBlock(block);
+            return block.GetColor("_BaseColor");
+        }
+
+        /// <summary>All instances of this frame's draws.</summary>
+        private static List<(Matrix4x4 Place, Color Color)> Bars()
+        {
+            var bars = new List<(Matrix4x4, Color)>();
+            foreach (var draw in DrawLog.Draws)
+            {
+                for (var i = 0; i < draw.Instances; i++) bars.Add((((Matrix4x4[])draw.Data)[draw.Start + i], draw.Material.color));
+            }
+            return bars;
+        }
+
+        public sealed class DoubleView : FieldView<ActuatorDataValue>
+        {
+            protected override float Read(ActuatorDataValue data) => data.Value;
+        }
+    }
+}

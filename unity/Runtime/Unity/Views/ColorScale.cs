@@ -1,0 +1,57 @@
+using System;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Colours for numbers, from a low one to a high one in <see cref="Steps"/> steps.</summary>
+    [Serializable]
+    public sealed class ColorScale
+    {
+        /// <summary>How many different colours there are.</summary>
+        public const int Steps = 16;
+
+        /// <summary>Colour of the lowest value.</summary>
+        [Tooltip("Colour of the lowest value.")]
+        public Color low = new Color(0.25f, 0.05f, 0.45f);
+
+        /// <summary>Colour of the highest value.</summary>
+        [Tooltip("Colour of the highest value.")]
+        public Color high = new Color(1, 0.9f, 0.2f);
+
+        /// <summary>Whether the lowest and the highest value are those of the present tick.</summary>
+        [Tooltip("On: the lowest and highest value are those of the present tick. Off: those below.")]
+        public bool automatic = true;
+
+        /// <summary>The lowest value; what is below has its colour.</summary>
+        [Tooltip("The lowest value; what is below has its colour.")]
+        public float lowest;
+
+        /// <summary>The highest value; what is above has its colour.</summary>
+        [Tooltip("The highest value; what is above has its colour.")]
+        public float highest = 1;
+
+        private bool empty;
+
+        /// <summary>The colour of a step below <see cref="Steps"/>.</summary>
+        public Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
+
+        /// <summary>The step of a value; values beyond the ends, and ones that are no number, have the ends' steps.</summary>
+        public int StepOf(float value)
+        {
+            var place = (value - lowest) / (highest - lowest);
+            return place > 0 ? (int)Math.Min(place * Steps, Steps - 1) : 0;
+        }
+
+        /// <summary>Begins a tick: an automatic scale forgets its ends.</summary>
+        internal void Begin() => empty = true;
+
+        /// <summary>Makes room for a value if the scale is automatic.</summary>
+        internal void Include(float value)
+        {
+            if (!automatic || !float.IsFinite(value)) return;
+            lowest = empty ? value : Math.Min(lowest, value);
+            highest = empty ? value : Math.Max(highest, value);
+            empty = false;
+        }
+    }
+}

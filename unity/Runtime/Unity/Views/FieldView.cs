@@ -1,0 +1,131 @@
+using System;
+using System.Globalization;
+using System.Text;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Colours all nodes by a number of the program's answers, and shows what the colours mean in a corner of the screen. A subclass of one line
+    /// says which number; one component anywhere in the scene is enough. A node keeps its colour while it has no new answer.
+    /// </summary>
+    /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    public abstract class FieldView<TData> : MonoBehaviour
+    {
+        [SerializeField]
+        [Tooltip("Name of the field, for the legend.")]
+        private string title = "value";
+
+        [SerializeField]
+        [Tooltip("Colours of the numbers.")]
+        private ColorScale scale = new ColorScale();
+
+        [SerializeField]
+        [Tooltip("On: the legend is shown in the upper left corner.")]
+        private bool legend = true;
+
+        // By node id.
+        private Painted[] painted = Array.Empty<Painted>();
+        private SimulationManager shown;
+        private ulong tick;
+        private string text;
+        private float lowestInLegend = float.NaN;
+        private float highestInLegend = float.NaN;
+
+        private struct Painted
+        {
+            internal Node Node;
+            internal Renderer Renderer;
+            internal float Number;
+            internal bool IsNew;
+            internal int Step;
+        }
+
+        /// <summary>Name of the field, for the legend.</summary>
+        public string Title
+        {
+            get => title;
+            set => title = value;
+        }
+
+        /// <summary>The colours.</summary>
+        public ColorScale Scale => scale;
+
+        /// <summary>What the legend says, in Unity's rich text. Made anew only when it is asked for and the scale has changed.</summary>
+        public string Legend
+        {
+            get
+            {
+                if (lowestInLegend != scale.lowest || highestInLegend != scale.highest) Describe();
+                return text;
+            }
+        }
+
+        /// <summary>The number in a node's answer; a node whose number is not finite keeps its colour.</summary>
+        protected abstract float Read(TData data);
+
+        private void LateUpdate()
+        {
+            var manager = SimulationManager.Current;
+            if (manager == null || shown == manager && tick == manager.Tick) return;
+            shown = manager;
+            tick = manager.Tick;
+            TakeNumbers(manager);
+            Paint(manager);
+        }
+
+        private void TakeNumbers(SimulationManager manager)
+        {
+            if (painted.Length < manager.IdCapacity) Array.Resize(ref painted, manager.IdCapacity);
+            scale.Begin();
+            for (var i = 0; i < manager.Nodes.Count; i++)
+            {
+                var node = manager.Nodes[i];
+                ref var entry = ref painted[node.Id];
+                if (!ReferenceEquals(entry.Node, node))
+                {
+                    entry.Node = node;
+                    entry.Renderer = node.GetComponentInChildren<Renderer>();
+                    entry.Step = -1;
+                }
+                entry.IsNew = false;
+                if (entry.Renderer == null || !node.TryGetAnswer(out TData data)) continue;
+                entry.Number = Read(data);
+                entry.IsNew = float.IsFinite(entry.Number);
+                scale.Include(entry.Number);
+            }
+        }
+
+        private void Paint(SimulationManager manager)
+        {
+            for (var i = 0; i < manager.Nodes.Count; i++)
+            {
+                ref var entry = ref painted[manager.Nodes[i].Id];
+                if (!entry.IsNew) continue;
+                var step = scale.StepOf(entry.Number);
+                if (step == entry.Step) continue;
+                entry.Step = step;
+                entry.Renderer.Paint(scale.At(step));
+            }
+        }
+
+        private void Describe()
+        {
+            lowestInLegend = scale.lowest;
+            highestInLegend = scale.highest;
+            var made = new StringBuilder(title).Append("  ").Append(Text(scale.lowest)).Append(' ');
+            for (var step = 0; step < ColorScale.Steps; step++) made.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
+            text = made.Append(' ').Append(Text(scale.highest)).ToString();
+        }
+
+        private static string Text(float number) => number.ToString("G4", CultureInfo.InvariantCulture);
+
+        private static string Hex(Color color) =>
+            ((int)(255 * Mathf.Clamp01(color.r)) << 16 | (int)(255 * Mathf.Clamp01(color.g)) << 8 | (int)(255 * Mathf.Clamp01(color.b))).ToString("X6");
+
+        private void OnGUI()
+        {
+            if (legend) GUI.Label(new Rect(10, 10, 600, 24), Legend);
+        }
+    }
+}
