@@ -4,20 +4,18 @@ package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 
 /**
- * One device: the alignment stack of the running round, the records of the last valid round and of the running one, and those that
- * neighbours still hold.
+ * One device: the records of the last valid round and of the running one, and those that neighbours still hold.
  *
  * Generic in [ID] so that ids stay the one boxed object they were made as.
  */
 internal class AggregateDevice<ID : Any>(
     override val localId: ID,
-    private val tree: PathTree,
+    private val stacks: ThreadLocal<PathStack>,
     private val rule: SharingRule,
 ) : Primitives<ID, PathNode>(),
     DeviceRuntime {
@@ -28,20 +26,21 @@ internal class AggregateDevice<ID : Any>(
     private val older = ArrayList<RoundRecord>(0)
     private var inbox: Inbox? = null
 
-    // tokens[0 until depth] is the stack; nodes[0..resolved] are the paths of its prefixes found so far, so that pivots around no
-    // primitive cost no look-up.
-    private var tokens = arrayOfNulls<Any?>(INITIAL_DEPTH)
-    private var nodes = arrayOfNulls<PathNode>(INITIAL_DEPTH + 1).also { it[0] = tree.root }
-    override var depth = 0
-        private set
-    private var resolved = 0
+    // Of the thread that runs the round; null outside of rounds.
+    private var ownStack: PathStack? = null
+    private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside its round")
+    override val depth get() = stack.depth
 
     override fun round(inbox: Inbox, program: RoundProgram): Any? {
         this.inbox = inbox
-        popTo(0)
         running.clear()
-        @Suppress("UNCHECKED_CAST")
-        return program.run(this as Aggregate<Int>)
+        ownStack = stacks.get().also { it.popTo(0) }
+        try {
+            @Suppress("UNCHECKED_CAST")
+            return program.run(this as Aggregate<Int>)
+        } finally {
+            ownStack = null
+        }
     }
 
     override val exports: Int get() = running.countSent()
@@ -71,32 +70,14 @@ internal class AggregateDevice<ID : Any>(
         for (record in older) if (record.isHeld) record.forEachPath(action)
     }
 
-    override fun push(token: Any?) {
-        if (depth == tokens.size) {
-            tokens = tokens.copyOf(2 * depth)
-            nodes = nodes.copyOf(2 * depth + 1)
-        }
-        tokens[depth++] = token
-    }
+    override fun push(token: Any?) = stack.push(token)
 
-    override fun popTo(depth: Int) {
-        this.depth = depth
-        if (resolved > depth) resolved = depth
-    }
+    override fun popTo(depth: Int) = stack.popTo(depth)
 
     override fun claimPath(): PathNode {
-        val path = currentPath()
+        val path = stack.path()
         if (!running.claim(path)) throw AlignmentClashException(path.describe())
         return path
-    }
-
-    private fun currentPath(): PathNode {
-        var node = checkNotNull(nodes[resolved])
-        while (resolved < depth) {
-            node = tree.child(node, tokens[resolved])
-            nodes[++resolved] = node
-        }
-        return node
     }
 
     @Suppress("UNCHECKED_CAST")
@@ -118,8 +99,7 @@ internal class AggregateDevice<ID : Any>(
         var ids = allIds
         var count = 0
         for (index in 0 until size) {
-            val export = inbox.export(index) as RoundRecord?
-            val value = if (export == null) RoundRecord.Nothing else export.sentTo(localId, path, inbox.wasKnown(index))
+            val value = received(inbox, index, path)
             if (value === RoundRecord.Nothing) {
                 if (ids === allIds) ids = allIds.copyOf()
             } else {
@@ -134,15 +114,26 @@ internal class AggregateDevice<ID : Any>(
         }
     }
 
+    /** What link [index] brings to this device at [path], or nothing. */
+    private fun received(inbox: Inbox, index: Int, path: PathNode): Any? {
+        val export = inbox.export(index) as RoundRecord? ?: return RoundRecord.Nothing
+        val value = export.sentAt(path)
+        if (value !is Field<*, *>) return value
+        @Suppress("UNCHECKED_CAST")
+        val field = value as Field<ID, Any?>
+        return if (inbox.wasKnown(index)) field.getOrLocal(localId) else field.localValue
+    }
+
     override fun <T> send(path: PathNode, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
-        val default = values.local.value
-        val neighbors = values.neighbors.list
+        val default = values.localValue
         var isConstant = true
-        for (index in neighbors.indices) {
-            val value = neighbors[index].value
-            if (value === default) continue
-            isConstant = false
-            allow(value, path)
+        if (!values.isConstant) {
+            for (index in 0 until values.neighborCount) {
+                val value = values.neighborValue(index)
+                if (value === default) continue
+                isConstant = false
+                allow(value, path)
+            }
         }
         // Receivers of a constant need not look for their value.
         running.send(path, if (isConstant) default else values)
@@ -154,29 +145,30 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
-        val path = currentPath()
+        val path = stack.path()
         if (running.claim(path)) running.send(path, Unit)
         val inbox = checkNotNull(inbox)
-        val entries = field.neighbors.list
-        val kept = ArrayList<FieldEntry<I, T>>(entries.size)
+        val ids = inbox.ids
+        val keptIds = arrayOfNulls<Any>(field.neighborCount)
+        val keptValues = arrayOfNulls<Any?>(field.neighborCount)
+        var kept = 0
         // The field's neighbours are some of the links, in the same order.
         var link = 0
-        for (entry in entries) {
-            while (inbox.ids[link] != entry.id) link++
-            val export = inbox.export(link) as RoundRecord?
-            if (export != null && export.sentAt(path) !== RoundRecord.Nothing) kept += entry
+        for (index in 0 until field.neighborCount) {
+            val id: Any = field.neighborId(index)
+            while (ids[link] != id) link++
+            val export = inbox.export(link) as RoundRecord? ?: continue
+            if (export.sentAt(path) === RoundRecord.Nothing) continue
+            keptIds[kept] = id
+            keptValues[kept++] = field.neighborValue(index)
         }
-        if (kept.size == entries.size) return field
-        return Field.make(field.context, Array<Any>(kept.size) { kept[it].id }, Array<Any?>(kept.size) { kept[it].value }, field.local.value)
+        if (kept == field.neighborCount) return field
+        return Field.make(field.context, keptIds.copyOf(kept).requireNoNulls(), keptValues.copyOf(kept), field.localValue)
     }
 
     private fun allow(value: Any?, path: PathNode) {
         rule.refusal(value)?.let {
             throw IllegalArgumentException("$it; it cannot be shared or kept (at the path '${path.describe()}')")
         }
-    }
-
-    private companion object {
-        const val INITIAL_DEPTH = 8
     }
 }

@@ -1,100 +1,88 @@
-@file:OptIn(DelicateCollektiveApi::class)
-
 package org.collektive.runtime
-
-import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 
 /** What one round of a device left behind: per path the value kept and the value sent. */
 internal class RoundRecord : Export() {
-    private var paths = arrayOfNulls<PathNode>(INITIAL)
-    private var kept = arrayOfNulls<Any?>(INITIAL)
-    private var sent = arrayOfNulls<Any?>(INITIAL)
+    // A hash table by identity, at most half full. A path, its kept and its sent value stand side by side: neighbours who read one of
+    // them in a random place of the memory have all three in one cache line.
+    private var slots = arrayOfNulls<Any?>(INITIAL)
     private var count = 0
 
     fun clear() {
         if (count == 0) return
-        paths.fill(null)
-        kept.fill(null)
-        sent.fill(null)
+        slots.fill(null)
         count = 0
     }
 
     /** Takes [path] for a primitive; `false` when another one has it already. */
     fun claim(path: PathNode): Boolean {
-        var index = slotOf(path)
-        if (paths[index] === path) return false
-        if (2 * (count + 1) > paths.size) {
+        var slot = slotOf(path)
+        if (slots[slot] === path) return false
+        if (2 * WIDTH * (count + 1) > slots.size) {
             grow()
-            index = slotOf(path)
+            slot = slotOf(path)
         }
-        paths[index] = path
-        kept[index] = Nothing
-        sent[index] = Nothing
+        slots[slot] = path
+        slots[slot + KEPT] = Nothing
+        slots[slot + SENT] = Nothing
         count++
         return true
     }
 
     fun keep(path: PathNode, value: Any?) {
-        kept[slotOf(path)] = value
+        slots[slotOf(path) + KEPT] = value
     }
 
+    /** A `Field` stands for one value per receiver. */
     fun send(path: PathNode, value: Any?) {
-        sent[slotOf(path)] = value
+        slots[slotOf(path) + SENT] = value
+    }
+
+    /** At how many paths a value was sent. */
+    fun countSent(): Int {
+        var sent = 0
+        for (slot in slots.indices step WIDTH) if (slots[slot] != null && slots[slot + SENT] !== Nothing) sent++
+        return sent
     }
 
     /** The value kept at [path], or [Nothing]. */
-    fun keptAt(path: PathNode): Any? {
-        val index = slotOf(path)
-        return if (paths[index] === path) kept[index] else Nothing
-    }
+    fun keptAt(path: PathNode): Any? = at(path, KEPT)
 
     /** The value sent at [path], or [Nothing]; a `Field` of an exchange stands for one value per receiver. */
-    fun sentAt(path: PathNode): Any? {
-        val index = slotOf(path)
-        return if (paths[index] === path) sent[index] else Nothing
+    fun sentAt(path: PathNode): Any? = at(path, SENT)
+
+    fun forEachPath(action: (PathNode) -> Unit) {
+        for (slot in slots.indices step WIDTH) (slots[slot] as PathNode?)?.let(action)
     }
 
-    /** What the device [receiver] gets at [path], or [Nothing]; the default unless the sender knew it ([wasKnown]). */
-    fun sentTo(receiver: Any, path: PathNode, wasKnown: Boolean): Any? {
-        val value = sentAt(path)
-        if (value !is Field<*, *>) return value
-        @Suppress("UNCHECKED_CAST")
-        val field = value as Field<Any, Any?>
-        return if (wasKnown) field.getOrLocal(receiver) else field.local.value
-    }
-
-    /** At how many paths something was sent. */
-    fun countSent(): Int = paths.indices.count { paths[it] != null && sent[it] !== Nothing }
-
-    inline fun forEachPath(action: (PathNode) -> Unit) {
-        for (path in paths) if (path != null) action(path)
+    private fun at(path: PathNode, offset: Int): Any? {
+        val slots = slots
+        var slot = firstSlot(path, slots)
+        while (true) {
+            val found = slots[slot]
+            if (found === path) return slots[slot + offset]
+            if (found == null) return Nothing
+            slot = after(slot, slots)
+        }
     }
 
     /** Where [path] is, or the free slot where it would go. */
     private fun slotOf(path: PathNode): Int {
-        val mask = paths.size - 1
-        var index = path.hash and mask
-        while (true) {
-            val found = paths[index]
-            if (found === path || found == null) return index
-            index = index + 1 and mask
-        }
+        val slots = slots
+        var slot = firstSlot(path, slots)
+        while (slots[slot] != null && slots[slot] !== path) slot = after(slot, slots)
+        return slot
     }
 
+    private fun firstSlot(path: PathNode, slots: Array<Any?>) = path.hash * WIDTH and slots.size - 1
+
+    private fun after(slot: Int, slots: Array<Any?>) = slot + WIDTH and slots.size - 1
+
     private fun grow() {
-        val oldPaths = paths
-        val oldKept = kept
-        val oldSent = sent
-        paths = arrayOfNulls(2 * oldPaths.size)
-        kept = arrayOfNulls(paths.size)
-        sent = arrayOfNulls(paths.size)
-        for (old in oldPaths.indices) {
-            val path = oldPaths[old] ?: continue
-            val index = slotOf(path)
-            paths[index] = path
-            kept[index] = oldKept[old]
-            sent[index] = oldSent[old]
+        val old = slots
+        slots = arrayOfNulls(2 * old.size)
+        for (from in old.indices step WIDTH) {
+            val path = old[from] as PathNode? ?: continue
+            old.copyInto(slots, slotOf(path), from, from + WIDTH)
         }
     }
 
@@ -102,6 +90,10 @@ internal class RoundRecord : Export() {
     object Nothing
 
     private companion object {
-        const val INITIAL = 8
+        // A path and its values, and one place unused: powers of two need no division.
+        const val WIDTH = 4
+        const val KEPT = 1
+        const val SENT = 2
+        const val INITIAL = 2 * WIDTH
     }
 }

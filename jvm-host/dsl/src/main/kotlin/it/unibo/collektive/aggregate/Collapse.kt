@@ -26,39 +26,76 @@ public sealed interface CollapseAll<out E> : Collapse<E>
 
 /** The entries' ids. */
 public val <ID : Any> CollapseNeighbors<FieldEntry<ID, *>>.ids: CollapseNeighbors<ID>
-    get() = NeighborsView(size) { list[it].id }
+    get() = NeighborIds(list)
 
 /** The entries' ids, the own one last. */
 public val <ID : Any> CollapseAll<FieldEntry<ID, *>>.ids: CollapseAll<ID>
-    get() = AllView(size) { list[it].id }
+    get() = AllIds(list)
 
 /** The entries' values. */
 public val <T> CollapseNeighbors<FieldEntry<*, T>>.values: CollapseNeighbors<T>
-    get() = NeighborsView(size) { list[it].value }
+    get() = NeighborValues(list)
 
 /** The entries' values, the own one last. */
 public val <T> CollapseAll<FieldEntry<*, T>>.values: CollapseAll<T>
-    get() = AllView(size) { list[it].value }
+    get() = AllValues(list)
 
 /** The entries as a map, in the field's order. */
 public fun <ID : Any, T> Collapse<FieldEntry<ID, T>>.toMap(): Map<ID, T> = list.associate { it.id to it.value }
 
-internal class NeighborsView<out E>(override val size: Int, private val element: (Int) -> E) :
+/** A view of a class of its own each, so that loops over it compile to loops over the field's arrays. */
+internal abstract class View<out E> :
     AbstractList<E>(),
-    CollapseNeighbors<E> {
-    override val list get() = this
-    override val set get() = toSet()
-    override val sequence get() = asSequence()
-
-    override fun get(index: Int): E = element(index)
+    RandomAccess {
+    val list: List<E> get() = this
+    val set: Set<E> get() = toSet()
+    val sequence: Sequence<E> get() = asSequence()
 }
 
-internal class AllView<out E>(override val size: Int, private val element: (Int) -> E) :
-    AbstractList<E>(),
-    CollapseAll<E> {
-    override val list get() = this
-    override val set get() = toSet()
-    override val sequence get() = asSequence()
+internal class NeighborEntries<ID : Any, T>(private val field: Field<ID, T>) :
+    View<FieldEntry<ID, T>>(),
+    CollapseNeighbors<FieldEntry<ID, T>> {
+    override val size get() = field.neighborCount
 
-    override fun get(index: Int): E = element(index)
+    override fun get(index: Int) = FieldEntry(field.neighborId(index), field.neighborValue(index))
+}
+
+internal class AllEntries<ID : Any, T>(private val field: Field<ID, T>) :
+    View<FieldEntry<ID, T>>(),
+    CollapseAll<FieldEntry<ID, T>> {
+    override val size get() = field.neighborCount + 1
+
+    override fun get(index: Int) = field.entryAt(index)
+}
+
+internal class NeighborIds<ID : Any>(private val entries: List<FieldEntry<ID, *>>) :
+    View<ID>(),
+    CollapseNeighbors<ID> {
+    override val size get() = entries.size
+
+    override fun get(index: Int) = entries[index].id
+}
+
+internal class AllIds<ID : Any>(private val entries: List<FieldEntry<ID, *>>) :
+    View<ID>(),
+    CollapseAll<ID> {
+    override val size get() = entries.size
+
+    override fun get(index: Int) = entries[index].id
+}
+
+internal class NeighborValues<T>(private val entries: List<FieldEntry<*, T>>) :
+    View<T>(),
+    CollapseNeighbors<T> {
+    override val size get() = entries.size
+
+    override fun get(index: Int) = entries[index].value
+}
+
+internal class AllValues<T>(private val entries: List<FieldEntry<*, T>>) :
+    View<T>(),
+    CollapseAll<T> {
+    override val size get() = entries.size
+
+    override fun get(index: Int) = entries[index].value
 }

@@ -17,17 +17,33 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 public class Field<ID : Any, out T> private constructor(
     public val context: Aggregate<ID>,
     private val ids: Array<out Any>,
-    private val neighborValues: Array<out Any?>,
-    private val localValue: T,
+    // null: every neighbour's value is the local one.
+    private val neighborValues: Array<out Any?>?,
+    /** The value for this device. */
+    public val localValue: T,
 ) {
     /** The local entry. */
     public val local: FieldEntry<ID, T> get() = FieldEntry(context.localId, localValue)
 
     /** The neighbours' entries. */
-    public val neighbors: CollapseNeighbors<FieldEntry<ID, T>> get() = NeighborsView(ids.size, ::entryAt)
+    public val neighbors: CollapseNeighbors<FieldEntry<ID, T>> get() = NeighborEntries(this)
 
     /** The neighbours' entries, then the local one. */
-    public val all: CollapseAll<FieldEntry<ID, T>> get() = AllView(ids.size + 1, ::entryAt)
+    public val all: CollapseAll<FieldEntry<ID, T>> get() = AllEntries(this)
+
+    /** How many neighbours there are; for libraries that cannot afford entries, like the next ones. */
+    public val neighborCount: Int get() = ids.size
+
+    /** Whether it is known that all values are one object. */
+    public val isConstant: Boolean get() = neighborValues == null
+
+    /** The id of the neighbour [index], below [neighborCount]; ascending as in [neighbors]. */
+    @Suppress("UNCHECKED_CAST")
+    public fun neighborId(index: Int): ID = ids[index] as ID
+
+    /** The value for the neighbour [index], below [neighborCount]. */
+    @Suppress("UNCHECKED_CAST")
+    public fun neighborValue(index: Int): T = if (neighborValues == null) localValue else neighborValues[index] as T
 
     /**
      * The value for the device [id].
@@ -45,7 +61,7 @@ public class Field<ID : Any, out T> private constructor(
     @DelicateCollektiveApi
     public fun getOrLocal(id: ID): T {
         val index = indexOf(id)
-        return if (index < 0) localValue else valueAt(index)
+        return if (index < 0) localValue else neighborValue(index)
     }
 
     /** A field of [transform] applied to each entry. */
@@ -56,9 +72,8 @@ public class Field<ID : Any, out T> private constructor(
 
     /** A field with these devices and one [value]. */
     public fun <R> mapToConstant(value: R): Field<ID, R> {
-        val values = arrayOfNulls<Any?>(ids.size)
-        values.fill(value)
-        return make(context, ids, values, value)
+        refuseField(value)
+        return Field(context, ids, null, value)
     }
 
     /**
@@ -201,13 +216,11 @@ public class Field<ID : Any, out T> private constructor(
 
     override fun toString(): String = "Field(local=${context.localId}: $localValue, neighbors=${neighbors.toMap()})"
 
-    @Suppress("UNCHECKED_CAST")
-    private fun idAt(index: Int): ID = if (index == ids.size) context.localId else ids[index] as ID
+    internal fun idAt(index: Int): ID = if (index == ids.size) context.localId else neighborId(index)
 
-    @Suppress("UNCHECKED_CAST")
-    private fun valueAt(index: Int): T = if (index == ids.size) localValue else neighborValues[index] as T
+    internal fun valueAt(index: Int): T = if (index == ids.size) localValue else neighborValue(index)
 
-    private fun entryAt(index: Int): FieldEntry<ID, T> = FieldEntry(idAt(index), valueAt(index))
+    internal fun entryAt(index: Int): FieldEntry<ID, T> = FieldEntry(idAt(index), valueAt(index))
 
     private inline fun <R> build(value: (Int) -> R): Field<ID, R> {
         val values = arrayOfNulls<Any?>(ids.size)

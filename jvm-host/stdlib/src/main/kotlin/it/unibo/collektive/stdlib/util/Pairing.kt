@@ -14,15 +14,14 @@ internal inline fun <ID : Any, T, D> Field<ID, T>.forEachNeighborWith(
     metric: Field<ID, D>,
     action: (id: ID, value: T, distance: D) -> Unit,
 ) {
-    val neighbors = neighbors.list
-    val distances = metric.neighbors.list
     // Both are in the order of this round's links.
     var place = 0
-    for (neighbor in neighbors) {
-        while (place < distances.size && distances[place].id != neighbor.id) place++
-        check(place < distances.size) {
-            "the metric, over ${metric.all.ids.list}, has no distance to the aligned neighbour ${neighbor.id}; make it where it is used"
+    for (index in 0 until neighborCount) {
+        val id = neighborId(index)
+        while (place < metric.neighborCount && metric.neighborId(place) != id) place++
+        check(place < metric.neighborCount) {
+            "the metric, over ${metric.all.ids.list}, has no distance to the aligned neighbour $id; make it where it is used"
         }
-        action(neighbor.id, neighbor.value, distances[place].value)
+        action(id, neighborValue(index), metric.neighborValue(place))
     }
 }

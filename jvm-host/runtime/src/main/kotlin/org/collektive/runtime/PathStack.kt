@@ -1,0 +1,42 @@
+package org.collektive.runtime
+
+/**
+ * The alignment stack of the round that runs on a thread, one for all rounds of the thread: it stays in the processor's nearest cache,
+ * which thousands of devices' own would not.
+ */
+internal class PathStack(private val tree: PathTree) {
+    // tokens[0 until depth] is the stack; nodes[0..resolved] are the paths of its prefixes found so far, so that pivots around no
+    // primitive cost no look-up.
+    private var tokens = arrayOfNulls<Any?>(INITIAL_DEPTH)
+    private var nodes = arrayOfNulls<PathNode>(INITIAL_DEPTH + 1).also { it[0] = tree.root }
+    var depth = 0
+        private set
+    private var resolved = 0
+
+    fun push(token: Any?) {
+        if (depth == tokens.size) {
+            tokens = tokens.copyOf(2 * depth)
+            nodes = nodes.copyOf(2 * depth + 1)
+        }
+        tokens[depth++] = token
+    }
+
+    fun popTo(depth: Int) {
+        this.depth = depth
+        if (resolved > depth) resolved = depth
+    }
+
+    /** The path that all tokens on the stack make. */
+    fun path(): PathNode {
+        var node = checkNotNull(nodes[resolved])
+        while (resolved < depth) {
+            node = tree.child(node, tokens[resolved])
+            nodes[++resolved] = node
+        }
+        return node
+    }
+
+    private companion object {
+        const val INITIAL_DEPTH = 16
+    }
+}
