@@ -4,19 +4,23 @@ PACKAGE="$BUILD/package"
 
 help_package() {
   cat <<'H'
-usage: ./collektive package [--out DIR]
+usage: ./collektive package [--out DIR] [--jre]
 
 Makes org.collektive.unity-VERSION.tgz in --out (default: out): what Unity users install by Package Manager > Add package from
 tarball. It holds the sources that Unity compiles, the native library, the jars and the tools, each with its .meta. The same
 sources give the same bytes.
+
+--jre adds a JVM of its own (the JDK at hand, trimmed by jlink, some 45 MB), so that users need none; the archive is then named
+org.collektive.unity-VERSION-jre.tgz.
 H
 }
 
 cmd_package() {
-  local out="$ROOT/out"
+  local out="$ROOT/out" jre=
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --jre) jre=-jre; shift ;;
       *) fail "package: unknown argument $1 (see ./collektive package --help)" ;;
     esac
   done
@@ -25,10 +29,36 @@ cmd_package() {
   build_jvm
   build_csharp
   logged stage-package stage_package
+  [ -z "$jre" ] || logged stage-jre stage_jre
   mkdir -p "$out"
   local archive
   archive=$(npm pack "$PACKAGE" --pack-destination "$out" --ignore-scripts --silent) || fail "npm could not pack $PACKAGE"
+  if [ -n "$jre" ]; then
+    mv "$out/$archive" "$out/${archive%.tgz}$jre.tgz"
+    archive="${archive%.tgz}$jre.tgz"
+  fi
   echo "$out/$archive"
+}
+
+# What the host and its programs use; jcmd and jfr attach to the JVM of the editor, jdwp lets debuggers in.
+JRE_MODULES=java.base,java.logging,java.management,jdk.management,jdk.jfr,jdk.unsupported,jdk.jcmd,jdk.jdwp.agent
+
+# stage_jre: a trimmed JVM into build/package. npm drops links, so the licences that jlink links to are copied.
+stage_jre() {
+  local jdk jre="$BUILD/jre" target="$PACKAGE/unity/Jvm~/linux-x64"
+  jdk=$(find_jdk) || return 1
+  once jre "$JRE_MODULES $(fingerprint "$jdk/release") $(declare -f link_jre | sha256sum)" link_jre "$jdk" "$jre" || return 1
+  rm -rf "$target"
+  cp -RL "$jre" "$target"
+}
+
+link_jre() {
+  local jdk=$1 jre=$2 compress=2
+  # The numbers of older JDKs have another name since 21.
+  [ "$(sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$jdk/release")" -lt 21 ] || compress=zip-9
+  rm -rf "$jre"
+  "$jdk/bin/jlink" --add-modules "$JRE_MODULES" --strip-native-debug-symbols=exclude-debuginfo-files --no-header-files --no-man-pages \
+    --compress "$compress" --generate-cds-archive --output "$jre"
 }
 
 # stage_package: makes the whole package in build/package, from the allow-list of package.json and what was built.

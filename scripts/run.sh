@@ -4,11 +4,11 @@ DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 
 help_run() {
   cat <<'H'
-usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--set FIELD=VALUE]...
+usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--recording FILE.jfr] [--set FIELD=VALUE]...
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html and pictures,
-as the scenario asks. --set gives a public field of the scene builder another value.
+as the scenario asks. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
 The scenario file's keys are described in unity/Documentation~/headless.md.
 H
 }
@@ -83,7 +83,7 @@ cmd_run() {
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
       --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
-      --seconds | --set) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
+      --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
       *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;
     esac

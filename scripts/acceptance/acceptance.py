@@ -207,6 +207,15 @@ class AForeignProject(Folder):
         self.assertEqual(manifest["end"], {"agreeing": 6, "seen": 12})
         self.assertEqual(manifest["seed"], 3)
 
+    def test_its_profile_counts_each_tick_and_names_the_program_and_its_function(self):
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks of 10 nodes and 18 links; 0 rounds failed", result.stdout)
+        self.assertRegex(result.stdout, r"program brightest \(lamps\.BrightestKt\.\w+\)\n  \d+ rounds sampled \(one in 17\)")
+        self.assertIn("allocated, estimated from samples", result.stdout)
+        recorded = subprocess.run([os.path.join(jdk(), "bin/jfr"), "summary", self.path("out", "profile.jfr")], capture_output=True, text=True).stdout
+        self.assertRegex(recorded, r"(?m)^ collektive\.Tick +10 ")
+
     def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")
@@ -440,31 +449,103 @@ class ThePackage(unittest.TestCase):
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
     def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self):
-        project = os.path.join(self.folder, "project")
-        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, project], check=True, capture_output=True)
-        sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
-        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample, "schema": sample + "/gradient_ascent.fbs",
-                    "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar", "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
-        with open(os.path.join(project, "scenario.json"), "w") as file:
-            json.dump(scenario, file)
+        project = Project(self.archive)
+        self.addCleanup(project.remove)
         # No file of the project and no variable says where the clone is.
-        self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, project], capture_output=True, text=True).stdout, "")
-        jdk = subprocess.run(["bash", "-c", f'ROOT="{ROOT}"; . "$ROOT/scripts/lib.sh"; . "$ROOT/scripts/setup.sh"; find_jdk'], capture_output=True, text=True).stdout.strip()
-        environment = {"PATH": "/usr/bin:/bin", "HOME": project, "JAVA_HOME": jdk,
-                       "LD_LIBRARY_PATH": os.path.join(self.root, "unity/Runtime/Plugins/linux-x64")}
-        result = subprocess.run(
-            ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
-             "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"],
-            cwd=project, env=environment, capture_output=True, text=True)
+        self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, project.folder], capture_output=True, text=True).stdout, "")
+        result = project.play(JAVA_HOME=jdk())
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        with open(os.path.join(project, "out/manifest.json")) as file:
-            ran = json.load(file)
+        ran = project.manifest()
         self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
+
+    def test_without_a_jvm_it_says_how_to_get_one(self):
+        project = Project(self.archive)
+        self.addCleanup(project.remove)
+        result = project.play()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("install the package that has one, set JAVA_HOME, or choose a folder", last_error(result))
 
     def test_unknown_arguments_are_named(self):
         result = collektive("package", "--nonesuch")
         self.assertEqual(result.returncode, 1)
         self.assertIn("--nonesuch", last_error(result))
+
+
+class Project:
+    """A project of a user who installed the package from its tarball, with a player for it."""
+
+    def __init__(self, archive):
+        self.folder = tempfile.mkdtemp(prefix="collektive-project-")
+        self.package = os.path.join(self.folder, "Packages/org.collektive.unity")
+        os.makedirs(self.package)
+        subprocess.run(["tar", "-xzf", archive, "-C", self.package, "--strip-components=1"], check=True)
+        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, self.folder], check=True, capture_output=True)
+        sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
+        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample, "schema": sample + "/gradient_ascent.fbs",
+                    "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar", "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
+        with open(os.path.join(self.folder, "scenario.json"), "w") as file:
+            json.dump(scenario, file)
+
+    def play(self, hidden=(), **environment):
+        """Runs its scene with these variables alone, and with nothing in the hidden folders."""
+        command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
+                   "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"]
+        if hidden:
+            hide = 'until [ "$1" = -- ]; do mount -t tmpfs none "$1" || exit 99; shift; done; shift; exec "$@"'
+            command = ["unshare", "--mount", "sh", "-c", hide, "sh", *hidden, "--", *command]
+        plugins = os.path.join(self.package, "unity/Runtime/Plugins/linux-x64")
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True,
+                              env={"PATH": "/usr/bin:/bin", "HOME": self.folder, "LD_LIBRARY_PATH": plugins, **environment})
+
+    def manifest(self):
+        with open(os.path.join(self.folder, "out/manifest.json")) as file:
+            return json.load(file)
+
+    def remove(self):
+        shutil.rmtree(self.folder)
+
+
+class ThePackageWithAJvm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="collektive-package-")
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        result = collektive("package", "--jre", "--out", cls.folder)
+        if result.returncode != 0:
+            raise AssertionError(result.stderr)
+        cls.archive = result.stdout.strip()
+        cls.project = Project(cls.archive)
+        cls.addClassCleanup(cls.project.remove)
+        cls.home = os.path.join(cls.project.package, "unity/Jvm~/linux-x64")
+
+    def test_it_is_told_from_the_one_without(self):
+        self.assertRegex(os.path.basename(self.archive), r"^org\.collektive\.unity-[0-9.]+-jre\.tgz$")
+
+    def test_its_jvm_is_whole_with_archive_licences_debugger_and_recorder(self):
+        for path in ["lib/server/classes.jsa", "lib/libjdwp.so", "lib/jfr/default.jfc", "lib/jfr/profile.jfc", "bin/java", "bin/jfr", "bin/jcmd"]:
+            self.assertTrue(os.path.isfile(os.path.join(self.home, path)), path)
+        for module in ["java.base", "jdk.jfr", "jdk.jdwp.agent"]:
+            self.assertGreater(os.path.getsize(os.path.join(self.home, "legal", module, "LICENSE")), 1000, module)
+        self.assertTrue(os.access(os.path.join(self.home, "bin/java"), os.X_OK))
+
+    def test_a_scene_runs_where_there_is_no_java_no_variable_and_no_clone(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can hide the clone and the machine's JDKs from a process")
+        jdks = {"/usr/lib/jvm", jdk()}
+        hidden = [ROOT, *sorted((path for path in jdks if os.path.isdir(path)), reverse=True)]  # what lies inside first
+        result = self.project.play(hidden)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        ran = self.project.manifest()
+        self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
+
+    def test_it_is_found_before_java_home(self):
+        result = self.project.play(JAVA_HOME="/nowhere/jdk")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+
+def jdk():
+    find = f'ROOT="{ROOT}"; . "$ROOT/scripts/lib.sh"; . "$ROOT/scripts/setup.sh"; find_jdk'
+    return subprocess.run(["bash", "-c", find], capture_output=True, text=True, check=True).stdout.strip()
 
 
 def digest(path):

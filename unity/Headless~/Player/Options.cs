@@ -10,7 +10,7 @@ namespace Collektive.Headless
         internal const string Usage =
             "Player plan SCENARIO\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
-            "           [--template HTML] [--seed K] [--seconds S] [--set FIELD=VALUE]...";
+            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]...";
 
         internal string Command { get; private set; }
 
@@ -27,6 +27,9 @@ namespace Collektive.Headless
         internal string Out { get; private set; }
 
         internal string Template { get; private set; }
+
+        /// <summary>File of a flight recording of the whole run; null for none.</summary>
+        internal string Recording { get; private set; }
 
         internal ulong? Seed { get; private set; }
 
@@ -56,6 +59,7 @@ namespace Collektive.Headless
                 case "--java-home": JavaHome = value; break;
                 case "--out": Out = value; break;
                 case "--template": Template = value; break;
+                case "--recording": Recording = value; break;
                 case "--set": Assignments.Add(value); break;
                 case "--seed":
                     if (!ulong.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out var seed))

@@ -42,7 +42,7 @@ namespace Collektive.Headless
             var scene = MakeScene(manager);
             try
             {
-                return Play(manager, scene);
+                using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording)) return Play(manager, scene);
             }
             finally
             {

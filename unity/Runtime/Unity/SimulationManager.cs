@@ -181,7 +181,7 @@ namespace Collektive.Unity
             stepping = true;
             try
             {
-                DoTick();
+                using (TickMarkers.Tick.Auto()) DoTick();
             }
             catch (BridgeException error)
             {
@@ -358,6 +358,23 @@ namespace Collektive.Unity
         {
             var start = Stopwatch.GetTimestamp();
             tickInProgress = session.Tick + 1;
+            using (TickMarkers.Sense.Auto()) PrepareRequest();
+            if (session == null) return;
+            var sensed = Stopwatch.GetTimestamp();
+            using (TickMarkers.Step.Auto()) session.Step(settings.deltaTime, settings.stepLimitMs);
+            var stepped = Stopwatch.GetTimestamp();
+            using (TickMarkers.Act.Auto()) ActAll();
+            if (session == null) return;
+            var acted = Stopwatch.GetTimestamp();
+            using (TickMarkers.Physics.Auto()) Simulate();
+            if (session == null) return;
+            var end = Stopwatch.GetTimestamp();
+            Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+            Ticked?.Invoke(this);
+        }
+
+        private void PrepareRequest()
+        {
             Physics.SyncTransforms();
             FlushChanges();
             if (session == null) return;
@@ -365,17 +382,6 @@ namespace Collektive.Unity
             if (session == null) return;
             // Last, since users' code may add and remove links until here.
             Links.Flush(session.Request, isKnown);
-            var sensed = Stopwatch.GetTimestamp();
-            session.Step(settings.deltaTime, settings.stepLimitMs);
-            var stepped = Stopwatch.GetTimestamp();
-            ActAll();
-            if (session == null) return;
-            var acted = Stopwatch.GetTimestamp();
-            Simulate();
-            if (session == null) return;
-            var end = Stopwatch.GetTimestamp();
-            Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
-            Ticked?.Invoke(this);
         }
 
         private void FlushChanges()

@@ -1,0 +1,41 @@
+using System;
+using System.Threading;
+using Collektive.Bridge;
+using Collektive.Unity;
+using org.collektive.frame;
+
+namespace Collektive.Headless
+{
+    /// <summary>A flight recording around a run: it is there from the first tick on, and its file when the run is disposed of.</summary>
+    internal sealed class RecordedRun : IDisposable
+    {
+        /// <summary>Programs of aggregates are deep: the frames of the program itself must not fall off the stacks of samples.</summary>
+        private const string WholeStacks = "-XX:FlightRecorderOptions=stackdepth=512";
+
+        internal RecordedRun(JvmSettings settings, string path)
+        {
+            settings.flags.Add(WholeStacks);
+            Jvm.Start(Installation.ToLaunch(settings));
+            JvmRecording.Start(path, JvmRecording.Profile);
+            WaitFor(RecordingState.On);
+        }
+
+        public void Dispose()
+        {
+            if (Jvm.State != JvmState.Running) return;
+            JvmRecording.Stop();
+            WaitFor(RecordingState.Off);
+        }
+
+        private static void WaitFor(RecordingState state)
+        {
+            while (true)
+            {
+                var status = Jvm.GetStatus();
+                if (status.RecordingError.Length > 0) throw new ScenarioException(status.RecordingError);
+                if (status.Recording == state) return;
+                Thread.Sleep(5);
+            }
+        }
+    }
+}
