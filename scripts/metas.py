@@ -14,6 +14,7 @@ PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  ico
           "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
           "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
 PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
+TEXT = "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
 # Samples are copied into a project with their metas when the user imports them.
 IMPORTED = ["unity", "unity/Samples~"]
@@ -21,7 +22,8 @@ IMPORTERS = {
     ".cs": "MonoImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
            "  icon: {instanceID: 0}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".asmdef": "AssemblyDefinitionImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
-    ".md": "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".md": TEXT,
+    ".txt": TEXT,
     ".mat": "NativeFormatImporter:\n  externalObjects: {}\n  mainObjectFileID: 2100000\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".prefab": "PrefabImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".shader": "ShaderImporter:\n  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n  preprocessorOverride: 0\n"
@@ -30,7 +32,7 @@ IMPORTERS = {
     ".so": PLUGIN % (PLATFORM % ("Any: ", 0, " {}")
                      + PLATFORM % ("Editor: Editor", 1, "\n        CPU: x86_64\n        DefaultValueInitialized: true\n        OS: Linux")
                      + PLATFORM % ("Standalone: Linux64", 1, "\n        CPU: x86_64")),
-    ".json": "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".json": TEXT,
     "package.json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
 }
 DEFAULT = "DefaultImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"

@@ -77,10 +77,17 @@ build_csharp_tests() {
   local work="$BUILD/csharp-tests" schema key
   key=$(fingerprint "$ROOT/schema" "$PROBE/probe.fbs" "$GENERATOR_JAR")
   once test-schemas "$key" generate_test_schemas "$work"
-  assembly Collektive.Headless.Tests.dll \
-    "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $CSHARP/Collektive.Player.exe $NUNIT" \
+  local package="$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll"
+  assembly UnityEditor.dll "$CSHARP/UnityEngine.dll" "$ROOT/unity/Headless~/UnityEditor"
+  assembly Collektive.Unity.Editor.dll "$package $CSHARP/UnityEditor.dll" "$ROOT/unity/Editor"
+  assembly Collektive.Headless.Tests.dll "$package $CSHARP/UnityEditor.dll $CSHARP/Collektive.Unity.Editor.dll $CSHARP/Collektive.Player.exe $NUNIT" \
     "$ROOT/unity/Headless~/Tests" "$work" -- $GENERATED_CODE_SYMBOLS
-  assembly Collektive.TestRunner.exe "$NUNIT" "$ROOT/unity/Headless~/TestRunner" -- -target:exe
+  local framework="$CSHARP/UnityEngine.TestRunner.dll $NUNIT"
+  assembly UnityEngine.TestRunner.dll "$CSHARP/UnityEngine.dll" "$ROOT/unity/Headless~/TestFramework"
+  assembly Collektive.TestRunner.exe "$CSHARP/UnityEngine.dll $framework" "$ROOT/unity/Headless~/TestRunner" -- -target:exe
+  assembly Collektive.Unity.Tests.dll "$package $framework" "$ROOT/unity/Tests/Runtime"
+  assembly Collektive.Unity.PublicApi.Tests.dll "$package $framework" "$ROOT/unity/Tests/PublicApi"
+  assembly Collektive.Unity.Editor.Tests.dll "$package $CSHARP/UnityEditor.dll $CSHARP/Collektive.Unity.Editor.dll $framework" "$ROOT/unity/Tests/Editor"
 }
 
 generate_test_schemas() {
@@ -95,10 +102,26 @@ generate_test_schemas() {
 # csharp_tests RUNTIME JDK: all C# tests on one runtime and one JVM.
 csharp_tests() {
   local jar
+  setup_kotlin
   jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") || return 1
   cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
-  COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
-    managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll"
+  COLLEKTIVE_ROOT="$ROOT" COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
+    managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll" ${3:+"$3"}
+}
+
+# unity_tests RUNTIME: the package's own tests, which Unity's test framework runs in the editor.
+unity_tests() {
+  local tests passed=0 failed=0 log sum
+  cp -u "$NUNIT" "$CSHARP/"
+  for tests in Collektive.Unity.Tests Collektive.Unity.PublicApi.Tests Collektive.Unity.Editor.Tests; do
+    log=$(COLLEKTIVE_ROOT="$ROOT" managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/$tests.dll") || true
+    printf '%s\n' "$log"
+    sum=$(printf '%s\n' "$log" | grep -xE '[0-9]+ passed, [0-9]+ failed') || sum="0 passed, 1 failed"
+    sum=${sum% failed}
+    passed=$((passed + ${sum%% passed*}))
+    failed=$((failed + ${sum##*, }))
+  done
+  echo "$passed passed, $failed failed"
 }
 
 test_assets() {
@@ -127,6 +150,7 @@ cmd_test() {
   if wanted shim; then suite shim test_shim; fi
   if wanted csharp; then
     build_csharp_tests
+    suite unity unity_tests mono-sgen
     for jdk in $(test_jdks); do suite "csharp-on-$(basename "$jdk")" csharp_tests mono-sgen "$jdk"; done
   fi
   if wanted assets; then suite assets test_assets; fi

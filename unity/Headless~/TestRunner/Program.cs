@@ -1,21 +1,36 @@
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Reflection;
 using NUnit.Framework;
+using UnityEngine.Headless;
+using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
 /// Usage: Collektive.TestRunner.exe ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed or none ran.
+/// Tests of an assembly that uses Unity's test framework get what it gives them: log assertions, coroutines, and, unless it uses the
+/// editor, play mode.
 static class Program
 {
     const BindingFlags Members = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.FlattenHierarchy;
 
+    /// Of a frame in play mode.
+    const float FrameSeconds = 0.02f;
+
     static int passed, failed;
+    static bool isUnity, isPlayMode;
 
     static int Main(string[] arguments)
     {
         var filter = arguments.Length > 1 ? arguments[1] : "";
-        var types = Assembly.LoadFrom(arguments[0]).GetExportedTypes();
+        var assembly = Assembly.LoadFrom(arguments[0]);
+        var references = Array.ConvertAll(assembly.GetReferencedAssemblies(), reference => reference.Name);
+        isUnity = Array.IndexOf(references, typeof(UnityTestAttribute).Assembly.GetName().Name) >= 0;
+        isPlayMode = isUnity && Array.IndexOf(references, "UnityEditor") < 0;
+        // As in Unity, where all assemblies are loaded, used or not.
+        Array.ForEach(assembly.GetReferencedAssemblies(), reference => Assembly.Load(reference));
+        var types = assembly.GetExportedTypes();
         Array.Sort(types, (a, b) => string.CompareOrdinal(a.FullName, b.FullName));
         foreach (var type in types)
         {
@@ -23,7 +38,8 @@ static class Program
             foreach (var method in type.GetMethods(Members))
             {
                 var cases = method.GetCustomAttributes(typeof(TestCaseAttribute), true);
-                if (cases.Length == 0 && method.IsDefined(typeof(TestAttribute), true)) Run(type, method, null, filter);
+                var isTest = method.IsDefined(typeof(TestAttribute), true) || method.IsDefined(typeof(UnityTestAttribute), true);
+                if (cases.Length == 0 && isTest) Run(type, method, null, filter);
                 foreach (TestCaseAttribute testCase in cases) Run(type, method, testCase, filter);
             }
         }
@@ -38,21 +54,23 @@ static class Program
         if (name.IndexOf(filter, StringComparison.Ordinal) < 0 || method.IsDefined(typeof(IgnoreAttribute), true)) return;
         var clock = Stopwatch.StartNew();
         Exception failure = null;
+        if (isUnity) Begin();
         var fixture = Try(() => Activator.CreateInstance(type), ref failure);
         if (failure == null)
         {
-            foreach (var setUp in Marked(type, typeof(SetUpAttribute)))
-                if (failure == null) Try(() => setUp.Invoke(fixture, null), ref failure);
+            foreach (var setUp in Marked(type, typeof(SetUpAttribute), typeof(UnitySetUpAttribute)))
+                if (failure == null) Try(() => Finish(setUp.Invoke(fixture, null)), ref failure);
             if (failure == null)
             {
-                var result = Try(() => method.Invoke(fixture, Converted(arguments, method)), ref failure);
+                var result = Try(() => Finish(method.Invoke(fixture, Converted(arguments, method))), ref failure);
                 if (failure == null && testCase != null && testCase.HasExpectedResult)
                     Try(() => { Assert.AreEqual(testCase.ExpectedResult, result); return null; }, ref failure);
             }
-            var tearDowns = Marked(type, typeof(TearDownAttribute));
+            var tearDowns = Marked(type, typeof(TearDownAttribute), typeof(UnityTearDownAttribute));
             tearDowns.Reverse();
-            foreach (var tearDown in tearDowns) Try(() => tearDown.Invoke(fixture, null), ref failure);
+            foreach (var tearDown in tearDowns) Try(() => Finish(tearDown.Invoke(fixture, null)), ref failure);
         }
+        if (isUnity) Try(End, ref failure);
         if (failure == null || failure is SuccessException)
         {
             passed++;
@@ -63,13 +81,48 @@ static class Program
         Console.WriteLine($"FAIL {name}\n{failure}");
     }
 
+    static void Begin()
+    {
+        Loop.Reset();
+        LogAssert.Begin();
+        if (isPlayMode) Loop.Start(1);
+    }
+
+    static object End()
+    {
+        try
+        {
+            LogAssert.End();
+        }
+        finally
+        {
+            Loop.Reset();
+        }
+        return null;
+    }
+
+    /// Runs a coroutine to its end: one frame for each step, the steps of an enumerator that it yields included.
+    static object Finish(object result)
+    {
+        if (!isUnity || !(result is IEnumerator coroutine)) return result;
+        var running = new Stack<IEnumerator>();
+        running.Push(coroutine);
+        while (running.Count > 0)
+        {
+            if (!running.Peek().MoveNext()) running.Pop();
+            else if (running.Peek().Current is IEnumerator inner) running.Push(inner);
+            else if (isPlayMode) Loop.Frame(FrameSeconds);
+        }
+        return null;
+    }
+
     /// Base classes first.
-    static List<MethodInfo> Marked(Type type, Type attribute)
+    static List<MethodInfo> Marked(Type type, params Type[] attributes)
     {
         var methods = new List<MethodInfo>();
         for (var level = type; level != null; level = level.BaseType)
             foreach (var method in level.GetMethods(Members | BindingFlags.DeclaredOnly))
-                if (method.IsDefined(attribute, false)) methods.Insert(0, method);
+                if (Array.Exists(attributes, attribute => method.IsDefined(attribute, false))) methods.Insert(0, method);
         return methods;
     }
 

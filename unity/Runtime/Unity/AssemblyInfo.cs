@@ -3,3 +3,4 @@ using System.Runtime.CompilerServices;
 
 [assembly: AssemblyVersion("0.1.0.0")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Editor")]

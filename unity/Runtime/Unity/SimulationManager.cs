@@ -40,6 +40,7 @@ namespace Collektive.Unity
         private readonly List<Node> roster = new List<Node>();
         private readonly List<Node> due = new List<Node>();
         private readonly GrowingArray<int> dueIds = new GrowingArray<int>();
+        private readonly ErrorTally errors = new ErrorTally();
         // By node id: whether the JVM knows the node, and whether it left since the last tick.
         private bool[] isKnown = new bool[64];
         private bool[] isGone = new bool[64];
@@ -53,6 +54,9 @@ namespace Collektive.Unity
 
         /// <summary>Called after each tick, when physics have advanced.</summary>
         public event Action<SimulationManager> Ticked;
+
+        /// <summary>Called for each line of the JVM's log, after it was written to Unity's.</summary>
+        public event Action<HostLogLevel, string> Logged;
 
         /// <summary>The scene's manager; null when there is none.</summary>
         public static SimulationManager Current { get; private set; }
@@ -91,8 +95,11 @@ namespace Collektive.Unity
         /// <summary>Directed links.</summary>
         public int LinkCount => Links.Count;
 
-        /// <summary>Errors of rounds, sensors and actuators so far.</summary>
-        public long ErrorCount { get; private set; }
+        /// <summary>Errors of rounds, sensors, actuators and rules so far.</summary>
+        public long ErrorCount => errors.Count;
+
+        /// <summary>The same errors, by where they come from.</summary>
+        public IReadOnlyList<NodeErrors> Errors => errors.All;
 
         /// <summary>Duration of the last tick's phases.</summary>
         public TickTimes Times { get; private set; }
@@ -202,6 +209,17 @@ namespace Collektive.Unity
             enabled = false;
         }
 
+        /// <summary>What the node's program answered in the last tick; null when it gave no answer. For tools: it allocates.</summary>
+        internal object AnswerOf(int id)
+        {
+            if (session == null || session.Tick == 0) return null;
+            for (var i = 0; i < session.Answer.NodeCount; i++)
+            {
+                if (session.Answer.Node(i) == id) return session.Answer.Actuators.Get(i);
+            }
+            return null;
+        }
+
         internal void Join(Node node)
         {
             var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
@@ -260,6 +278,7 @@ namespace Collektive.Unity
             }
             Current = this;
             Failure = "";
+            errors.Clear();
             Digest = 0;
             accumulated = 0;
             nextId = 0;
@@ -516,7 +535,7 @@ namespace Collektive.Unity
                 var (id, program, message) = answer.Error(i);
                 var node = Find(id);
                 if (node != null) node.LastError = message;
-                ErrorCount++;
+                errors.Add(program, id, answer.Tick, message);
                 Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + answer.Tick + ": " + message, node);
             }
             // Answers and due nodes are both ascending; due nodes without an answer failed.
@@ -563,7 +582,7 @@ namespace Collektive.Unity
 
         private void Report(Node node, NodePart part, Exception error)
         {
-            ErrorCount++;
+            errors.Add(part.GetType().Name, node.Id, tickInProgress, error.Message);
             node.LastError = error.Message;
             Debug.LogException(
                 new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tickInProgress + ": " + error.Message, error), part);
@@ -577,6 +596,7 @@ namespace Collektive.Unity
                 if (level == HostLogLevel.Error) Debug.LogError(line, this);
                 else if (level == HostLogLevel.Warning) Debug.LogWarning(line, this);
                 else Debug.Log(line, this);
+                Logged?.Invoke(level, line);
             }
         }
 

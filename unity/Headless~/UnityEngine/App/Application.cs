@@ -32,6 +32,7 @@ namespace UnityEngine
         public static string dataPath => AppDomain.CurrentDomain.BaseDirectory;
         public static string streamingAssetsPath => Path.Combine(dataPath, "StreamingAssets");
         public static string persistentDataPath => Path.Combine(DataFolder, productName);
+        public static string consoleLogPath => Path.Combine(persistentDataPath, "Player.log");
         public static string temporaryCachePath => Path.GetTempPath();
         public static string unityVersion => "6000.0.0f1";
         public static string version => "1.0";

@@ -18,6 +18,9 @@ namespace Collektive.Bridge
 
         /// <summary>Elements in the attached table.</summary>
         public abstract int Count { get; }
+
+        /// <summary>The element at an index below <see cref="Count"/>, boxed: for tools that know no schema.</summary>
+        public abstract object Get(int index);
     }
 
     /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
@@ -32,6 +35,9 @@ namespace Collektive.Bridge
 
         /// <inheritdoc/>
         public sealed override int Count => count;
+
+        /// <inheritdoc/>
+        public sealed override object Get(int index) => this[index];
 
         /// <summary>The element at an index below <see cref="ActuatorBuffer.Count"/>.</summary>
         public abstract T this[int index] { get; }

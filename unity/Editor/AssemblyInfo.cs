@@ -1,0 +1,6 @@
+using System.Reflection;
+using System.Runtime.CompilerServices;
+
+[assembly: AssemblyVersion("0.1.0.0")]
+[assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Editor.Tests")]

@@ -1,0 +1,59 @@
+using System.Collections.Generic;
+using System.IO;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>Makes the jar of a schema's Kotlin programs.</summary>
+    internal static class ProgramBuild
+    {
+        /// <returns>Whether it worked; if not, the console says why and the jar is as before.</returns>
+        internal static bool Make(SchemaProject project)
+        {
+            var jdk = Toolchain.FindJdk();
+            var kotlin = Toolchain.FindKotlin();
+            var work = Path.GetFullPath("Library/Collektive/Build/" + project.Name);
+            if (Directory.Exists(work)) Directory.Delete(work, true);
+            var java = Path.Combine(work, "java");
+            var classes = Path.Combine(work, "classes");
+            Directory.CreateDirectory(classes);
+            return SchemaCode.MakeJava(project, java)
+                && CompileJava(jdk, java, classes)
+                && CompileKotlin(jdk, kotlin, classes, Path.GetFullPath(project.Programs))
+                && Pack(jdk, java, classes, work, project.Jar);
+        }
+
+        private static bool CompileJava(string jdk, string java, string classes)
+        {
+            var arguments = new List<string> { "--release", "17", "-nowarn", "-proc:none", "-cp", Installation.HostJar, "-d", classes };
+            arguments.AddRange(Directory.GetFiles(java, "*.java", SearchOption.AllDirectories));
+            return Run("javac", Path.Combine(jdk, "bin/javac"), arguments);
+        }
+
+        private static bool CompileKotlin(string jdk, string kotlin, string classes, string programs)
+        {
+            return Run("the Kotlin compiler", Path.Combine(jdk, "bin/java"), new List<string>
+            {
+                "-Xmx1g", "-XX:+UseSerialGC", "-cp", Path.Combine(kotlin, "lib/*"), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
+                "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-Xplugin=" + Toolchain.CompilerPlugin,
+                "-cp", Installation.HostJar + Path.PathSeparator + classes, "-d", classes, programs,
+            });
+        }
+
+        private static bool Pack(string jdk, string java, string classes, string work, string jar)
+        {
+            var part = Path.Combine(work, "programs.jar");
+            // The schema's service entry lies beside the Java code.
+            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", java, "META-INF", "-C", classes, "." })) return false;
+            if (File.Exists(jar)) File.Delete(jar);
+            File.Move(part, jar);
+            return true;
+        }
+
+        private static bool Run(string name, string program, List<string> arguments)
+        {
+            var (code, output) = ToolRun.Try(".", program, arguments.ToArray());
+            ToolConsole.Show(name, code, output);
+            return code == 0;
+        }
+    }
+}

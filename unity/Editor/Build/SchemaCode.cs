@@ -1,0 +1,25 @@
+using System.IO;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>Makes the code of schemas with the package's generator.</summary>
+    internal static class SchemaCode
+    {
+        /// <summary>Makes the C# that sensors and actuators use.</summary>
+        /// <returns>Whether it worked; if not, the console says why.</returns>
+        internal static bool MakeCSharp(SchemaProject project) => Make(project, "--csharp", project.Generated);
+
+        /// <summary>Makes the Java that programs use.</summary>
+        internal static bool MakeJava(SchemaProject project, string folder) => Make(project, "--java", folder);
+
+        private static bool Make(SchemaProject project, string language, string folder)
+        {
+            var java = Path.Combine(Toolchain.FindJdk(), "bin/java");
+            var (code, output) = ToolRun.Try(
+                ".", java, "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", Toolchain.Generator, "--flatc", Toolchain.Flatc(),
+                "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema), language, Path.GetFullPath(folder));
+            ToolConsole.Show("the generator of " + project.Schema, code, output);
+            return code == 0;
+        }
+    }
+}

@@ -1,0 +1,62 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// A schema of the user's, and by its place all that belongs to it: the generated C# in <c>Generated</c> beside it, the Kotlin in
+    /// <c>Programs</c> beside it, and the jar that is made of both, <c>Library/Collektive/NAME.jar</c>.
+    /// </summary>
+    internal sealed class SchemaProject
+    {
+        internal SchemaProject(string schema)
+        {
+            Schema = schema;
+        }
+
+        /// <summary>The schema's path from the project's folder.</summary>
+        internal string Schema { get; }
+
+        internal string Name => Path.GetFileNameWithoutExtension(Schema);
+
+        internal string Generated => Path.Combine(Path.GetDirectoryName(Schema), "Generated");
+
+        internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
+
+        /// <summary>The jar, as the manager's settings name it.</summary>
+        internal string Jar => "Library/Collektive/" + Name + ".jar";
+
+        internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
+
+        /// <summary>Whether the schema or a program was changed after the jar was made.</summary>
+        internal bool IsStale
+        {
+            get
+            {
+                if (!File.Exists(Jar)) return true;
+                var made = File.GetLastWriteTimeUtc(Jar);
+                if (File.GetLastWriteTimeUtc(Schema) > made) return true;
+                foreach (var file in Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories))
+                {
+                    if (File.GetLastWriteTimeUtc(file) > made) return true;
+                }
+                return false;
+            }
+        }
+
+        /// <summary>All schemas below <c>Assets</c>, by path; folders that Unity ignores are left out.</summary>
+        internal static List<SchemaProject> FindAll()
+        {
+            var found = new List<SchemaProject>();
+            if (!Directory.Exists("Assets")) return found;
+            foreach (var schema in Directory.GetFiles("Assets", "*.fbs", SearchOption.AllDirectories))
+            {
+                var path = schema.Replace('\\', '/');
+                if (!path.Contains("~/") && !path.Contains("/.")) found.Add(new SchemaProject(path));
+            }
+            found.Sort((a, b) => string.CompareOrdinal(a.Schema, b.Schema));
+            return found;
+        }
+    }
+}

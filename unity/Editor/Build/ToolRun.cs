@@ -1,0 +1,64 @@
+using System.Diagnostics;
+using System.Text;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>Runs other programs and keeps what they print.</summary>
+    internal static class ToolRun
+    {
+        /// <summary>Runs a program to its end.</summary>
+        /// <returns>Its exit code, and what it printed, errors included.</returns>
+        internal static (int Code, string Output) Try(string folder, string program, params string[] arguments)
+        {
+            var start = new ProcessStartInfo(program)
+            {
+                Arguments = Quoted(arguments),
+                WorkingDirectory = folder,
+                UseShellExecute = false,
+                CreateNoWindow = true,
+                RedirectStandardOutput = true,
+                RedirectStandardError = true,
+            };
+            var output = new StringBuilder();
+            using (var process = new Process { StartInfo = start })
+            {
+                // Both streams are read as they come: a full pipe would stop the program.
+                process.OutputDataReceived += (_, line) => Append(output, line.Data);
+                process.ErrorDataReceived += (_, line) => Append(output, line.Data);
+                try
+                {
+                    process.Start();
+                }
+                catch (System.ComponentModel.Win32Exception error)
+                {
+                    throw new ToolException(program + " cannot be run: " + error.Message);
+                }
+                process.BeginOutputReadLine();
+                process.BeginErrorReadLine();
+                process.WaitForExit();
+                return (process.ExitCode, output.ToString());
+            }
+        }
+
+        /// <summary>Runs a program that must succeed.</summary>
+        /// <exception cref="ToolException">It did not.</exception>
+        internal static void Do(string program, params string[] arguments)
+        {
+            var (code, output) = Try(".", program, arguments);
+            if (code != 0) throw new ToolException(program + " ended with code " + code + ":\n" + output);
+        }
+
+        private static void Append(StringBuilder output, string line)
+        {
+            if (line == null) return;
+            lock (output) output.Append(line).Append('\n');
+        }
+
+        private static string Quoted(string[] arguments)
+        {
+            var text = new StringBuilder();
+            foreach (var argument in arguments) text.Append('"').Append(argument.Replace("\\", "\\\\").Replace("\"", "\\\"")).Append("\" ");
+            return text.ToString();
+        }
+    }
+}

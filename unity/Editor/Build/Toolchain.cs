@@ -1,0 +1,101 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Runtime.InteropServices;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// The tools that build schemas and programs. The package ships flatc, the code generator and the compiler plugin; a JDK and the Kotlin
+    /// compiler are the user's own.
+    /// </summary>
+    internal static class Toolchain
+    {
+        /// <summary>The plugin works with this version of the compiler only.</summary>
+        internal const string KotlinVersion = "2.4";
+
+        private const string Tools = "Packages/org.collektive.unity/Tools~/";
+
+        internal static string Generator => Shipped("collektive-generator.jar");
+
+        internal static string CompilerPlugin => Shipped("collektive-compiler-plugin.jar");
+
+        /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
+        internal static string SchemaFolder => Path.GetDirectoryName(Shipped("types.fbs"));
+
+        /// <summary>flatc, where it may be executed: package managers drop the permission, and the package's folder is not to be written to.</summary>
+        internal static string Flatc()
+        {
+            if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux)) throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
+            var shipped = Shipped("linux-x64/flatc");
+            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc");
+            if (File.Exists(copy) && File.GetLastWriteTimeUtc(copy) >= File.GetLastWriteTimeUtc(shipped)) return copy;
+            Directory.CreateDirectory(Path.GetDirectoryName(copy));
+            File.Copy(shipped, copy, true);
+            File.SetLastWriteTimeUtc(copy, DateTime.UtcNow);
+            ToolRun.Do("/bin/chmod", "755", copy);
+            return copy;
+        }
+
+        /// <summary>Root of the JDK: what the settings name, else <c>JAVA_HOME</c>, else the newest of the usual folder.</summary>
+        /// <exception cref="ToolException">There is none.</exception>
+        internal static string FindJdk()
+        {
+            var named = ProjectSettings.instance.jdk;
+            if (named.Length > 0) return IsJdk(named) ? named : throw new ToolException("the JDK of the project settings, " + named + ", has no bin/javac: correct it in Project Settings > Collektive");
+            var candidates = new List<string> { Environment.GetEnvironmentVariable("JAVA_HOME") ?? "" };
+            if (Directory.Exists("/usr/lib/jvm"))
+            {
+                var installed = Directory.GetDirectories("/usr/lib/jvm");
+                Array.Sort(installed, (a, b) => Version(b).CompareTo(Version(a)));
+                candidates.AddRange(installed);
+            }
+            var found = candidates.Find(home => IsJdk(home) && Version(home) >= 17);
+            return found ?? throw new ToolException(
+                "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, else adoptium.net) and name its folder in Project Settings > Collektive, or set JAVA_HOME");
+        }
+
+        /// <summary>Root of the Kotlin compiler: what the settings name, else <c>KOTLIN_HOME</c>, else the one on <c>PATH</c>.</summary>
+        /// <exception cref="ToolException">There is none, or it is of another version.</exception>
+        internal static string FindKotlin()
+        {
+            var candidates = new List<string> { ProjectSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
+            foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
+            {
+                // A compiler's own bin folder; a link to it in /usr/bin says nothing about where the compiler is.
+                var parent = Path.GetDirectoryName(folder.TrimEnd('/'));
+                if (File.Exists(Path.Combine(folder, "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt"))) candidates.Add(parent);
+            }
+            var home = candidates.Find(candidate => candidate.Length > 0);
+            var wanted = "get kotlin-compiler-" + KotlinVersion + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and name its folder kotlinc in Project Settings > Collektive";
+            if (home == null) throw new ToolException("no Kotlin compiler was found: " + wanted);
+            var version = Path.Combine(home, "build.txt");
+            if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version)) throw new ToolException(home + " is no Kotlin compiler (it has no lib and build.txt): " + wanted);
+            var text = File.ReadAllText(version).Trim();
+            if (!text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal)) throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
+            return home;
+        }
+
+        private static bool IsJdk(string home) => home.Length > 0 && File.Exists(Path.Combine(home, "bin/javac")) && File.Exists(Path.Combine(home, "release"));
+
+        /// <summary>The major version of a JDK; 0 when it does not say.</summary>
+        private static int Version(string home)
+        {
+            var release = Path.Combine(home, "release");
+            if (!File.Exists(release)) return 0;
+            foreach (var line in File.ReadAllLines(release))
+            {
+                const string Key = "JAVA_VERSION=\"";
+                if (!line.StartsWith(Key, StringComparison.Ordinal)) continue;
+                return int.TryParse(line.Substring(Key.Length).Split('.', '"', '-', '+')[0], out var major) ? major : 0;
+            }
+            return 0;
+        }
+
+        private static string Shipped(string name)
+        {
+            var path = Installation.PathOf(Tools + name);
+            return File.Exists(path) ? path : throw new ToolException("the package's tool " + path + " is missing: install the package from its tarball (a source checkout has no built tools)");
+        }
+    }
+}

@@ -1,0 +1,46 @@
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>The entries below GameObject &gt; Collektive: they put the package's prefabs into the scene.</summary>
+    internal static class CreateMenu
+    {
+        private const string Menu = "GameObject/Collektive/";
+        private const int Priority = 10;
+
+        // By GUID: the package's folder has another name for each way of installing it.
+        internal const string ManagerPrefab = "de7f1c418113b5c64bd5634bfb1c00c4";
+        internal const string NodePrefab = "4294b6f679fa2bac2a9edd1a9a796341";
+
+        [MenuItem(Menu + "Simulation Manager", false, Priority)]
+        private static void CreateManager(MenuCommand command)
+        {
+            if (SimulationManager.Current != null || Object.FindAnyObjectByType<SimulationManager>() != null)
+            {
+                Debug.LogWarning("the scene has a Simulation Manager already; a second one would disable itself");
+                return;
+            }
+            Create(ManagerPrefab, command);
+        }
+
+        [MenuItem(Menu + "Node", false, Priority)]
+        private static void CreateNode(MenuCommand command) => Create(NodePrefab, command);
+
+        private static void Create(string guid, MenuCommand command)
+        {
+            var path = AssetDatabase.GUIDToAssetPath(guid);
+            var prefab = AssetDatabase.LoadAssetAtPath<GameObject>(path);
+            if (prefab == null)
+            {
+                Debug.LogError("the package's prefab with GUID " + guid + " is missing: reinstall the package");
+                return;
+            }
+            var made = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
+            GameObjectUtility.SetParentAndAlign(made, command.context as GameObject);
+            GameObjectUtility.EnsureUniqueNameForSibling(made);
+            Undo.RegisterCreatedObjectUndo(made, "Create " + made.name);
+            Selection.activeGameObject = made;
+        }
+    }
+}

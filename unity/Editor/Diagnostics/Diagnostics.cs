@@ -1,0 +1,106 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>What the diagnostics window shows of one manager, from its attaching on.</summary>
+    internal sealed class Diagnostics : IDisposable
+    {
+        internal const int LogLines = 500;
+
+        private readonly List<LinkRecord> links = new List<LinkRecord>();
+        private readonly Queue<string> log = new Queue<string>();
+
+        internal Diagnostics(SimulationManager manager)
+        {
+            Manager = manager;
+            manager.Ticked += Ticked;
+            manager.Logged += Logged;
+        }
+
+        internal SimulationManager Manager { get; }
+
+        internal TimeAverages Times { get; } = new TimeAverages();
+
+        /// <summary>The last lines of the JVM's log, the oldest first.</summary>
+        internal IReadOnlyCollection<string> Log => log;
+
+        public void Dispose()
+        {
+            Manager.Ticked -= Ticked;
+            Manager.Logged -= Logged;
+        }
+
+        /// <summary>The nodes whose id, name or program contains the filter.</summary>
+        internal List<NodeRow> Nodes(string filter)
+        {
+            Manager.CopyLinks(links);
+            var hears = new Dictionary<int, int>();
+            var heard = new Dictionary<int, int>();
+            foreach (var link in links)
+            {
+                Increase(hears, link.To);
+                Increase(heard, link.From);
+            }
+            var rows = new List<NodeRow>();
+            foreach (var node in Manager.Nodes)
+            {
+                var program = node.Program.Length > 0 ? node.Program : Manager.Settings.program;
+                if (!Matches(node, program, filter)) continue;
+                hears.TryGetValue(node.Id, out var hearsCount);
+                heard.TryGetValue(node.Id, out var heardCount);
+                rows.Add(new NodeRow(node, program, hearsCount, heardCount));
+            }
+            return rows;
+        }
+
+        /// <summary>The links of a node, those it hears first, by the other's id.</summary>
+        internal List<NeighbourRow> Neighbours(int id)
+        {
+            Manager.CopyLinks(links);
+            var rows = new List<NeighbourRow>();
+            foreach (var link in links)
+            {
+                if (link.To == id) rows.Add(new NeighbourRow(link.From, true, link));
+                if (link.From == id) rows.Add(new NeighbourRow(link.To, false, link));
+            }
+            rows.Sort((a, b) => a.IsHeard == b.IsHeard ? a.Id.CompareTo(b.Id) : a.IsHeard ? -1 : 1);
+            return rows;
+        }
+
+        /// <summary>What the node's program answered in the last tick; empty when it gave no answer.</summary>
+        internal List<KeyValuePair<string, string>> Values(int id)
+        {
+            var data = Manager.AnswerOf(id);
+            return data == null ? new List<KeyValuePair<string, string>>() : DataText.Of(data);
+        }
+
+        /// <summary>Errors by program or component and node, the most frequent first.</summary>
+        internal List<NodeErrors> Errors()
+        {
+            var errors = new List<NodeErrors>(Manager.Errors);
+            errors.Sort((a, b) => a.Count != b.Count ? b.Count.CompareTo(a.Count) : a.Node.CompareTo(b.Node));
+            return errors;
+        }
+
+        private static bool Matches(Node node, string program, string filter) =>
+            filter.Length == 0 || node.Id.ToString() == filter || Contains(node.name, filter) || Contains(program, filter);
+
+        private static bool Contains(string text, string part) => text.IndexOf(part, StringComparison.OrdinalIgnoreCase) >= 0;
+
+        private static void Increase(Dictionary<int, int> counts, int id)
+        {
+            counts.TryGetValue(id, out var count);
+            counts[id] = count + 1;
+        }
+
+        private void Ticked(SimulationManager manager) => Times.Add(manager.Times, manager.HostMicros.Rounds / 1000.0);
+
+        private void Logged(HostLogLevel level, string line)
+        {
+            if (log.Count == LogLines) log.Dequeue();
+            log.Enqueue(level.ToString().ToLowerInvariant() + ": " + line);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+namespace Collektive.Unity.Editor
+{
+    /// <summary>A node in the diagnostics window.</summary>
+    internal readonly struct NodeRow
+    {
+        internal NodeRow(Node node, string program, int hears, int heard)
+        {
+            Node = node;
+            Program = program;
+            Hears = hears;
+            Heard = heard;
+        }
+
+        internal Node Node { get; }
+
+        /// <summary>Its own program, or the manager's.</summary>
+        internal string Program { get; }
+
+        /// <summary>How many nodes it hears.</summary>
+        internal int Hears { get; }
+
+        /// <summary>How many nodes hear it.</summary>
+        internal int Heard { get; }
+    }
+}

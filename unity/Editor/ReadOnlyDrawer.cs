@@ -1,0 +1,19 @@
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>Draws fields marked with <see cref="ReadOnlyAttribute"/>: as usual, but nobody can change them.</summary>
+    [CustomPropertyDrawer(typeof(ReadOnlyAttribute))]
+    internal sealed class ReadOnlyDrawer : PropertyDrawer
+    {
+        /// <inheritdoc/>
+        public override float GetPropertyHeight(SerializedProperty property, GUIContent label) => EditorGUI.GetPropertyHeight(property, label, true);
+
+        /// <inheritdoc/>
+        public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
+        {
+            using (new EditorGUI.DisabledScope(true)) EditorGUI.PropertyField(position, property, label, true);
+        }
+    }
+}

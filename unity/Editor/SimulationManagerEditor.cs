@@ -1,0 +1,74 @@
+using System;
+using System.Collections.Generic;
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>The manager's inspector: its settings, the programs to choose from, and a dashboard while it runs.</summary>
+    [CustomEditor(typeof(SimulationManager))]
+    internal sealed class SimulationManagerEditor : UnityEditor.Editor
+    {
+        private const string KnownPrograms = "Collektive.Programs";
+
+        /// <summary>The dashboard changes with each tick.</summary>
+        public override bool RequiresConstantRepaint() => EditorApplication.isPlaying;
+
+        /// <inheritdoc/>
+        public override void OnInspectorGUI()
+        {
+            var manager = (SimulationManager)target;
+            var isRunning = EditorApplication.isPlaying && manager.Programs.Count > 0;
+            if (isRunning) Remember(manager);
+            DrawDefaultInspector();
+            if (isRunning) EditorGUILayout.HelpBox("Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.", MessageType.Info);
+            else DrawPrograms();
+            if (EditorApplication.isPlaying) DrawDashboard(manager);
+        }
+
+        private void DrawPrograms()
+        {
+            var names = SessionState.GetString(KnownPrograms, "");
+            if (names.Length == 0)
+            {
+                EditorGUILayout.HelpBox("Programs can be picked here once their jar was loaded by a first Play.", MessageType.None);
+                return;
+            }
+            var program = serializedObject.FindProperty("settings").FindPropertyRelative("program");
+            EditorGUILayout.LabelField("Programs");
+            foreach (var name in names.Split('\n'))
+            {
+                if (!GUILayout.Toggle(program.stringValue == name, name, EditorStyles.radioButton) || program.stringValue == name) continue;
+                program.stringValue = name;
+                serializedObject.ApplyModifiedProperties();
+            }
+        }
+
+        private static void DrawDashboard(SimulationManager manager)
+        {
+            EditorGUILayout.Space();
+            EditorGUILayout.LabelField("Dashboard", EditorStyles.boldLabel);
+            foreach (var line in Dashboard.Of(manager)) EditorGUILayout.LabelField(line.Key, line.Value);
+            EditorGUILayout.BeginHorizontal();
+            if (GUILayout.Button(manager.Paused ? "Resume" : "Pause")) manager.Paused = !manager.Paused;
+            if (GUILayout.Button("Step")) Step(manager);
+            if (GUILayout.Button("Diagnostics")) DiagnosticsWindow.Open();
+            EditorGUILayout.EndHorizontal();
+        }
+
+        /// <summary>One tick, and the simulation stands still afterwards.</summary>
+        private static void Step(SimulationManager manager)
+        {
+            manager.Paused = true;
+            manager.Step();
+        }
+
+        private static void Remember(SimulationManager manager)
+        {
+            var names = new List<string>();
+            foreach (var program in manager.Programs) names.Add(program.Name);
+            names.Sort(StringComparer.Ordinal);
+            SessionState.SetString(KnownPrograms, string.Join("\n", names));
+        }
+    }
+}

@@ -1,0 +1,165 @@
+using System;
+using System.IO;
+using Collektive.Unity;
+using Collektive.Unity.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Headless;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Editor
+{
+    /// <summary>Tools &gt; Collektive with the real flatc, generator, javac and Kotlin compiler.</summary>
+    public sealed class BuildTests : ProjectFixture
+    {
+        private const string Schema = "namespace swarm;\ntable SensorData { intensity: float; }\nstruct ActuatorData { hops: float; }\n";
+
+        private const string Kotlin = @"package swarm
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighboring
+import org.collektive.api.Program
+
+@Program(""count"")
+public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT {
+    val heard = neighboring(sensors.intensity())
+    return ActuatorDataT().also { it.hops = heard.neighbors.size.toFloat() }
+}
+";
+
+        [Test]
+        public void Code_of_each_schema_is_generated_beside_it()
+        {
+            Write("Assets/Swarm/swarm.fbs", Schema);
+            Write("Assets/Ignored~/other.fbs", "this is no schema");
+            var refreshes = Project.Refreshes;
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
+            Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, string.Join("\n", Log));
+            Assert.That(Project.Refreshes, Is.EqualTo(refreshes + 1));
+            Assert.That(Log.FindAll(line => !line.StartsWith("Log: ")), Is.Empty);
+        }
+
+        [Test]
+        public void A_schemas_error_is_in_the_console_with_file_and_line()
+        {
+            Write("Assets/Swarm/swarm.fbs", Schema.Replace("intensity: float", "intensity: flaot"));
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
+            var error = Logged("flaot");
+            Assert.That(error, Is.StringStarting("Error: Assets/Swarm/swarm.fbs(2)"));
+            Assert.That(error, Is.StringContaining("<a href=\"Assets/Swarm/swarm.fbs\" line=\"2\">"));
+        }
+
+        [Test]
+        public void An_error_without_a_place_is_in_the_console_as_it_is()
+        {
+            Write("Assets/swarm.fbs", "namespace swarm;\ntable SensorData { intensity: float; }\n");
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
+            Assert.That(Logged("there is no ActuatorData"), Is.StringStarting("Error: "));
+        }
+
+        [Test]
+        public void Programs_become_a_jar_that_is_made_anew_before_play_when_they_changed()
+        {
+            UseKotlin();
+            Write("Assets/Swarm/swarm.fbs", Schema);
+            Write("Assets/Swarm/Programs/Count.kt", Kotlin);
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.True, string.Join("\n", Log));
+            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.False);
+
+            var manager = new GameObject("Manager").AddComponent<SimulationManager>();
+            manager.Settings.jars.Add("Library/Collektive/swarm.jar");
+            var first = File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar");
+            Menus.Load();
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar"), Is.EqualTo(first), "nothing changed");
+
+            Write("Assets/Swarm/Programs/Count.kt", Kotlin.Replace("heard.neighbors.size", "heard.neighbours.size"));
+            File.SetLastWriteTimeUtc("Assets/Swarm/Programs/Count.kt", first.AddSeconds(1));
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(Logged("neighbours"), Is.StringStarting("Error: Assets/Swarm/Programs/Count.kt(10,"));
+            Logged("Library/Collektive/swarm.jar is older than its sources");
+            Assert.That(File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar"), Is.EqualTo(first), "the old jar stays");
+        }
+
+        [Test]
+        public void A_sample_that_runs_from_the_packages_jar_is_not_built_before_play()
+        {
+            Write("Assets/Sample/swarm.fbs", Schema);
+            Write("Assets/Sample/Programs/Count.kt", Kotlin);
+            new GameObject("Manager").AddComponent<SimulationManager>().Settings.jars.Add("Packages/org.collektive.unity/Jvm~/collektive-samples.jar");
+            Menus.Load();
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(Log, Is.Empty);
+        }
+
+        [Test]
+        public void Without_schemas_the_menu_says_where_they_belong()
+        {
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
+            Assert.That(Logged("*.fbs below Assets"), Is.StringStarting("Warning: "));
+        }
+
+        [Test]
+        public void A_missing_Kotlin_compiler_is_an_error_that_says_what_to_get()
+        {
+            Write("Assets/swarm.fbs", Schema);
+            Write("Assets/Programs/Count.kt", Kotlin);
+            var path = Environment.GetEnvironmentVariable("PATH");
+            var home = Environment.GetEnvironmentVariable("KOTLIN_HOME");
+            Environment.SetEnvironmentVariable("PATH", "/nowhere");
+            Environment.SetEnvironmentVariable("KOTLIN_HOME", null);
+            try
+            {
+                EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            }
+            finally
+            {
+                Environment.SetEnvironmentVariable("PATH", path);
+                Environment.SetEnvironmentVariable("KOTLIN_HOME", home);
+            }
+            Assert.That(Logged("no Kotlin compiler was found"), Is.StringContaining("Project Settings > Collektive"));
+        }
+
+        [Test]
+        public void A_Kotlin_compiler_of_another_version_is_refused()
+        {
+            UseKotlin("1.9.0");
+            Assert.Throws<ToolException>(() => Toolchain.FindKotlin());
+        }
+
+        [Test]
+        public void A_JDK_that_is_none_is_named()
+        {
+            ProjectSettings.instance.jdk = "/nowhere/jdk";
+            Assert.That(Assert.Throws<ToolException>(() => Toolchain.FindJdk()).Message, Is.StringContaining("/nowhere/jdk"));
+        }
+
+        [Test]
+        public void The_backend_needs_a_source_checkout()
+        {
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
+            Logged("source checkout");
+            ProjectSettings.instance.sourceCheckout = Path.GetFullPath(".");
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
+            Logged("has no command collektive");
+        }
+
+        [Test]
+        public void The_backend_is_what_the_checkouts_command_packs()
+        {
+            Write("checkout/collektive", "#!/bin/sh\necho packing\necho \"$PWD/out/$1.tgz\"\n");
+            ToolRun.Do("/bin/chmod", "755", "checkout/collektive");
+            ProjectSettings.instance.sourceCheckout = Path.GetFullPath("checkout");
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
+            Logged("built " + Path.GetFullPath("checkout/out/package.tgz"));
+        }
+
+        [Test]
+        public void The_log_is_shown_in_its_folder()
+        {
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Open Log");
+            Assert.That(Project.Revealed, Is.EqualTo(Application.consoleLogPath));
+        }
+    }
+}

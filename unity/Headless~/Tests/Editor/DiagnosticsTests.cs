@@ -1,0 +1,194 @@
+using System.Collections.Generic;
+using Collektive.Headless.Tests.Simulation;
+using Collektive.Unity.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Headless;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Editor
+{
+    /// <summary>The manager's inspector and the diagnostics window, of a simulation that runs.</summary>
+    public sealed class DiagnosticsTests : SimulationFixture
+    {
+        [SetUp]
+        public void EnterPlayMode()
+        {
+            Gui.Clear();
+            SessionState.EraseString("Collektive.Programs");
+            EditorApplication.isPlaying = true;
+        }
+
+        [TearDown]
+        public void LeavePlayMode()
+        {
+            EditorApplication.isPlaying = false;
+            DiagnosticsWindow.Open().Close();
+        }
+
+        [Test]
+        public void Nodes_are_listed_with_their_neighbours()
+        {
+            MakeThree();
+            var diagnostics = new Diagnostics(Manager);
+            var rows = diagnostics.Nodes("");
+            Assert.That(rows.ConvertAll(row => (row.Node.Id, row.Program, row.Hears, row.Heard)), Is.EqualTo(new[] { (0, "double", 1, 2), (1, "double", 1, 1), (2, "double", 1, 0) }));
+            Assert.That(diagnostics.Nodes("2").Count, Is.EqualTo(1));
+            Assert.That(diagnostics.Nodes("DOUB").Count, Is.EqualTo(3));
+            Assert.That(diagnostics.Nodes("nothing"), Is.Empty);
+            Assert.That(diagnostics.Neighbours(0).ConvertAll(row => (row.Id, row.IsHeard)), Is.EqualTo(new[] { (1, true), (1, false), (2, false) }));
+        }
+
+        [Test]
+        public void A_nodes_answer_is_shown_by_field()
+        {
+            MakeThree();
+            var values = new Diagnostics(Manager).Values(1);
+            Assert.That(values, Has.Some.EqualTo(new KeyValuePair<string, string>("Value", "4")));
+            Assert.That(new Diagnostics(Manager).Values(17), Is.Empty);
+        }
+
+        [Test]
+        public void Errors_are_counted_by_program_or_component_and_node()
+        {
+            var nodes = MakeThree();
+            nodes[1].Node.gameObject.AddComponent<BrokenSensor>();
+            Play(3);
+            var errors = new Diagnostics(Manager).Errors();
+            Assert.That(errors.Count, Is.EqualTo(1));
+            Assert.That((errors[0].Source, errors[0].Node, errors[0].Count, errors[0].LastTick), Is.EqualTo(("BrokenSensor", 1, 3L, 4UL)));
+            Assert.That(errors[0].LastMessage, Is.EqualTo("out of order"));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Durations_and_the_log_are_kept_while_it_is_attached()
+        {
+            Configure("double");
+            MakeNode(1);
+            var diagnostics = new Diagnostics(Manager);
+            Play(3);
+            Assert.That(diagnostics.Times.Count, Is.EqualTo(3));
+            Assert.That(diagnostics.Times.Of(times => times.Total).Mean, Is.GreaterThan(0));
+            diagnostics.Dispose();
+            Play(2);
+            Assert.That(diagnostics.Times.Count, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void The_window_shows_nodes_and_on_a_click_their_values()
+        {
+            MakeThree();
+            Draw();
+            var title = "1  Probe  (double)  hears 1, heard by 1";
+            Assert.That(Gui.Lines, Has.Some.EqualTo("foldout " + title + ": closed"));
+            Gui.Act(title, true);
+            Draw();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label Value: 4"));
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label hears 0: 1.00 m, attenuation 0"));
+            Assert.That(Project.Pinged, Is.EqualTo(Manager.Nodes[1]));
+        }
+
+        [Test]
+        public void The_window_has_a_tab_for_each_question()
+        {
+            MakeThree();
+            Draw();
+            foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"), (3, "toolbar Nodes Errors Times Log: Log") })
+            {
+                Gui.Act("toolbar", tab);
+                Draw();
+                Draw();
+                Assert.That(Gui.Lines, Has.Some.EqualTo(line));
+            }
+        }
+
+        [Test]
+        public void Without_a_manager_the_window_says_what_to_do()
+        {
+            Object.DestroyImmediate(Manager.gameObject);
+            Draw();
+            Assert.That(Gui.Lines, Is.EqualTo(new[] { "help Info: Press Play in a scene with a Simulation Manager." }));
+        }
+
+        [Test]
+        public void The_window_lives_through_the_end_of_play_mode()
+        {
+            MakeThree();
+            Draw();
+            Object.DestroyImmediate(Manager.gameObject);
+            Draw();
+            Assert.That(Gui.Lines, Has.Some.Contains("Press Play"));
+        }
+
+        [Test]
+        public void The_inspector_has_a_dashboard_and_buttons_while_playing()
+        {
+            MakeThree();
+            var inspector = UnityEditor.Editor.CreateEditor(Manager);
+            inspector.OnInspectorGUI();
+            Assert.That(inspector.RequiresConstantRepaint(), Is.True);
+            foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
+            {
+                Assert.That(Gui.Lines, Has.Some.EqualTo(line));
+            }
+            Gui.Act("Pause", true);
+            inspector.OnInspectorGUI();
+            Assert.That(Manager.Paused, Is.True);
+            Gui.Act("Step", true);
+            inspector.OnInspectorGUI();
+            Assert.That(Manager.Tick, Is.EqualTo(2));
+            Assert.That(Manager.Paused, Is.True);
+        }
+
+        [Test]
+        public void After_a_play_the_programs_of_the_jar_can_be_picked()
+        {
+            EditorApplication.isPlaying = false;
+            var inspector = UnityEditor.Editor.CreateEditor(Manager);
+            inspector.OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.Contains("once their jar was loaded"));
+            EditorApplication.isPlaying = true;
+            MakeThree();
+            inspector.OnInspectorGUI();
+            Object.DestroyImmediate(Manager.gameObject);
+
+            EditorApplication.isPlaying = false;
+            var next = MakeManager("double");
+            inspector = UnityEditor.Editor.CreateEditor(next);
+            Gui.Clear();
+            inspector.OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("toggle double: on"));
+            var other = "";
+            foreach (var line in Gui.Lines)
+            {
+                if (line.EndsWith(": off")) other = line.Substring("toggle ".Length, line.Length - "toggle : off".Length);
+            }
+            Gui.Act(other, true);
+            inspector.OnInspectorGUI();
+            Assert.That(next.Settings.program, Is.EqualTo(other));
+        }
+
+        /// <summary>0 and 1 hear each other, 2 hears 0; one tick is done.</summary>
+        private List<ProbeNode> MakeThree()
+        {
+            var nodes = new List<ProbeNode> { MakeNode(1), MakeNode(2, Vector3.right), MakeNode(3, 2 * Vector3.right) };
+            Manager.AddLink(0, 1);
+            Manager.AddLink(0, 2, directed: true);
+            Play(1);
+            return nodes;
+        }
+
+        private static void Draw()
+        {
+            Gui.Clear();
+            Menus.Send(DiagnosticsWindow.Open(), "OnGUI");
+        }
+
+        private sealed class BrokenSensor : Unity.Sensor<probe.SensorDataValue>
+        {
+            protected override void Sense(ref probe.SensorDataValue data) => throw new System.InvalidOperationException("out of order");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Editor
+{
+    /// <summary>A Unity project in a temporary folder, with the package's built tools where its tarball has them.</summary>
+    public abstract class ProjectFixture
+    {
+        private string before;
+        private string folder;
+
+        /// <summary>What was logged, as "TYPE: TEXT".</summary>
+        protected List<string> Log { get; } = new List<string>();
+
+        protected static string Root => Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT");
+
+        [SetUp]
+        public void MakeProject()
+        {
+            Loop.Reset();
+            Log.Clear();
+            Application.logMessageReceived += Keep;
+            before = Directory.GetCurrentDirectory();
+            folder = Path.Combine(Path.GetTempPath(), "collektive-editor-" + Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(folder);
+            Directory.SetCurrentDirectory(folder);
+            Unity.Installation.HostJar = null;
+            Copy("schema/types.fbs", "Tools~/types.fbs");
+            Copy("build/flatc", "Tools~/linux-x64/flatc");
+            Copy("jvm-host/generator/target/collektive-generator.jar", "Tools~/collektive-generator.jar");
+            Copy("jvm-host/compiler-plugin/target/compiler-plugin-0.1.0.jar", "Tools~/collektive-compiler-plugin.jar");
+            Copy("jvm-host/host/target/collektive-host.jar", "Jvm~/collektive-host.jar");
+        }
+
+        [TearDown]
+        public void RemoveProject()
+        {
+            Application.logMessageReceived -= Keep;
+            EditorApplication.isPlaying = false;
+            Directory.SetCurrentDirectory(before);
+            Directory.Delete(folder, true);
+        }
+
+        /// <summary>Writes a file of the project.</summary>
+        protected static void Write(string path, string text)
+        {
+            Directory.CreateDirectory(Path.GetDirectoryName(path));
+            File.WriteAllText(path, text);
+        }
+
+        protected string Logged(string part)
+        {
+            var found = Log.Find(line => line.Contains(part));
+            Assert.That(found, Is.Not.Null, "'" + part + "' was not logged, but: " + string.Join("\n", Log));
+            return found;
+        }
+
+        /// <summary>A Kotlin compiler as it is downloaded, with the jars that the build uses.</summary>
+        protected static void UseKotlin(string version = "2.4.21-release-1")
+        {
+            Write("kotlinc/build.txt", version);
+            Directory.CreateDirectory("kotlinc/lib");
+            foreach (var jar in Directory.GetFiles(Path.Combine(Root, "build/kotlinc"), "*.jar")) File.Copy(jar, Path.Combine("kotlinc/lib", Path.GetFileName(jar)));
+            Unity.Editor.ProjectSettings.instance.kotlin = Path.GetFullPath("kotlinc");
+        }
+
+        private static void Copy(string built, string packed)
+        {
+            var target = Path.Combine("Packages/org.collektive.unity/unity", packed);
+            Directory.CreateDirectory(Path.GetDirectoryName(target));
+            File.Copy(Path.Combine(Root, built), target);
+        }
+
+        private void Keep(string message, string stack, LogType type) => Log.Add(type + ": " + message);
+    }
+}

@@ -1,0 +1,28 @@
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Headless;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Editor
+{
+    public sealed class ReadOnlyDrawerTests
+    {
+        private sealed class Holder : ScriptableObject
+        {
+            [ReadOnly]
+            public string text = "seen";
+        }
+
+        [Test]
+        public void The_field_is_drawn_but_disabled()
+        {
+            Gui.Clear();
+            var property = new SerializedObject(ScriptableObject.CreateInstance<Holder>()).FindProperty("text");
+            Menus.DrawerOf(typeof(ReadOnlyAttribute)).OnGUI(default, property, GUIContent.none);
+            Assert.That(Gui.Lines, Is.EqualTo(new[] { "(disabled) property text" }));
+            Assert.That(Gui.DisabledDepth, Is.EqualTo(0));
+        }
+    }
+}

@@ -1,0 +1,29 @@
+using System;
+
+namespace UnityEditor
+{
+    public enum PlayModeStateChange
+    {
+        EnteredEditMode,
+        ExitingEditMode,
+        EnteredPlayMode,
+        ExitingPlayMode,
+    }
+
+    public sealed class EditorApplication
+    {
+        public static event Action<PlayModeStateChange> playModeStateChanged;
+
+        public static bool isPlaying { get; set; }
+
+        /// Calls the entry with that path; false when there is none.
+        public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath, Selection.activeGameObject);
+
+        internal static void RaisePlayMode(PlayModeStateChange change)
+        {
+            if (change == PlayModeStateChange.EnteredPlayMode) isPlaying = true;
+            if (change == PlayModeStateChange.ExitingPlayMode) isPlaying = false;
+            playModeStateChanged?.Invoke(change);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+using System;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace UnityEditor
+{
+    public enum MessageType
+    {
+        None = 0,
+        Info = 1,
+        Warning = 2,
+        Error = 3,
+    }
+
+    public sealed class EditorStyles
+    {
+        public static GUIStyle boldLabel { get; } = new GUIStyle();
+        public static GUIStyle radioButton { get; } = new GUIStyle();
+    }
+
+    public sealed class EditorGUIUtility
+    {
+        public static float singleLineHeight => 18f;
+        public static void PingObject(UnityEngine.Object obj) => Headless.Project.Pinged = obj;
+    }
+
+    public sealed class EditorGUI
+    {
+        public static int indentLevel { get; set; }
+        public static void BeginChangeCheck() => Gui.Changed = false;
+        public static bool EndChangeCheck() => Gui.Changed;
+        public static float GetPropertyHeight(SerializedProperty property, GUIContent label, bool includeChildren) => EditorGUIUtility.singleLineHeight;
+
+        public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label, bool includeChildren)
+        {
+            Gui.Draw("property", property.name);
+            return false;
+        }
+
+        public struct DisabledScope : IDisposable
+        {
+            readonly bool disabled;
+
+            public DisabledScope(bool disabled)
+            {
+                this.disabled = disabled;
+                if (disabled) Gui.DisabledDepth++;
+            }
+
+            public void Dispose()
+            {
+                if (disabled) Gui.DisabledDepth--;
+            }
+        }
+    }
+
+    public sealed class EditorGUILayout
+    {
+        public static void LabelField(string label, params GUILayoutOption[] options) => Gui.Draw("label", label);
+        public static void LabelField(string label, GUIStyle style, params GUILayoutOption[] options) => Gui.Draw("label", label);
+        public static void LabelField(string label, string label2, params GUILayoutOption[] options) => Gui.Draw("label", label, label2);
+        public static void HelpBox(string message, MessageType type) => Gui.Draw("help", type.ToString(), message);
+        public static void Space() { }
+        public static Rect BeginHorizontal(params GUILayoutOption[] options) => default;
+        public static void EndHorizontal() { }
+
+        public static string TextField(string label, string text, params GUILayoutOption[] options)
+        {
+            Gui.Draw("text", label, text);
+            return Gui.Take(label, text);
+        }
+
+        public static string TextField(GUIContent label, string text, params GUILayoutOption[] options) => TextField(label.text, text);
+
+        public static bool Toggle(GUIContent label, bool value, params GUILayoutOption[] options)
+        {
+            Gui.Draw("toggle", label.text, value ? "on" : "off");
+            return Gui.Take(label.text, value);
+        }
+
+        public static bool Foldout(bool foldout, string content, bool toggleOnLabelClick)
+        {
+            Gui.Draw("foldout", content, foldout ? "open" : "closed");
+            return Gui.Take(content, foldout);
+        }
+    }
+}

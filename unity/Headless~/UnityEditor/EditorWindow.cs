@@ -1,0 +1,28 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    public class EditorWindow : ScriptableObject
+    {
+        static readonly Dictionary<Type, EditorWindow> Windows = new Dictionary<Type, EditorWindow>();
+
+        public GUIContent titleContent { get; set; }
+
+        public static T GetWindow<T>(string title) where T : EditorWindow
+        {
+            if (!Windows.TryGetValue(typeof(T), out var window)) Windows[typeof(T)] = window = CreateInstance<T>();
+            window.titleContent = new GUIContent(title);
+            return (T)window;
+        }
+
+        public void Close()
+        {
+            Windows.Remove(GetType());
+            Headless.Menus.Send(this, "OnDisable");
+        }
+
+        public void Repaint() { }
+    }
+}

@@ -1,0 +1,70 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using UnityEngine;
+
+namespace UnityEditor.Headless
+{
+    /// Does what the editor does by name and attribute: menu entries, windows' messages, loading.
+    public static class Menus
+    {
+        const BindingFlags Statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
+
+        internal static bool Click(string path, GameObject context)
+        {
+            foreach (var method in Marked(typeof(MenuItem)))
+            {
+                if (method.GetCustomAttribute<MenuItem>().menuItem != path) continue;
+                method.Invoke(null, method.GetParameters().Length == 0 ? null : new object[] { new MenuCommand(context) });
+                return true;
+            }
+            return false;
+        }
+
+        /// Calls all [InitializeOnLoadMethod]s, as a loaded domain does.
+        public static void Load()
+        {
+            foreach (var method in Marked(typeof(InitializeOnLoadMethodAttribute))) method.Invoke(null, null);
+        }
+
+        /// All pages of the project settings.
+        public static List<SettingsProvider> SettingsPages()
+        {
+            var pages = new List<SettingsProvider>();
+            foreach (var method in Marked(typeof(SettingsProviderAttribute))) pages.Add((SettingsProvider)method.Invoke(null, null));
+            return pages;
+        }
+
+        /// The drawer that has [CustomPropertyDrawer] for an attribute.
+        public static PropertyDrawer DrawerOf(Type attribute)
+        {
+            foreach (var type in EditorTypes())
+            {
+                var mark = type.GetCustomAttribute<CustomPropertyDrawer>();
+                if (mark != null && mark.type == attribute) return (PropertyDrawer)Activator.CreateInstance(type, true);
+            }
+            return null;
+        }
+
+        public static void ChangePlayMode(PlayModeStateChange change) => EditorApplication.RaisePlayMode(change);
+
+        /// Sends a message by name, if the object has it.
+        public static void Send(object receiver, string message) =>
+            receiver.GetType().GetMethod(message, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic)?.Invoke(receiver, null);
+
+        internal static IEnumerable<Type> EditorTypes()
+        {
+            var own = typeof(Menus).Assembly.GetName().Name;
+            foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
+                if (Array.Exists(assembly.GetReferencedAssemblies(), reference => reference.Name == own))
+                    foreach (var type in assembly.GetTypes()) yield return type;
+        }
+
+        static IEnumerable<MethodInfo> Marked(Type attribute)
+        {
+            foreach (var type in EditorTypes())
+                foreach (var method in type.GetMethods(Statics))
+                    if (method.IsDefined(attribute, false)) yield return method;
+        }
+    }
+}

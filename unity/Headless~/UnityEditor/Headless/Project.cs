@@ -1,0 +1,33 @@
+using System.Collections.Generic;
+using System.IO;
+using System.Text.RegularExpressions;
+
+namespace UnityEditor.Headless
+{
+    /// The project that the editor has open: the process's working folder, with one package that lies elsewhere.
+    public static class Project
+    {
+        const string Package = "Packages/org.collektive.unity";
+
+        /// The package's folder: the clone's.
+        static string Root => Path.Combine(System.Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT") ?? "", "unity");
+
+        public static int Refreshes { get; internal set; }
+        public static string Revealed { get; set; }
+        public static UnityEngine.Object Pinged { get; internal set; }
+        public static List<string> Undoable { get; } = new List<string>();
+
+        /// The asset path of the package's file that has this GUID; empty when there is none.
+        internal static string PathOf(string guid)
+        {
+            foreach (var meta in Directory.GetFiles(Root, "*.meta", SearchOption.AllDirectories))
+            {
+                if (Regex.IsMatch(File.ReadAllText(meta), "^guid: " + guid + "$", RegexOptions.Multiline))
+                    return Package + meta.Substring(Root.Length, meta.Length - Root.Length - ".meta".Length);
+            }
+            return "";
+        }
+
+        internal static string FileOf(string asset) => asset.StartsWith(Package) ? Root + asset.Substring(Package.Length) : asset;
+    }
+}

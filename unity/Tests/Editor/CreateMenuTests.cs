@@ -1,0 +1,73 @@
+using System.Text.RegularExpressions;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEngine;
+using UnityEngine.TestTools;
+
+namespace Collektive.Unity.Editor.Tests
+{
+    public sealed class CreateMenuTests
+    {
+        [TearDown]
+        public void RemoveWhatWasMade()
+        {
+            foreach (var name in new[] { "Simulation Manager", "Node", "Parent" })
+            {
+                for (var made = GameObject.Find(name); made != null; made = GameObject.Find(name)) Object.DestroyImmediate(made);
+            }
+            Selection.activeGameObject = null;
+        }
+
+        [Test]
+        public void The_manager_comes_from_its_prefab_and_is_selected()
+        {
+            Assert.That(EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager"), Is.True);
+            var made = GameObject.Find("Simulation Manager");
+            Assert.That(made != null && made.GetComponent<SimulationManager>() != null, Is.True);
+            Assert.That(Selection.activeGameObject, Is.EqualTo(made));
+        }
+
+        [Test]
+        public void A_second_manager_is_not_made()
+        {
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
+            LogAssert.Expect(LogType.Warning, new Regex("has a Simulation Manager already"));
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
+            Assert.That(ManagersRemoved(), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void A_node_has_a_body_and_a_neighbourhood()
+        {
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            var made = GameObject.Find("Node");
+            Assert.That(made.GetComponent<Node>() != null, Is.True);
+            Assert.That(made.GetComponent<RadiusNeighbourhood>() != null, Is.True);
+            Assert.That(made.GetComponent<Rigidbody>() != null, Is.True);
+            Assert.That(made.GetComponent<SphereCollider>() != null, Is.True);
+            Assert.That(made.GetComponent<MeshRenderer>() != null, Is.True);
+            Assert.That(made.transform.localScale, Is.EqualTo(new Vector3(0.5f, 0.5f, 0.5f)));
+        }
+
+        [Test]
+        public void A_node_is_made_below_the_selected_object()
+        {
+            var parent = new GameObject("Parent");
+            Selection.activeGameObject = parent;
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            Assert.That(parent.transform.childCount, Is.EqualTo(1));
+            Assert.That(parent.transform.GetChild(0).name, Is.EqualTo("Node"));
+        }
+
+        private static int ManagersRemoved()
+        {
+            var count = 0;
+            for (var made = GameObject.Find("Simulation Manager"); made != null; made = GameObject.Find("Simulation Manager"))
+            {
+                count++;
+                Object.DestroyImmediate(made);
+            }
+            return count;
+        }
+    }
+}

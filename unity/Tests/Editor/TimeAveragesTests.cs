@@ -1,0 +1,25 @@
+using NUnit.Framework;
+
+namespace Collektive.Unity.Editor.Tests
+{
+    public sealed class TimeAveragesTests
+    {
+        [Test]
+        public void Nothing_was_measured_at_first()
+        {
+            Assert.That(new TimeAverages().Of(times => times.Step), Is.EqualTo((0.0, 0.0)));
+        }
+
+        [Test]
+        public void Mean_and_largest_are_those_of_the_last_hundred_ticks()
+        {
+            var averages = new TimeAverages();
+            averages.Add(new TickTimes(1000, 1000, 1000, 1000), 1000);
+            for (var i = 0; i < TimeAverages.Ticks; i++) averages.Add(new TickTimes(1, i % 2 == 0 ? 2 : 4, 0, 0), 0.5);
+            Assert.That(averages.Count, Is.EqualTo(100));
+            Assert.That(averages.Of(times => times.Step), Is.EqualTo((3.0, 4.0)));
+            Assert.That(averages.Of(times => times.Total), Is.EqualTo((4.0, 5.0)));
+            Assert.That(averages.Rounds, Is.EqualTo((0.5, 0.5)));
+        }
+    }
+}

@@ -1,0 +1,46 @@
+using NUnit.Framework;
+
+namespace Collektive.Unity.Editor.Tests
+{
+    public sealed class ToolMessageTests
+    {
+        [TestCase("Assets/Swarm/swarm.fbs:3: 12: error: expecting: ; instead got: }", "Assets/Swarm/swarm.fbs", 3, 12, "expecting: ; instead got: }")]
+        [TestCase("  C:/Project/Assets/swarm.fbs(3, 12): error: expecting: ;", "C:/Project/Assets/swarm.fbs", 3, 12, "expecting: ;")]
+        [TestCase("/home/ada/Assets/Programs/Hops.kt:10:21: error: unresolved reference 'nesting'.", "/home/ada/Assets/Programs/Hops.kt", 10, 21, "unresolved reference 'nesting'.")]
+        [TestCase("file:///home/ada/Hops.kt:10:21: error: no", "/home/ada/Hops.kt", 10, 21, "no")]
+        [TestCase("Library/Collektive/java/SensorData.java:7: error: cannot find symbol", "Library/Collektive/java/SensorData.java", 7, 0, "cannot find symbol")]
+        public void Each_tools_errors_are_read_with_file_and_line(string output, string file, int line, int column, string text)
+        {
+            var messages = ToolMessage.Parse(output);
+            Assert.That(messages.Count, Is.EqualTo(1));
+            Assert.That(messages[0].File, Is.EqualTo(file));
+            Assert.That(messages[0].Line, Is.EqualTo(line));
+            Assert.That(messages[0].Column, Is.EqualTo(column));
+            Assert.That(messages[0].Text, Is.EqualTo(text));
+            Assert.That(messages[0].IsError, Is.True);
+        }
+
+        [Test]
+        public void An_error_that_flatc_finds_at_the_end_is_shown_where_it_comes_from()
+        {
+            var messages = ToolMessage.Parse("error:\n  /a/bad.fbs:6: 0: error: type referenced but not defined: flaot, originally at: /a/bad.fbs:3\n");
+            Assert.That(messages.Count, Is.EqualTo(1));
+            Assert.That(messages[0].Line, Is.EqualTo(3));
+            Assert.That(messages[0].Text, Is.EqualTo("type referenced but not defined: flaot"));
+        }
+
+        [Test]
+        public void Warnings_are_no_errors()
+        {
+            var messages = ToolMessage.Parse("/a/Hops.kt:4:5: warning: variable 'x' is never used");
+            Assert.That(messages.Count, Is.EqualTo(1));
+            Assert.That(messages[0].IsError, Is.False);
+        }
+
+        [Test]
+        public void Source_lines_carets_and_sums_are_no_messages()
+        {
+            Assert.That(ToolMessage.Parse("    val x = nesting()\n            ^^^^^^^\n1 error\n\r\nwarning: something about the JVM\n"), Is.Empty);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+using System;
+using System.IO;
+using System.Reflection;
+using System.Runtime.CompilerServices;
+using NUnit.Framework;
+
+namespace Collektive.Unity.PublicApi.Tests
+{
+    /// <summary>A change of what users can use is made on purpose, or not at all.</summary>
+    public sealed class PublicApiTests
+    {
+        [Test]
+        public void The_bridge_has_the_api_that_is_checked_in() => Compare(typeof(Bridge.Jvm).Assembly);
+
+        [Test]
+        public void The_components_have_the_api_that_is_checked_in() => Compare(typeof(SimulationManager).Assembly);
+
+        private static void Compare(Assembly assembly)
+        {
+            var name = assembly.GetName().Name + ".txt";
+            var listed = Path.Combine(FolderOfThisFile(), name);
+            var actual = PublicApi.Of(assembly);
+            var expected = File.Exists(listed) ? File.ReadAllText(listed).Replace("\r\n", "\n") : "";
+            if (actual == expected) return;
+            var written = Path.Combine(Path.GetTempPath(), name);
+            File.WriteAllText(written, actual);
+            Assert.Fail("the public API of " + assembly.GetName().Name + " changed:\n" + Difference(expected.Split('\n'), actual.Split('\n')) +
+                "If this is meant, copy " + written + " to " + listed);
+        }
+
+        private static string Difference(string[] expected, string[] actual)
+        {
+            var text = "";
+            foreach (var line in expected)
+            {
+                if (Array.IndexOf(actual, line) < 0) text += "- " + line + "\n";
+            }
+            foreach (var line in actual)
+            {
+                if (Array.IndexOf(expected, line) < 0) text += "+ " + line + "\n";
+            }
+            return text;
+        }
+
+        private static string FolderOfThisFile([CallerFilePath] string file = "") => Path.GetDirectoryName(Path.GetFullPath(file));
+    }
+}
