@@ -15,7 +15,8 @@ import replay
 
 ROOT = os.path.abspath(sys.argv[1])
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import metas  # noqa: E402  (lies in the folder above)
+import metas  # noqa: E402  (these lie in the folder above)
+import python_tests  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 COLLEKTIVE = os.path.join(ROOT, "collektive")
@@ -567,6 +568,29 @@ class TheHouse(unittest.TestCase):
                         match = words.search(file.read())
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
 
+    def test_the_documentations_links_lead_somewhere(self):
+        folder = os.path.join(ROOT, "unity/Documentation~")
+        for name in os.listdir(folder):
+            with open(os.path.join(folder, name)) as file:
+                for link in re.findall(r"\]\(([^)h][^)]*)\)", file.read()):
+                    self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
+
+    def test_troubleshooting_quotes_messages_that_there_are(self):
+        sources = ""
+        for folder in ["unity/Runtime", "unity/Editor", "native-shim/src", *(os.path.join("jvm-host", module, "src/main") for module in os.listdir(os.path.join(ROOT, "jvm-host")))]:
+            for where, _, names in os.walk(os.path.join(ROOT, folder)):
+                for name in names:
+                    if name.endswith((".cs", ".c", ".h", ".kt")):
+                        with open(os.path.join(where, name)) as file:
+                            sources += file.read()
+        # A text may be put together from literals on several lines.
+        sources = re.sub(r'"(?: \+)?\s+"', "", sources)
+        with open(os.path.join(ROOT, "unity/Documentation~/troubleshooting.md")) as file:
+            messages = re.findall(r"^\| `([^`]+)`", file.read(), re.M)
+        self.assertGreater(len(messages), 20)
+        for message in messages:
+            self.assertIn(message, sources)
+
     def test_each_requirement_is_mapped_to_tests_that_exist(self):
         with open(os.path.join(ROOT, "docs/requirements.md")) as file:
             text = file.read()
@@ -580,15 +604,5 @@ class TheHouse(unittest.TestCase):
                 self.assertIn(test, file.read(), f"{path} has no {test}")
 
 
-def main():
-    loader = unittest.defaultTestLoader
-    names = sys.argv[2:]
-    suite = loader.loadTestsFromNames(names, sys.modules[__name__]) if names else loader.loadTestsFromModule(sys.modules[__name__])
-    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout).run(suite)
-    failed = len(result.failures) + len(result.errors)
-    print(f"{result.testsRun - min(failed, result.testsRun)} passed, {failed} failed")
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    python_tests.run(sys.modules[__name__], sys.argv[2:])

@@ -1,4 +1,4 @@
-"""`python3 tests.py ROOT FIELDS`: the package's assets are right, and the validator finds each kind of fault. The last line is "N passed, N failed"."""
+"""`python3 tests.py ROOT FIELDS [TEST]...`: the package's assets are right, and the validator finds each kind of fault. The last line is "N passed, N failed"."""
 import os
 import re
 import shutil
@@ -8,7 +8,8 @@ import unittest
 
 ROOT, FIELDS = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import unity_assets  # noqa: E402  (these lie in the folder above)
+import python_tests  # noqa: E402  (these lie in the folder above)
+import unity_assets  # noqa: E402
 import validate  # noqa: E402
 from validator import serialized_fields  # noqa: E402
 
@@ -177,13 +178,5 @@ class TheValidator(unittest.TestCase):
         self.found("unity/package.json", "not the one")
 
 
-def main():
-    suite = unittest.defaultTestLoader.loadTestsFromModule(sys.modules[__name__])
-    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout).run(suite)
-    failed = len(result.failures) + len(result.errors)
-    print(f"{result.testsRun - min(failed, result.testsRun)} passed, {failed} failed")
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    python_tests.run(sys.modules[__name__], sys.argv[3:])

@@ -11,6 +11,8 @@ namespace Collektive.Unity.Editor
     {
         private const string KnownPrograms = "Collektive.Programs";
 
+        private readonly Recorder recorder = new Recorder();
+
         /// <summary>The dashboard changes with each tick.</summary>
         public override bool RequiresConstantRepaint() => EditorApplication.isPlaying;
 
@@ -44,7 +46,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        private static void DrawDashboard(SimulationManager manager)
+        private void DrawDashboard(SimulationManager manager)
         {
             EditorGUILayout.Space();
             EditorGUILayout.LabelField("Dashboard", EditorStyles.boldLabel);
@@ -54,6 +56,7 @@ namespace Collektive.Unity.Editor
             if (GUILayout.Button("Step")) Step(manager);
             if (GUILayout.Button("Diagnostics")) DiagnosticsWindow.Open();
             EditorGUILayout.EndHorizontal();
+            recorder.Draw();
         }
 
         /// <summary>One tick, and the simulation stands still afterwards.</summary>

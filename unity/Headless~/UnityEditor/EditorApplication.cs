@@ -14,7 +14,10 @@ namespace UnityEditor
     {
         public static event Action<PlayModeStateChange> playModeStateChanged;
 
+        static readonly System.Diagnostics.Stopwatch Clock = System.Diagnostics.Stopwatch.StartNew();
+
         public static bool isPlaying { get; set; }
+        public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
         /// Calls the entry with that path; false when there is none.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath, Selection.activeGameObject);

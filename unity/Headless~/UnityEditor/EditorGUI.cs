@@ -64,6 +64,13 @@ namespace UnityEditor
         public static Rect BeginHorizontal(params GUILayoutOption[] options) => default;
         public static void EndHorizontal() { }
 
+        public static bool PropertyField(SerializedProperty property, GUIContent label, bool includeChildren, params GUILayoutOption[] options)
+        {
+            Gui.Draw("property", label.text, property.Value?.ToString() ?? "");
+            property.Value = Gui.Take(label.text, property.Value);
+            return false;
+        }
+
         public static string TextField(string label, string text, params GUILayoutOption[] options)
         {
             Gui.Draw("text", label, text);

@@ -8,6 +8,7 @@ namespace UnityEditor
         public SerializedObject(Object obj) => targetObject = obj;
         public Object targetObject { get; }
         public SerializedProperty FindProperty(string propertyPath) => SerializedProperty.Of(targetObject, propertyPath);
+        public void Update() { }
         public bool ApplyModifiedProperties() => true;
     }
 
@@ -32,6 +33,12 @@ namespace UnityEditor
         }
 
         public SerializedProperty FindPropertyRelative(string relativePropertyPath) => Of(field.GetValue(owner), relativePropertyPath);
+
+        internal object Value
+        {
+            get => field.GetValue(owner);
+            set => field.SetValue(owner, value);
+        }
 
         internal static SerializedProperty Of(object owner, string name)
         {

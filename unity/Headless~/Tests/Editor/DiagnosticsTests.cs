@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.IO;
 using Collektive.Headless.Tests.Simulation;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
@@ -168,6 +169,67 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Act(other, true);
             inspector.OnInspectorGUI();
             Assert.That(next.Settings.program, Is.EqualTo(other));
+        }
+
+        [Test]
+        public void A_flight_recording_is_started_and_stopped_in_the_inspector()
+        {
+            MakeThree();
+            var before = Directory.GetCurrentDirectory();
+            var folder = Path.Combine(Path.GetTempPath(), "collektive-recorder-" + System.Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(folder);
+            Directory.SetCurrentDirectory(folder);
+            try
+            {
+                var inspector = UnityEditor.Editor.CreateEditor(Manager);
+                Gui.Act("Start Recording", true);
+                Inspect(inspector, "button Stop Recording");
+                Play(2);
+                Gui.Act("Stop Recording", true);
+                Inspect(inspector, "button Start Recording");
+                Assert.That(Directory.GetFiles(Recorder.Folder, "collektive-*.jfr").Length, Is.EqualTo(1));
+            }
+            finally
+            {
+                Directory.SetCurrentDirectory(before);
+                Directory.Delete(folder, true);
+            }
+        }
+
+        [Test]
+        public void The_JVMs_settings_show_what_is_in_effect_and_what_is_wrong()
+        {
+            MakeThree();
+            var asset = ScriptableObject.CreateInstance<Unity.JvmSettingsAsset>();
+            var inspector = UnityEditor.Editor.CreateEditor(asset);
+            inspector.OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("property Maximum heap (MB): 0"));
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label  : in effect: 256 MB"));
+            Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect after an editor restart"));
+            Assert.That(Gui.Lines, Has.None.Contains("help Error"));
+            Gui.Act("Maximum heap (MB)", 3);
+            inspector.OnInspectorGUI();
+            Assert.That(asset.settings.maximumHeapMb, Is.EqualTo(3));
+            inspector.OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.Contains("help Error: maximum heap is 3: it must be 16"));
+        }
+
+        /// <summary>Draws until a control is there: starting and writing a recording takes a moment.</summary>
+        private static void Inspect(UnityEditor.Editor inspector, string awaited)
+        {
+            var clock = System.Diagnostics.Stopwatch.StartNew();
+            do
+            {
+                Gui.Clear();
+                inspector.OnInspectorGUI();
+                foreach (var line in Gui.Lines)
+                {
+                    if (line == awaited) return;
+                }
+                System.Threading.Thread.Sleep(50);
+            }
+            while (clock.Elapsed.TotalSeconds < 30);
+            Assert.Fail("there is no '" + awaited + "': " + string.Join("\n", Gui.Lines));
         }
 
         /// <summary>0 and 1 hear each other, 2 hears 0; one tick is done.</summary>

@@ -1,0 +1,61 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>The inspector of JVM settings: each with its unit, what is in effect in the JVM that runs, and what is wrong with it.</summary>
+    [CustomEditor(typeof(JvmSettingsAsset))]
+    internal sealed class JvmSettingsEditor : UnityEditor.Editor
+    {
+        private JvmReport report;
+        private string reported;
+
+        /// <inheritdoc/>
+        public override void OnInspectorGUI()
+        {
+            var settings = ((JvmSettingsAsset)target).settings;
+            Look(settings);
+            serializedObject.Update();
+            if (report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
+            var fields = serializedObject.FindProperty("settings");
+            foreach (var setting in JvmSetting.All)
+            {
+                if (setting.Key == nameof(JvmSettings.home) && settings.location != JvmLocation.Folder) continue;
+                Draw(setting, fields.FindPropertyRelative(setting.Key));
+            }
+            serializedObject.ApplyModifiedProperties();
+        }
+
+        private void Draw(JvmSetting setting, SerializedProperty field)
+        {
+            var label = setting.Unit.Length > 0 ? setting.Label + " (" + setting.Unit + ")" : setting.Label;
+            EditorGUILayout.PropertyField(field, new GUIContent(label, setting.Tooltip), true);
+            var effective = report.Effective(setting);
+            if (effective.Length > 0) EditorGUILayout.LabelField(" ", "in effect: " + effective);
+            var problem = report.Problem(setting);
+            if (problem.Length > 0) EditorGUILayout.HelpBox(problem, MessageType.Error);
+        }
+
+        /// <summary>Checks the settings anew when they, or the JVM's state, changed: it takes a moment.</summary>
+        private void Look(JvmSettings settings)
+        {
+            var now = Jvm.State + TextOf(settings);
+            if (now == reported) return;
+            reported = now;
+            report = JvmReport.Of(settings, Installation.ToLaunch);
+        }
+
+        private static string TextOf(JvmSettings settings)
+        {
+            var text = "";
+            foreach (var setting in JvmSetting.All)
+            {
+                var value = setting.Get(settings);
+                text += "\n" + (value is IEnumerable<string> words ? string.Join("\n ", words) : value);
+            }
+            return text;
+        }
+    }
+}
