@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 
 import replay
@@ -342,14 +343,18 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 """
 
-    def test_its_example_runs(self):
-        with open(os.path.join(ROOT, "README.md")) as file:
-            schema, kotlin, csharp = re.findall(r"```(?:kotlin|csharp)?\n((?:namespace|@Program|public sealed).*?)```", file.read(), re.S)
+    def run_example(self, page):
+        """Runs the schema, the Kotlin and the C# of a page in the scene above."""
+        with open(os.path.join(ROOT, page)) as file:
+            blocks = [textwrap.dedent(block) for block in re.findall(r"^ *```\w*\n(.*?)^ *```", file.read(), re.M | re.S)]
+        schema = next(block for block in blocks if block.startswith("namespace"))
+        kotlin = next(block for block in blocks if "@Program" in block)
+        csharp = next(block for block in blocks if "public sealed class" in block)
         os.makedirs(self.path("programs"))
         os.makedirs(self.path("scene"))
         scenario = {"version": 1, "scene": "Example", "scripts": "scene", "schema": "swarm.fbs", "programs": "programs",
                     "program": "hops-to-light", "seconds": 1}
-        files = {"swarm.fbs": schema, "programs/Hops.kt": self.KOTLIN + kotlin, "scene/Example.cs": self.SCENE + csharp,
+        files = {"swarm.fbs": schema, "programs/Hops.kt": kotlin if "import " in kotlin else self.KOTLIN + kotlin, "scene/Example.cs": self.SCENE + csharp,
                  "swarm.json": json.dumps(scenario)}
         for name, text in files.items():
             with open(self.path(name), "w") as file:
@@ -357,6 +362,12 @@ import org.collektive.api.Program
         result = collektive("run", self.path("swarm.json"), "--out", self.path("out"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
+
+    def test_its_example_runs(self):
+        self.run_example("README.md")
+
+    def test_the_example_of_getting_started_runs(self):
+        self.run_example("unity/Documentation~/getting-started.md")
 
     def test_its_picture_and_links_exist(self):
         with open(os.path.join(ROOT, "README.md")) as file:

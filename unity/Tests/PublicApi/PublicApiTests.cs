@@ -9,6 +9,8 @@ namespace Collektive.Unity.PublicApi.Tests
     /// <summary>A change of what users can use is made on purpose, or not at all.</summary>
     public sealed class PublicApiTests
     {
+        private const string Update = "COLLEKTIVE_API_UPDATE";
+
         [Test]
         public void The_bridge_has_the_api_that_is_checked_in() => Compare(typeof(Bridge.Jvm).Assembly);
 
@@ -22,10 +24,13 @@ namespace Collektive.Unity.PublicApi.Tests
             var actual = PublicApi.Of(assembly);
             var expected = File.Exists(listed) ? File.ReadAllText(listed).Replace("\r\n", "\n") : "";
             if (actual == expected) return;
-            var written = Path.Combine(Path.GetTempPath(), name);
-            File.WriteAllText(written, actual);
-            Assert.Fail("the public API of " + assembly.GetName().Name + " changed:\n" + Difference(expected.Split('\n'), actual.Split('\n')) +
-                "If this is meant, copy " + written + " to " + listed);
+            if (Environment.GetEnvironmentVariable(Update) == "1")
+            {
+                File.WriteAllText(listed, actual);
+                return;
+            }
+            Assert.Fail("the public API of " + assembly.GetName().Name + " changed; if that is meant, run: " + Update + "=1 ./collektive test csharp\n" +
+                Difference(expected.Split('\n'), actual.Split('\n')));
         }
 
         private static string Difference(string[] expected, string[] actual)
