@@ -158,6 +158,7 @@ MANAGER_SCRIPT = "unity/Runtime/Unity/SimulationManager.cs"
 def make_manager(maker):
     manager = GameObject(MANAGER, "Simulation Manager")
     manager.add_script(maker, MANAGER_SCRIPT)
+    manager.add_script(maker, "unity/Runtime/Unity/Views/LinkView.cs", f"  material: {{fileID: 2100000, guid: {maker.guid('unity/Materials/Link.mat')}, type: 2}}\n")
     maker.write(MANAGER, manager.documents())
 
 

@@ -72,7 +72,8 @@ namespace Collektive.Unity.Editor
         /// <summary>What the node's program answered in the last tick; empty when it gave no answer.</summary>
         internal List<KeyValuePair<string, string>> Values(int id)
         {
-            var data = Manager.AnswerOf(id);
+            var node = Manager.Find(id);
+            var data = node == null ? null : node.Answer;
             return data == null ? new List<KeyValuePair<string, string>>() : DataText.Of(data);
         }
 

@@ -78,14 +78,16 @@ namespace Collektive.Unity
         public bool TryGetAnswer<TData>(out TData data)
         {
             data = default;
-            var manager = SimulationManager.Current;
-            if (joinedId < 0 || manager == null || answerTick != manager.Tick || !(answers is ActuatorBuffer<TData> typed)) return false;
+            if (!HasAnswer || !(answers is ActuatorBuffer<TData> typed)) return false;
             data = typed[answerIndex];
             return true;
         }
 
         /// <summary>The last error of this node's round, sensors or actuators; empty while there was none.</summary>
         public string LastError { get; internal set; } = "";
+
+        /// <summary>The same as <see cref="TryGetAnswer{TData}"/>, boxed, for tools that know no schema; null when there is no answer.</summary>
+        internal object Answer => HasAnswer ? answers.Get(answerIndex) : null;
 
         internal static List<Node> All => EnabledNodes;
 
@@ -96,6 +98,15 @@ namespace Collektive.Unity
         internal List<Actuator> Actuators => actuators;
 
         internal List<NeighbourhoodRule> Rules => rules;
+
+        private bool HasAnswer
+        {
+            get
+            {
+                var manager = SimulationManager.Current;
+                return answers != null && manager != null && answerTick == manager.Tick;
+            }
+        }
 
         internal void Joined(int newId, ulong seed)
         {

@@ -209,17 +209,6 @@ namespace Collektive.Unity
             enabled = false;
         }
 
-        /// <summary>What the node's program answered in the last tick; null when it gave no answer. For tools: it allocates.</summary>
-        internal object AnswerOf(int id)
-        {
-            if (session == null || session.Tick == 0) return null;
-            for (var i = 0; i < session.Answer.NodeCount; i++)
-            {
-                if (session.Answer.Node(i) == id) return session.Answer.Actuators.Get(i);
-            }
-            return null;
-        }
-
         internal void Join(Node node)
         {
             var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
