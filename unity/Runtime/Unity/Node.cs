@@ -15,6 +15,9 @@ namespace Collektive.Unity
     {
         private static readonly List<Node> EnabledNodes = new List<Node>();
 
+        /// <summary>Whether it was said already that there is no manager: once is enough for a thousand nodes.</summary>
+        private static bool saidAlone;
+
         [SerializeField]
         [Tooltip("Unique number of the node, 0 or greater. -1: the manager gives the next free one.")]
         private int id = -1;
@@ -137,6 +140,7 @@ namespace Collektive.Unity
         private static void ResetStatics()
         {
             EnabledNodes.Clear();
+            saidAlone = false;
         }
 
         private void Awake()
@@ -148,6 +152,18 @@ namespace Collektive.Unity
         {
             EnabledNodes.Add(this);
             if (SimulationManager.Current != null) SimulationManager.Current.Join(this);
+        }
+
+        private void Start()
+        {
+            var scale = Body.lossyScale;
+            if (scale.x * scale.y * scale.z == 0)
+            {
+                Debug.LogWarning("node '" + name + "' has a scale of zero, " + scale + ": its colliders touch nothing, and it cannot be seen", this);
+            }
+            if (SimulationManager.Current != null || saidAlone) return;
+            saidAlone = true;
+            Debug.LogError("node '" + name + "' finds no Simulation Manager: add one to the scene (GameObject > Collektive > Simulation Manager)", this);
         }
 
         private void OnDisable()

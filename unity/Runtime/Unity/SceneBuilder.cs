@@ -30,6 +30,16 @@ namespace Collektive.Unity
         /// <summary>Makes the scene's objects. Called once, from <c>Awake</c>, in play mode. An exception stops the simulation.</summary>
         protected abstract void Build(SimulationManager manager);
 
+        /// <summary>Makes a box with a collider: a floor, a wall, an obstacle.</summary>
+        protected static GameObject MakeBox(string title, Vector3 centre, Vector3 size)
+        {
+            var box = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            box.name = title;
+            box.transform.position = centre;
+            box.transform.localScale = size;
+            return box;
+        }
+
         private void Awake()
         {
             if (SimulationManager.Current == null)

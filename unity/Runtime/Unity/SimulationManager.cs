@@ -9,8 +9,11 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Runs the simulation of a scene: decides that a tick is due, has the nodes sense, makes the one call into the JVM, has the nodes
-    /// act, and advances physics. One per scene; a second one disables itself. While it is paused there is no call, no physics and
-    /// no time. All members are for the main thread.
+    /// act, and advances physics. While it is paused there is no call, no physics and no time. All members are for the main thread.
+    ///
+    /// There is one for all loaded scenes; a second one, in an additive scene for instance, disables itself with an error. Nodes of all loaded
+    /// scenes take part: those of a scene that is loaded later join, those of one that is unloaded leave. With the manager's own scene the
+    /// simulation ends; nodes that outlive it wait for the next manager and start afresh with it.
     /// </summary>
     [AddComponentMenu("Collektive/Simulation Manager")]
     [DisallowMultipleComponent]
@@ -25,6 +28,9 @@ namespace Collektive.Unity
 
         /// <summary>Ids index arrays.</summary>
         private const int MaxId = (1 << 24) - 1;
+
+        /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
+        private const int MaxLinks = 1 << 24;
 
         [SerializeField]
         [Tooltip("What the simulation is started with.")]
@@ -51,6 +57,15 @@ namespace Collektive.Unity
         private int nextId;
         private bool stepping;
         private ulong tickInProgress;
+
+        /// <summary>
+        /// Asked after each tick: whether the simulation has reached its end. It is paused then, with everything as it is; to go on, set
+        /// <see cref="Paused"/> to false.
+        /// </summary>
+        public Func<SimulationManager, bool> StopCondition { get; set; }
+
+        /// <summary>Whether the simulation has reached its end: its time, or its stop condition.</summary>
+        public bool Finished { get; private set; }
 
         /// <summary>Called after each tick, when physics have advanced.</summary>
         public event Action<SimulationManager> Ticked;
@@ -93,7 +108,7 @@ namespace Collektive.Unity
         public ulong Digest { get; private set; }
 
         /// <summary>Directed links.</summary>
-        public int LinkCount => Links.Count;
+        public int LinkCount => PresentLinks.Count;
 
         /// <summary>Errors of rounds, sensors, actuators and rules so far.</summary>
         public long ErrorCount => errors.Count;
@@ -111,6 +126,16 @@ namespace Collektive.Unity
         internal int IdCapacity => isKnown.Length;
 
         internal LinkTable Links { get; } = new LinkTable();
+
+        /// <summary>The links between nodes that take part; those of nodes that left are otherwise dropped at the next tick, all at once.</summary>
+        internal LinkTable PresentLinks
+        {
+            get
+            {
+                if (anyGone) DropLinksOfGone();
+                return Links;
+            }
+        }
 
         /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
         internal NodeGrid Grid { get; } = new NodeGrid();
@@ -138,15 +163,16 @@ namespace Collektive.Unity
         }
 
         /// <summary>Whether <paramref name="to"/> hears <paramref name="from"/>.</summary>
-        public bool HasLink(int from, int to) => Links.Contains(from, to);
+        public bool HasLink(int from, int to) => PresentLinks.Contains(from, to);
 
         /// <summary>Copies all directed links to <paramref name="target"/>, emptied first.</summary>
         public void CopyLinks(List<LinkRecord> target)
         {
             target.Clear();
-            for (var i = 0; i < Links.Capacity; i++)
+            var links = PresentLinks;
+            for (var i = 0; i < links.Capacity; i++)
             {
-                if (Links.TryGet(i, out var link)) target.Add(link);
+                if (links.TryGet(i, out var link)) target.Add(link);
             }
         }
 
@@ -200,12 +226,15 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Stops the simulation with an error and disables the manager. The editor and the JVM go on.</summary>
-        public void Fail(string message)
+        /// <summary>
+        /// Stops the simulation with an error and disables the manager. The editor and the JVM go on. A click on the message selects
+        /// <paramref name="culprit"/>, or the manager if there is none.
+        /// </summary>
+        public void Fail(string message, UnityEngine.Object culprit = null)
         {
             if (Failure.Length > 0) return;
             Failure = message;
-            Debug.LogError("Simulation stopped: " + message, this);
+            Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : this);
             enabled = false;
         }
 
@@ -214,13 +243,13 @@ namespace Collektive.Unity
             var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
             if (id > MaxId)
             {
-                Fail("node '" + node.name + "' wants id " + id + ": the largest id is " + MaxId);
+                Fail("node '" + node.name + "' wants id " + id + ": the largest id is " + MaxId, node);
                 return;
             }
             var place = ~IndexOf(id);
             if (place < 0)
             {
-                Fail("node '" + node.name + "' wants id " + id + ", which node '" + nodes[~place].name + "' has: give each node its own id, or -1");
+                Fail("node '" + node.name + "' wants id " + id + ", which node '" + nodes[~place].name + "' has: give each node its own id, or -1", node);
                 return;
             }
             nextId = Math.Max(nextId, id + 1);
@@ -268,6 +297,7 @@ namespace Collektive.Unity
             Current = this;
             Failure = "";
             errors.Clear();
+            Finished = false;
             Digest = 0;
             accumulated = 0;
             nextId = 0;
@@ -379,6 +409,7 @@ namespace Collektive.Unity
             var end = Stopwatch.GetTimestamp();
             Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
             Ticked?.Invoke(this);
+            if (session != null && !Finished && IsAtEnd()) Finish();
         }
 
         private void PrepareRequest()
@@ -390,6 +421,16 @@ namespace Collektive.Unity
             if (session == null) return;
             // Last, since users' code may add and remove links until here.
             Links.Flush(session.Request, isKnown);
+        }
+
+        private bool IsAtEnd() =>
+            settings.stopAfter > 0 && session.Time >= settings.stopAfter * Almost || StopCondition != null && StopCondition(this);
+
+        private void Finish()
+        {
+            Finished = true;
+            paused = true;
+            Debug.Log("The simulation has reached its end after " + session.Time + " s and is paused", this);
         }
 
         private void FlushChanges()
@@ -406,6 +447,7 @@ namespace Collektive.Unity
                 session.Request.AddNode(node.Id, node.Program, ParametersOf(node));
                 isKnown[node.Id] = true;
             }
+            if (joining.Count > 0) WarnOfOnePlace();
             joining.Clear();
             // Users' code may make nodes join and leave from here on; this tick is for those of the roster that stay.
             roster.Clear();
@@ -428,6 +470,18 @@ namespace Collektive.Unity
             }
         }
 
+        /// <summary>All nodes at one point is a scene that was not finished, and every radius makes all of them neighbours.</summary>
+        private void WarnOfOnePlace()
+        {
+            if (nodes.Count < 2) return;
+            var place = nodes[0].Body.position;
+            for (var i = 1; i < nodes.Count; i++)
+            {
+                if (nodes[i].Body.position != place) return;
+            }
+            Debug.LogWarning("all " + nodes.Count + " nodes are at one point, " + place + ": place them apart", nodes[0]);
+        }
+
         private void DropLinksOfGone()
         {
             Links.DropLinksOf(isGone);
@@ -448,7 +502,8 @@ namespace Collektive.Unity
         private void UpdateRules(Node node)
         {
             var rules = node.Rules;
-            for (var i = 0; i < rules.Count; i++)
+            var i = 0;
+            for (var left = rules.Count; left > 0 && i < rules.Count; left--)
             {
                 var rule = rules[i];
                 try
@@ -460,8 +515,17 @@ namespace Collektive.Unity
                 {
                     Report(node, rule, error);
                 }
+                if (StillAt(rules, i, rule)) i++;
+            }
+            if (Links.Count > MaxLinks)
+            {
+                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name + "': use smaller neighbourhoods, or place the nodes apart", node);
             }
         }
+
+        /// <summary>Whether a part is where it was before its call: it may have been disabled or destroyed, or have come back at the end.</summary>
+        private static bool StillAt<T>(List<T> parts, int place, T part)
+            where T : NodePart => place < parts.Count && ReferenceEquals(parts[place], part);
 
         private void SenseAll()
         {
@@ -480,7 +544,7 @@ namespace Collektive.Unity
                 var field = request.Sensors.FindNotFinite(index);
                 if (field != null)
                 {
-                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field + ": correct the sensor that writes it");
+                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field + ": correct the sensor that writes it", node);
                     return;
                 }
                 request.AddDue(node.Id);
@@ -492,12 +556,13 @@ namespace Collektive.Unity
         private bool Sense(Node node, SensorBuffer buffer, int index)
         {
             var sensors = node.Sensors;
-            for (var i = 0; i < sensors.Count; i++)
+            var i = 0;
+            for (var left = sensors.Count; left > 0 && i < sensors.Count; left--)
             {
                 var sensor = sensors[i];
                 if (sensor.DataType != buffer.DataType)
                 {
-                    Fail(Mismatch("sensor", sensor.GetType(), node, sensor.DataType, buffer.DataType));
+                    Fail(Mismatch("sensor", sensor.GetType(), node, sensor.DataType, buffer.DataType), sensor);
                     return false;
                 }
                 try
@@ -510,6 +575,7 @@ namespace Collektive.Unity
                     Report(node, sensor, error);
                     return false;
                 }
+                if (StillAt(sensors, i, sensor)) i++;
             }
             return true;
         }
@@ -542,12 +608,13 @@ namespace Collektive.Unity
         {
             node.Answered(buffer, index, tickInProgress, session.Time, settings.deltaTime);
             var actuators = node.Actuators;
-            for (var i = 0; i < actuators.Count; i++)
+            var i = 0;
+            for (var left = actuators.Count; left > 0 && i < actuators.Count; left--)
             {
                 var actuator = actuators[i];
                 if (actuator.DataType != buffer.DataType)
                 {
-                    Fail(Mismatch("actuator", actuator.GetType(), node, actuator.DataType, buffer.DataType));
+                    Fail(Mismatch("actuator", actuator.GetType(), node, actuator.DataType, buffer.DataType), actuator);
                     return;
                 }
                 try
@@ -559,6 +626,7 @@ namespace Collektive.Unity
                 {
                     Report(node, actuator, error);
                 }
+                if (StillAt(actuators, i, actuator)) i++;
             }
         }
 

@@ -35,6 +35,11 @@ namespace Collektive.Unity
         [Range(0.001f, 0.02f)]
         public float physicsStep = 0.02f;
 
+        /// <summary>Simulated seconds after which the simulation is paused; 0: never.</summary>
+        [Tooltip("Simulated seconds after which the simulation is paused. 0: never.")]
+        [Min(0)]
+        public float stopAfter;
+
         /// <summary>Which messages a round sees.</summary>
         [Tooltip("Lockstep: all nodes see what was sent before the tick. Sequential: in id order, each sees what earlier nodes sent.")]
         public Schedule schedule = Schedule.Lockstep;
@@ -58,6 +63,7 @@ namespace Collektive.Unity
         {
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
+            if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace)) return "no jar with programs is named, or one has no path: add the path to the settings";

@@ -83,14 +83,14 @@ namespace Collektive.Samples.GradientAscent
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
             intensity = new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
-            MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(100, 1, 60)).layer = IgnoreRaycastLayer;
-            MakeBox("Rim", new Vector3(0, 0.5f, 30.25f), new Vector3(101, 1, 0.5f));
-            MakeBox("Rim", new Vector3(0, 0.5f, -30.25f), new Vector3(101, 1, 0.5f));
-            MakeBox("Rim", new Vector3(50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
-            MakeBox("Rim", new Vector3(-50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
+            MakeObstacle("Floor", new Vector3(0, -0.5f, 0), new Vector3(100, 1, 60)).layer = IgnoreRaycastLayer;
+            MakeObstacle("Rim", new Vector3(0, 0.5f, 30.25f), new Vector3(101, 1, 0.5f));
+            MakeObstacle("Rim", new Vector3(0, 0.5f, -30.25f), new Vector3(101, 1, 0.5f));
+            MakeObstacle("Rim", new Vector3(50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
+            MakeObstacle("Rim", new Vector3(-50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
             if (obstacles)
             {
-                foreach (var place in ObstaclePlaces) MakeBox("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
+                foreach (var place in ObstaclePlaces) MakeObstacle("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
             }
             var taken = new List<Vector3>();
             for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(FreePlace(manager, taken));
@@ -119,12 +119,9 @@ namespace Collektive.Samples.GradientAscent
             return true;
         }
 
-        private GameObject MakeBox(string title, Vector3 centre, Vector3 size)
+        private GameObject MakeObstacle(string title, Vector3 centre, Vector3 size)
         {
-            var box = GameObject.CreatePrimitive(PrimitiveType.Cube);
-            box.name = title;
-            box.transform.position = centre;
-            box.transform.localScale = size;
+            var box = MakeBox(title, centre, size);
             box.GetComponent<BoxCollider>().sharedMaterial = slippery;
             return box;
         }

@@ -2,6 +2,7 @@ using System;
 using Collektive.Unity;
 using NUnit.Framework;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
@@ -185,6 +186,209 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(1);
             UnityEngine.Headless.Loop.Frame(0.05f);
             Assert.That(Manager.Failure, Is.StringContaining("delta time"));
+        }
+
+        [Test]
+        public void Nodes_without_a_manager_say_so_once()
+        {
+            Object.DestroyImmediate(Manager.gameObject);
+            MakeNode(1).Node.name = "lonely";
+            MakeNode(1);
+            UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("lonely").And.StringContaining("no Simulation Manager"));
+        }
+
+        [Test]
+        public void Nodes_that_outlive_their_manager_join_the_next_one_and_start_afresh()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            Play(3);
+            Object.DestroyImmediate(Manager.gameObject);
+            Assert.That(node.Node.Id, Is.EqualTo(-1));
+            UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(node.Actuator.Calls, Is.EqualTo(3));
+            var next = MakeManager("count");
+            for (var i = 0; i < 2; i++) UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(next.Nodes, Is.EqualTo(new[] { node.Node }));
+            Assert.That(node.Answer, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(typeof(SuicidalSensor))]
+        [TestCase(typeof(SuicidalActuator))]
+        [TestCase(typeof(SuicidalRule))]
+        public void A_part_that_is_destroyed_in_its_own_call_harms_no_other(System.Type type)
+        {
+            Configure("sum");
+            var node = MakeNode(3);
+            var other = MakeNode(4, Vector3.right);
+            // In front of and behind it stand others of its kind.
+            node.Node.gameObject.AddComponent(type);
+            var second = node.Node.gameObject.AddComponent<ProbeSensor>();
+            second.Value = 5;
+            var last = node.Node.gameObject.AddComponent<ProbeActuator>();
+            node.Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            Play(2);
+            Assert.That(node.Node.GetComponent(type) == null, Is.True);
+            Assert.That(other.Answer, Is.EqualTo(5), "the sensor behind was asked");
+            Assert.That(last.Calls, Is.EqualTo(2), "the actuator behind was asked");
+            Assert.That(Manager.LinkCount, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(typeof(NodeKillingSensor))]
+        [TestCase(typeof(NodeKillingRule))]
+        public void A_part_that_destroys_its_own_node_ends_that_node_alone(System.Type type)
+        {
+            var node = MakeNode(3);
+            var other = MakeNode(4, Vector3.right);
+            other.Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            node.Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            node.Node.gameObject.AddComponent(type);
+            Play(2);
+            Assert.That(Manager.Nodes, Is.EqualTo(new[] { other.Node }));
+            Assert.That(other.Answer, Is.EqualTo(8));
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_part_that_switches_itself_off_and_on_is_asked_once_a_tick()
+        {
+            var node = MakeNode(3);
+            var sensor = node.Node.gameObject.AddComponent<RestlessSensor>();
+            Play(4);
+            Assert.That(sensor.Calls, Is.EqualTo(4));
+        }
+
+        [Test]
+        public void An_actuator_that_throws_again_and_again_is_disabled_and_the_others_go_on()
+        {
+            var node = MakeNode(1);
+            var bad = node.Node.gameObject.AddComponent<ThrowingActuator>();
+            Play(12);
+            Assert.That(bad.enabled, Is.False);
+            Assert.That(Manager.ErrorCount, Is.EqualTo(10));
+            Assert.That(node.Actuator.Calls, Is.EqualTo(12));
+            Assert.That(Errors[0], Is.StringContaining("ThrowingActuator").And.StringContaining("tick 1: broken on purpose"));
+        }
+
+        [Test]
+        public void A_rule_that_throws_again_and_again_is_disabled_and_the_others_go_on()
+        {
+            Configure("sum");
+            var node = MakeNode(1);
+            var other = MakeNode(2, Vector3.right);
+            var bad = node.Node.gameObject.AddComponent<ThrowingRule>();
+            node.Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            Play(12);
+            Assert.That(bad.enabled, Is.False);
+            Assert.That(Manager.ErrorCount, Is.EqualTo(10));
+            Assert.That(other.Answer, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void All_nodes_at_one_point_are_told_of_and_go_on()
+        {
+            for (var i = 0; i < 50; i++) MakeNode(i, Vector3.one).Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            MakeNode(0, Vector3.one).Node.gameObject.AddComponent<KNearestNeighbourhood>();
+            MakeNode(0, Vector3.one).Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
+            Play(2);
+            Assert.That(Log.FindAll(line => line.Contains("all 52 nodes are at one point")).Count, Is.EqualTo(1));
+            Assert.That(Manager.LinkCount, Is.EqualTo(52 * 51));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_scale_of_zero_is_told_of_and_harms_nothing()
+        {
+            var node = MakeNode(1);
+            node.Node.name = "flat";
+            node.Node.transform.localScale = new Vector3(1, 0, 1);
+            node.Node.gameObject.AddComponent<SphereCollider>();
+            node.Node.gameObject.AddComponent<SensorTests.Obstacles>();
+            node.Node.gameObject.AddComponent<SensorTests.Rays>();
+            node.Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
+            MakeNode(2, Vector3.right);
+            Play(2);
+            Assert.That(Log.FindAll(line => line.Contains("flat") && line.Contains("scale of zero")).Count, Is.EqualTo(1));
+            Assert.That(Errors, Is.Empty);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void A_simulation_ends_after_its_time_or_by_its_condition_and_can_go_on()
+        {
+            Configure("count", settings => settings.stopAfter = 0.2f);
+            var node = MakeNode(0);
+            Play(10);
+            Assert.That(Manager.Finished && Manager.Paused, Is.True);
+            Assert.That(node.Answer, Is.EqualTo(4));
+            Manager.Paused = false;
+            Play(2);
+            Assert.That(node.Answer, Is.EqualTo(6));
+            Configure("count", settings => settings.stopAfter = 0);
+            Manager.StopCondition = manager => manager.Tick == 3;
+            Play(10);
+            Assert.That(Manager.Finished, Is.True);
+            Assert.That(node.Answer, Is.EqualTo(3));
+        }
+
+        public sealed class SuicidalSensor : Sensor<probe.SensorDataValue>
+        {
+            protected override void Sense(ref probe.SensorDataValue data) => Object.DestroyImmediate(this);
+        }
+
+        public sealed class SuicidalActuator : Actuator<probe.ActuatorDataValue>
+        {
+            protected override void Act(probe.ActuatorDataValue data) => Object.DestroyImmediate(this);
+        }
+
+        public sealed class SuicidalRule : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(SimulationManager manager)
+            {
+                foreach (var node in manager.Nodes) Connect(node);
+                Object.DestroyImmediate(this);
+            }
+        }
+
+        public sealed class NodeKillingSensor : Sensor<probe.SensorDataValue>
+        {
+            protected override void Sense(ref probe.SensorDataValue data) => Object.DestroyImmediate(Node.gameObject);
+        }
+
+        public sealed class NodeKillingRule : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(SimulationManager manager)
+            {
+                foreach (var node in manager.Nodes) Connect(node);
+                Object.DestroyImmediate(Node.gameObject);
+            }
+        }
+
+        public sealed class RestlessSensor : Sensor<probe.SensorDataValue>
+        {
+            public int Calls { get; private set; }
+
+            protected override void Sense(ref probe.SensorDataValue data)
+            {
+                Calls++;
+                enabled = false;
+                enabled = true;
+            }
+        }
+
+        public sealed class ThrowingActuator : Actuator<probe.ActuatorDataValue>
+        {
+            protected override void Act(probe.ActuatorDataValue data) => throw new InvalidOperationException("broken on purpose");
+        }
+
+        public sealed class ThrowingRule : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(SimulationManager manager) => throw new InvalidOperationException("broken on purpose");
         }
 
         public sealed class ThrowingSensor : Sensor<probe.SensorDataValue>

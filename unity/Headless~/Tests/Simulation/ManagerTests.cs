@@ -180,6 +180,24 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Links_of_a_node_that_left_are_gone_at_once()
+        {
+            var a = MakeNode(1);
+            var b = MakeNode(10);
+            Manager.AddLink(a.Node.Id, b.Node.Id);
+            Play(1);
+            var id = b.Node.Id;
+            b.Node.enabled = false;
+            var links = new List<Collektive.Bridge.LinkRecord>();
+            Manager.CopyLinks(links);
+            Assert.That(links, Is.Empty);
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            Assert.That(Manager.HasLink(a.Node.Id, id), Is.False);
+            Play(1);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_trigger_zone_makes_neighbours_of_the_bodies_inside()
         {
             Configure("sum");

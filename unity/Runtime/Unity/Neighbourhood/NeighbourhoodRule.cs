@@ -26,6 +26,7 @@ namespace Collektive.Unity
         private int wantedCount;
         private int heldCount;
         private int drops;
+        private bool isAttached;
 
         private struct Neighbour
         {
@@ -55,11 +56,16 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
-        internal sealed override void Attach(Node node) => node.Rules.Add(this);
+        internal sealed override void Attach(Node node)
+        {
+            node.Rules.Add(this);
+            isAttached = true;
+        }
 
         internal sealed override void Detach(Node node)
         {
             node.Rules.Remove(this);
+            isAttached = false;
             if (SimulationManager.Current != null) ReleaseAll(SimulationManager.Current.Links);
         }
 
@@ -73,9 +79,14 @@ namespace Collektive.Unity
             catch
             {
                 // The links stay as they were.
-                for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
-                wantedCount = 0;
+                ForgetWanted();
                 throw;
+            }
+            if (!isAttached || Node.Id < 0)
+            {
+                // The rule or its node left in the rule's own call, and the links with it.
+                ForgetWanted();
+                return;
             }
             var links = manager.Links;
             var dropped = links.Drops != drops;
@@ -99,6 +110,12 @@ namespace Collektive.Unity
             held = now;
             heldCount = wantedCount;
             wanted = before;
+            wantedCount = 0;
+        }
+
+        private void ForgetWanted()
+        {
+            for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
             wantedCount = 0;
         }
 

@@ -124,7 +124,7 @@ namespace Collektive.Unity
         private void Collect(SimulationManager manager)
         {
             TakePositions(manager);
-            var links = manager.Links;
+            var links = manager.PresentLinks;
             scale.Begin();
             for (var i = 0; i < links.Capacity; i++)
             {
