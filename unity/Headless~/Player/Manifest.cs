@@ -58,6 +58,9 @@ namespace Collektive.Headless
             root.Add("tick_ms_p99", Math.Round(Quantiles.Of(total, 0.99), 4));
         }
 
+        /// <summary>From the start of the process to the end of the first tick.</summary>
+        internal void AddFirstTick(TimeSpan time) => root.Add("first_tick_ms", Math.Round(time.TotalMilliseconds));
+
         internal void Write(string path) => File.WriteAllText(path, root.ToString(Formatting.Indented) + "\n");
 
         private static JObject Metrics(SceneBuilder scene, IReadOnlyList<double> values)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Reflection;
@@ -22,6 +23,7 @@ namespace Collektive.Headless
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
         private readonly List<double> roundTimes = new List<double>();
+        private TimeSpan firstTick;
 
         internal ScenarioRun(Scenario scenario, Options options)
         {
@@ -103,6 +105,7 @@ namespace Collektive.Headless
                 {
                     Loop.Frame(scenario.DeltaTime);
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + tick + ": " + manager.Failure);
+                    if (tick == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
                     metrics.Add(manager.Times);
                     stepTimes.Add(manager.Times.Step);
                     totalTimes.Add(manager.Times.Total);
@@ -120,6 +123,7 @@ namespace Collektive.Headless
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 var manifest = new Manifest(scenario, options, manager, scene, start, metrics.Values, progress.Seconds);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
+                manifest.AddFirstTick(firstTick);
                 manifest.Write(Path.Combine(options.Out, "manifest.json"));
             }
             if (manager.ErrorCount == 0) return 0;

@@ -1,3 +1,5 @@
+using System;
+using System.Diagnostics;
 using System.Threading;
 using Collektive.Bridge;
 using NUnit.Framework;
@@ -21,7 +23,9 @@ namespace Collektive.Headless.Tests
         {
             for (var i = 0; i < 10; i++) Play();
             var before = Settled();
+            var clock = Stopwatch.StartNew();
             for (var i = 0; i < 100; i++) Play();
+            Console.WriteLine("  a reload with three ticks: " + (clock.Elapsed.TotalMilliseconds / 100).ToString("0.0") + " ms");
             var after = Settled();
             using (TestJvm.Open("sum"))
             {

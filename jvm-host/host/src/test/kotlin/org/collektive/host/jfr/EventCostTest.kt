@@ -1,0 +1,40 @@
+package org.collektive.host.jfr
+
+import org.collektive.host.Step
+import org.collektive.host.TestSession
+import org.collektive.host.TestShim
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import kotlin.test.assertTrue
+
+/** What our events cost while nothing records: next to nothing. */
+@Timeout(120)
+class EventCostTest {
+    @Test
+    fun `asking whether a round is wanted is nothing beside a round`() {
+        val asking = (1..5).minOf { nanosPer(ASKS) { repeat(ASKS) { if (ProgramRounds.begin() != null) wanted++ } } }
+        val session = TestSession(TestShim()).apply { open(program = "probe", threads = 1) }
+        val nodes = (0 until NODES).toList()
+        session.ok(Step(1).apply { added = nodes.map { Step.Added(it) }; due = nodes })
+        var tick = 2L
+        val round = (1..5).minOf { nanosPer(TICKS * NODES) { repeat(TICKS) { session.ok(Step(tick++).apply { due = nodes }) } } }
+        session.close()
+        println("  %.2f ns to ask, %.0f ns a round with its share of the tick: %.2f %%".format(asking, round, 100 * asking / round))
+        assertTrue(wanted == 0L, "nothing records")
+        assertTrue(asking < round / 20, "$asking ns to ask, $round ns a round")
+    }
+
+    private var wanted = 0L
+
+    private inline fun nanosPer(count: Int, work: () -> Unit): Double {
+        val begin = System.nanoTime()
+        work()
+        return (System.nanoTime() - begin).toDouble() / count
+    }
+
+    private companion object {
+        const val ASKS = 20_000_000
+        const val NODES = 200
+        const val TICKS = 200
+    }
+}
