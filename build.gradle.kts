@@ -147,6 +147,7 @@ project(":host") {
         "api"(project(":stdlib"))
         "testImplementation"(project(":generator"))
         "testImplementation"("org.jetbrains.kotlin:abi-tools:$kotlinVersion")
+        "testImplementation"("org.jetbrains.kotlin:kotlin-metadata-jvm:$kotlinVersion")
     }
     val folder = layout.buildDirectory.dir("generated/flatbuffers")
     generatedJava("frames", folder, file("$rootDir/schema/frame.fbs")) {

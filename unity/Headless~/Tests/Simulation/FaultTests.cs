@@ -36,6 +36,30 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.Empty);
         }
 
+        [TestCase(13, "thirteen", "root", "Probe.kt:")]
+        [TestCase(21, "two primitives ran at one path", "clash > share", "Probe.kt:")]
+        [TestCase(22, "the recursion does not end", "deeper > else > deeper > else", "more)")]
+        [TestCase(23, "cannot be combined: one has values for", "misaligned", "Probe.kt:")]
+        [TestCase(24, "a float[] cannot be a pivot", "alignedOn", "Probe.kt:")]
+        [TestCase(25, "a probe.SensorData inside a kotlin.Pair is a view", "share", "Probe.kt:")]
+        [TestCase(26, "a probe.SensorData inside a java.util.", "share", "Probe.kt:")]
+        [TestCase(27, "no value for device 99", "root", "Probe.kt:")]
+        public void An_error_of_a_program_tells_the_node_the_path_and_the_line(int trouble, string what, string path, string line)
+        {
+            Configure("trouble");
+            var good = MakeNode(0);
+            var bad = MakeNode(0);
+            Manager.AddLink(good.Node.Id, bad.Node.Id);
+            Manager.AddLink(bad.Node.Id, good.Node.Id);
+            Play(2);
+            bad.Sensor.Value = trouble;
+            Play(1);
+            Assert.That(good.Answer, Is.EqualTo(3));
+            var error = bad.Node.LastError;
+            Assert.That(error, Is.StringContaining(what).And.StringContaining(line));
+            Assert.That(error, Is.StringContaining("[node " + bad.Node.Id + " at ").And.StringContaining(path));
+        }
+
         [Test]
         public void A_round_that_never_ends_ends_the_session_and_the_next_one_works()
         {

@@ -1,6 +1,7 @@
 package probe
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
@@ -57,7 +58,21 @@ public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorDa
 public fun Aggregate<Int>.scaled(sensors: SensorData, device: Device): ActuatorDataT =
     answer(sensors.value() * device.parameters.double("factor").toFloat())
 
+private class Reading(val name: String, val content: Any)
+
+private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
+
+private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
+
+/** Combines what only one of two nodes sees with what both see. */
+private fun Aggregate<Int>.misaligned(): Int {
+    val all = neighborhood()
+    val alone = listOf(1).map { alignedOn(localId) { listOf(neighboring(it)) }.single() }.single()
+    return all.alignedMap(alone) { _, _, b -> b }.local.value
+}
+
 /** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
+@Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
 @Program("trouble")
 public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
     val rounds = evolve(0) { it + 1 }
@@ -70,6 +85,13 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         18 -> generateSequence { LongArray(1 shl 26) }.toList()
         19 -> neighboring(sensors)
         20 -> println("a line from the program")
+        21 -> for (time in 1..2) clash()
+        22 -> deeper(0)
+        23 -> misaligned()
+        24 -> alignedOn(floatArrayOf(1f)) { neighboring(1).local.value }
+        25 -> share(sensors.value() to sensors) { it.local.value }
+        26 -> share(listOf(Reading("now", sensors))) { it.local.value }
+        27 -> neighboring(1)[99]
     }
     return answer(rounds.toFloat())
 }

@@ -26,5 +26,6 @@ internal object DslNames {
 
     val pushToken = CallableId(implPackage, Name.identifier("pushToken"))
     val popToken = CallableId(implPackage, Name.identifier("popToken"))
+    val noteFailure = CallableId(implPackage, Name.identifier("noteFailure"))
     val project = CallableId(implPackage, Name.identifier("project"))
 }

@@ -10,6 +10,7 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
 import it.unibo.collektive.aggregate.api.impl.AlignmentStack
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import it.unibo.collektive.aggregate.api.impl.readable
 
 /**
@@ -152,6 +153,15 @@ internal open class PlainDevice(override val localId: Int, private val network: 
 internal class ReferenceDevice(id: Int, network: ReferenceDevices) : PlainDevice(id, network), AlignmentStack {
     /** All tokens pushed so far, in order. */
     val pushed = mutableListOf<String>()
+
+    /** Where the last failure came up, and the failure. */
+    var failed: Pair<ProgramPlace, Throwable>? = null
+
+    override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())
+
+    override fun failing(failure: Throwable) {
+        if (failed?.second !== failure) failed = place to failure
+    }
 
     override fun pushToken(token: String): Int = stack.size.also {
         stack += token

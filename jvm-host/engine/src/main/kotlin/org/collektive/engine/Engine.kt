@@ -149,15 +149,15 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
                 result.answered(index, answer)
             } catch (failure: Throwable) {
                 // Whatever a program throws, errors of the JVM included, is the failure of its round.
-                result.failed(index, describe(node.program, failure))
+                result.failed(index, describe(node, failure))
             }
             thread.node = -1
         }
     }
 
     /** On the thread of the round, since a program's exceptions are its code too. */
-    private fun describe(program: NodeProgram, failure: Throwable): String = try {
-        program.describe(failure)
+    private fun describe(node: Node, failure: Throwable): String = try {
+        node.program.describe(failure, node.runtime.placeOf(failure))
     } catch (_: Throwable) {
         "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
     }

@@ -1,6 +1,7 @@
 package org.collektive.engine
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import org.collektive.api.Device
 
 /** A program as the engine calls it; used by many threads at once. */
@@ -11,8 +12,8 @@ public interface NodeProgram {
     /** Runs one round of [device] on [sensors]; the result must not be `null`. */
     public fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any?
 
-    /** The text of an error by which a round failed: what happened, then where. */
-    public fun describe(failure: Throwable): String
+    /** The text of an error by which a round failed: what happened, then where; [place] when the runtime knows it. */
+    public fun describe(failure: Throwable, place: ProgramPlace?): String
 }
 
 /** The data that flows into and out of the rounds of a tick; opaque to the engine. */

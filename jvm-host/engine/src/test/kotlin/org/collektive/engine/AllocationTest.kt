@@ -2,6 +2,7 @@ package org.collektive.engine
 
 import com.sun.management.ThreadMXBean
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
@@ -20,7 +21,7 @@ class AllocationTest {
 
         override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any = if (allocates) LongArray(4) else answer
 
-        override fun describe(failure: Throwable) = failure.toString()
+        override fun describe(failure: Throwable, place: ProgramPlace?) = failure.toString()
     }
 
     private object NoData : RoundData {

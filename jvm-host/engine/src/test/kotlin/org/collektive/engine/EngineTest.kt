@@ -1,5 +1,6 @@
 package org.collektive.engine
 
+import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.aggregate.values
@@ -192,6 +193,32 @@ class EngineTest {
         for (threads in listOf(0, -1, 257)) {
             val error = assertFailsWith<IllegalArgumentException> { EngineSettings(1, threads) }
             assertEquals("threads must be 1..256, but is $threads", error.message)
+        }
+    }
+
+    @Test
+    fun `a failure is told with its path, that of an endless recursion shortened`() {
+        fun Aggregate<Int>.deeper(): Int = alignedOn("deeper") { deeper() } + 1
+        val program = program {
+            when (localId) {
+                1 -> alignedOn("outer") { alignedOn("inner") { error("broken") } }
+                2 -> alignedOn("outer") { deeper() }
+                else -> runCatching { alignedOn("caught") { error("no") } }.isFailure
+            }
+        }
+        TestEngine(program, threads = 2).use { test ->
+            with(test) {
+                repeat(2) {
+                    val answers = step {
+                        if (number == 1L) add(1, 2, 3)
+                        due(1, 2, 3)
+                    }.toMap()
+                    assertEquals("java.lang.IllegalStateException: broken at outer > inner", answers[1])
+                    val recursion = Regex("java.lang.StackOverflowError at outer > deeper > .*deeper > … \\([0-9,]+ more\\) > deeper > deeper")
+                    assertTrue(recursion.matches(answers[2].toString()), answers[2].toString())
+                    assertEquals(true, answers[3])
+                }
+            }
         }
     }
 }

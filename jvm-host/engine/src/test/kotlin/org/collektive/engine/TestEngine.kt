@@ -1,6 +1,7 @@
 package org.collektive.engine
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
@@ -12,7 +13,7 @@ internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any
 
     override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = aggregate.body(device)
 
-    override fun describe(failure: Throwable): String = failure.toString()
+    override fun describe(failure: Throwable, place: ProgramPlace?): String = "$failure at ${place?.path}"
 }
 
 /** An engine with the real runtime, ticked one by one. */

@@ -1,6 +1,8 @@
 package org.collektive.host
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import it.unibo.collektive.aggregate.api.impl.told
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.api.Program
@@ -36,7 +38,7 @@ internal class LoadedProgram(private val info: Program, private val function: Me
         }
     }
 
-    override fun describe(failure: Throwable): String = RoundFailure.describe(failure)
+    override fun describe(failure: Throwable, place: ProgramPlace?): String = RoundFailure.describe(failure, place)
 
     /** The parameters of a node that sets [values]. */
     fun parameters(node: Int, values: Map<String, String>): Parameters {
@@ -67,8 +69,8 @@ internal object RoundFailure {
     private const val MAX_MESSAGE = 2000
     private const val MAX_FRAMES = 20
 
-    fun describe(failure: Throwable): String = buildString {
-        append(line(failure))
+    fun describe(failure: Throwable, place: ProgramPlace?): String = buildString {
+        append(lineWithPlace(failure, place))
         frames(failure)
         var cause = failure.cause
         var depth = 0
@@ -79,8 +81,18 @@ internal object RoundFailure {
         }
     }
 
+    private fun lineWithPlace(failure: Throwable, place: ProgramPlace?): String {
+        val line = line(failure)
+        // An answer is judged when the program is over, and the runtime's own errors tell their place themselves.
+        return if (place == null || failure is UnusableAnswer || place.toString() in line) line else told(line, place)
+    }
+
     private fun line(failure: Throwable): String {
-        val text = if (failure is UnusableAnswer) failure.message.orEmpty() else failure.toString()
+        val text = when (failure) {
+            is UnusableAnswer -> failure.message.orEmpty()
+            is StackOverflowError -> "$failure: the recursion does not end"
+            else -> failure.toString()
+        }
         return text.take(MAX_MESSAGE).replace('\n', ' ').replace('\r', ' ')
     }
 

@@ -10,12 +10,19 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.TestFactory
 import org.junit.jupiter.api.io.TempDir
 import java.io.File
+import java.net.URLClassLoader
 import java.nio.file.Path
 import java.util.ServiceLoader
+import java.util.jar.JarFile
 import kotlin.io.path.Path
 import kotlin.io.path.copyTo
 import kotlin.io.path.createParentDirectories
 import kotlin.io.path.writeText
+import kotlin.metadata.Visibility
+import kotlin.metadata.isReified
+import kotlin.metadata.jvm.KotlinClassMetadata
+import kotlin.metadata.jvm.signature
+import kotlin.metadata.visibility
 import kotlin.reflect.KClass
 import kotlin.test.fail
 
@@ -41,7 +48,19 @@ internal class PublicApiTest {
 
     private fun dump(place: File): String {
         val classes = place.walk().filter { it.isFile && it.extension in setOf("class", "jar") }.sorted().toList()
-        return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString()
+        return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString() + reified(place)
+    }
+
+    /** The functions that are put into their callers' code because of their reified types: no JVM API, and so in no dump, but Kotlin's. */
+    private fun reified(place: File): String {
+        val loader = URLClassLoader(arrayOf(place.toURI().toURL()), javaClass.classLoader)
+        val names = if (place.isFile) JarFile(place).use { jar -> jar.entries().toList().map { it.name } } else place.walk().map { it.relativeTo(place).path }.toList()
+        return names.filter { it.endsWith("Kt.class") }.sorted().joinToString("") { name ->
+            val facade = loader.loadClass(name.removeSuffix(".class").replace('/', '.')).getAnnotation(Metadata::class.java)
+            val functions = (KotlinClassMetadata.readStrict(facade) as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
+            functions.filter { it.visibility == Visibility.PUBLIC && it.typeParameters.any { type -> type.isReified } }
+                .map { "inline fun ${name.substringBeforeLast('/')}/${it.signature}\n" }.sorted().joinToString("")
+        }
     }
 
     private companion object {

@@ -88,8 +88,8 @@ class StepTest {
     @Test
     fun `a failed round is reported with its node, its program and the lines of its code`() {
         val labels = mapOf(
-            "throw" to "java.lang.IllegalStateException: broken in two lines\n    at probe.Programs.probe(Programs.java:",
-            "recurse" to "java.lang.StackOverflowError",
+            "throw" to "java.lang.IllegalStateException: broken in two lines [node 2 at root]\n    at probe.Programs.probe(Programs.java:",
+            "recurse" to "java.lang.StackOverflowError: the recursion does not end [node 2 at deeper > deeper > ",
             "memory" to "java.lang.OutOfMemoryError",
             "exit" to "java.lang.SecurityException: System.exit is refused",
             "null" to "the result is null",

@@ -7,6 +7,8 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import it.unibo.collektive.aggregate.api.impl.told
 
 /**
  * One device: the records of the last valid round and of the running one, and those that neighbours still hold.
@@ -15,6 +17,7 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
  */
 internal class AggregateDevice<ID : Any>(
     override val localId: ID,
+    private val tree: PathTree,
     private val stacks: ThreadLocal<PathStack>,
     private val rule: SharingRule,
 ) : Primitives<ID, PathNode>(),
@@ -33,11 +36,15 @@ internal class AggregateDevice<ID : Any>(
 
     override fun round(inbox: Inbox, program: RoundProgram): Any? {
         this.inbox = inbox
+        forgetFailure()
         running.clear()
         ownStack = stacks.get().also { it.popTo(0) }
         try {
             @Suppress("UNCHECKED_CAST")
             return program.run(this as Aggregate<Int>)
+        } catch (failure: Throwable) {
+            failing(failure)
+            throw failure
         } finally {
             ownStack = null
         }
@@ -74,10 +81,18 @@ internal class AggregateDevice<ID : Any>(
 
     override fun popTo(depth: Int) = stack.popTo(depth)
 
+    override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()
+
     override fun claimPath(): PathNode {
-        val path = stack.path()
-        if (!running.claim(path)) throw AlignmentClashException(path.describe())
+        val path = stack.path(this)
+        if (!running.claim(path)) throw AlignmentClashException(place)
         return path
+    }
+
+    /** Makes the new path of [pivot] below [parent], unless it cannot be one. */
+    fun enter(parent: PathNode, pivot: Any?): PathNode {
+        val fault = pivotFault(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
+        throw IllegalArgumentException(told(fault, ProgramPlace(localId, stack.resolvedTokens())))
     }
 
     @Suppress("UNCHECKED_CAST")
@@ -87,7 +102,7 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun keep(path: PathNode, value: Any?) {
-        allow(value, path)
+        allow(value)
         running.keep(path, value)
     }
 
@@ -132,7 +147,7 @@ internal class AggregateDevice<ID : Any>(
                 val value = values.neighborValue(index)
                 if (value === default) continue
                 isConstant = false
-                allow(value, path)
+                allow(value)
             }
         }
         // Receivers of a constant need not look for their value.
@@ -140,12 +155,12 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun <T> sendToAll(path: PathNode, value: T, sharing: DataSharingMethod<T>) {
-        allow(value, path)
+        allow(value)
         running.send(path, value)
     }
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
-        val path = stack.path()
+        val path = stack.path(this)
         if (running.claim(path)) running.send(path, Unit)
         val inbox = checkNotNull(inbox)
         val ids = inbox.ids
@@ -166,9 +181,7 @@ internal class AggregateDevice<ID : Any>(
         return Field.make(field.context, keptIds.copyOf(kept).requireNoNulls(), keptValues.copyOf(kept), field.localValue)
     }
 
-    private fun allow(value: Any?, path: PathNode) {
-        rule.refusal(value)?.let {
-            throw IllegalArgumentException("$it; it cannot be shared or kept (at the path '${path.describe()}')")
-        }
+    private fun allow(value: Any?) {
+        rule.refusal(value)?.let { throw IllegalArgumentException(told("$it; it cannot be shared or kept")) }
     }
 }

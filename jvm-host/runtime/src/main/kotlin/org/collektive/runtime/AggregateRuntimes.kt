@@ -2,10 +2,10 @@ package org.collektive.runtime
 
 /** The project's own implementation: devices of one process that read each other's messages in place. */
 public class AggregateRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
-    private val paths = PathTree(rule)
+    private val paths = PathTree()
     private val stacks = ThreadLocal.withInitial { PathStack(paths) }
 
-    override fun device(id: Int): DeviceRuntime = AggregateDevice(id, stacks, rule)
+    override fun device(id: Int): DeviceRuntime = AggregateDevice(id, paths, stacks, rule)
 
     override fun tidy(devices: List<DeviceRuntime>) {
         if (!paths.isCrowded) return

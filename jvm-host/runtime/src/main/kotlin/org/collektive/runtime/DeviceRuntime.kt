@@ -1,6 +1,7 @@
 package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 
 /** What the engine needs of an implementation of the Collektive API: the rounds of one device. One thread at a time. */
 public interface DeviceRuntime {
@@ -13,6 +14,9 @@ public interface DeviceRuntime {
 
     /** How many values the last round sends, one per place in the program, whether there are neighbours or not. Not for every round. */
     public val exports: Int
+
+    /** Where in the program [failure], by which the last round ended, came up; `null` when that is not known. */
+    public fun placeOf(failure: Throwable): ProgramPlace?
 
     /**
      * Makes the state of the last round the valid one and returns what that round sends.

@@ -9,7 +9,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.dataSharingMethod
-import it.unibo.collektive.aggregate.api.impl.readable
+import it.unibo.collektive.aggregate.api.impl.told
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.Path
@@ -31,26 +31,37 @@ internal class MailboxRound<ID : Any>(
     private val neighbors = ascending(inbound.neighbors)
 
     fun <R> run(program: Aggregate<ID>.() -> R): AggregateResult<ID, R> {
-        val result = program()
+        val result = try {
+            program()
+        } catch (failure: StackOverflowError) {
+            throw StackOverflowError(told("the recursion does not end", placeOf(failure))).initCause(failure)
+        }
         return AggregateResult(localId, result, outbound, newState)
     }
 
     override val depth get() = stack.size
 
     override fun push(token: Any?) {
+        pivotFault(token)?.let { throw IllegalArgumentException(told(it)) }
         stack += token
     }
+
+    override fun tokens(): List<Any?> = stack.toList()
 
     override fun popTo(depth: Int) {
         while (stack.size > depth) stack.removeLast()
     }
 
     override fun claimPath(): Path {
-        val path = pathFactory(stack)
-        if (!visited.add(path)) {
-            throw AlignmentClashException(if (stack.isEmpty()) "root" else stack.joinToString(" > ", transform = ::readable))
-        }
+        val path = currentPath()
+        if (!visited.add(path)) throw AlignmentClashException(place)
         return path
+    }
+
+    private fun currentPath(): Path = try {
+        pathFactory(stack)
+    } catch (failure: IllegalArgumentException) {
+        throw IllegalArgumentException(told(failure.message.orEmpty()), failure)
     }
 
     @Suppress("UNCHECKED_CAST")
@@ -83,7 +94,7 @@ internal class MailboxRound<ID : Any>(
     }
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
-        val path = pathFactory(stack)
+        val path = currentPath()
         val sharing = dataSharingMethod<Unit>()
         if (visited.add(path)) sendToAll(path, Unit, sharing)
         val aligned = inbound.dataAt(path, sharing).keys as Set<*>

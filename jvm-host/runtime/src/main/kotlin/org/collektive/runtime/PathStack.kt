@@ -26,11 +26,17 @@ internal class PathStack(private val tree: PathTree) {
         if (resolved > depth) resolved = depth
     }
 
-    /** The path that all tokens on the stack make. */
-    fun path(): PathNode {
+    /** A copy of the tokens on the stack. */
+    fun tokens(): List<Any?> = tokens.copyOf(depth).asList()
+
+    /** Those of them whose path has been found. */
+    fun resolvedTokens(): List<Any?> = tokens().subList(0, resolved)
+
+    /** The path that all tokens on the stack make; [device] makes it when it is new. */
+    fun path(device: AggregateDevice<*>): PathNode {
         var node = checkNotNull(nodes[resolved])
         while (resolved < depth) {
-            node = tree.child(node, tokens[resolved])
+            node = tree.find(node, tokens[resolved]) ?: device.enter(node, tokens[resolved])
             nodes[++resolved] = node
         }
         return node

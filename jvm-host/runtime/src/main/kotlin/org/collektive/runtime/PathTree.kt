@@ -1,22 +1,31 @@
 package org.collektive.runtime
 
-import it.unibo.collektive.aggregate.api.impl.readable
-
 /**
  * All paths of a session, so that equal paths of any two devices are one object.
  *
  * Look-ups take no lock: children are entered into a table in place, or into a larger copy, under the tree's lock; a reader that
  * misses one looks again under the lock. Nodes have only final fields, so a reader never sees half of one.
  */
-internal class PathTree(private val rule: SharingRule) {
+internal class PathTree {
     val root = PathNode(null, null)
 
     private var size = 0
     private var sizeToTidy = FIRST_TIDY
     private var sweep = 0
 
-    /** The node for [token] below [parent], made when it is new. */
-    fun child(parent: PathNode, token: Any?): PathNode = parent.children.find(token) ?: enter(parent, token)
+    /** The node for [token] below [parent]; `null` when it is new, or was a moment ago. */
+    fun find(parent: PathNode, token: Any?): PathNode? = parent.children.find(token)
+
+    /** [find], which makes the node when it is new. */
+    @Synchronized
+    fun enter(parent: PathNode, token: Any?): PathNode {
+        val children = parent.children
+        children.find(token)?.let { return it }
+        val node = PathNode(parent, token)
+        parent.children = children.with(node)
+        size++
+        return node
+    }
 
     /** Whether enough paths were made since the last [keepOnly] to make another worth its time. */
     val isCrowded: Boolean get() = size > sizeToTidy
@@ -46,17 +55,6 @@ internal class PathTree(private val rule: SharingRule) {
         }
     }
 
-    @Synchronized
-    private fun enter(parent: PathNode, token: Any?): PathNode {
-        val children = parent.children
-        children.find(token)?.let { return it }
-        rule.refusal(token)?.let { throw IllegalArgumentException("$it; it cannot be a pivot") }
-        val node = PathNode(parent, token)
-        parent.children = children.with(node)
-        size++
-        return node
-    }
-
     private companion object {
         /** Paths worth a sweep; a program without pivots from data never comes near. */
         const val FIRST_TIDY = 4096
@@ -79,12 +77,6 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     fun matches(other: Any?, hash: Int) = token === other || tokenHash == hash && token == other
 
     fun slot(mask: Int) = spread(tokenHash) and mask
-
-    /** `root > a > b`, tokens in the program's words. */
-    fun describe(): String {
-        val tokens = generateSequence(this) { it.parent }.toList().dropLast(1).asReversed()
-        return if (tokens.isEmpty()) "root" else tokens.joinToString(" > ") { readable(it.token) }
-    }
 
     companion object {
         fun spread(hash: Int) = hash * -0x61c88647 ushr 7

@@ -10,6 +10,8 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
 import it.unibo.collektive.aggregate.api.impl.AlignmentStack
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import it.unibo.collektive.aggregate.api.impl.told
 
 /** What primitives mean, for every way in which devices reach each other; [Path] is how that way names places of the program. */
 internal abstract class Primitives<ID : Any, Path : Any> :
@@ -17,6 +19,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     AlignmentStack {
     /** How many tokens are on the alignment stack. */
     protected abstract val depth: Int
+
+    /** A copy of those tokens, outermost first. */
+    protected abstract fun tokens(): List<Any?>
 
     /** Pushes [token]. */
     protected abstract fun push(token: Any?)
@@ -38,6 +43,33 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     /** Sends [value] to all. */
     protected abstract fun <T> sendToAll(path: Path, value: T, sharing: DataSharingMethod<T>)
+
+    private var failure: Throwable? = null
+    private var failedAt = emptyList<Any?>()
+
+    override val place: ProgramPlace get() = ProgramPlace(localId, tokens())
+
+    override fun failing(failure: Throwable) {
+        if (failure === this.failure) return
+        failedAt = tokens()
+        this.failure = failure
+    }
+
+    /** Where [failure], which ended the round, came up. */
+    fun placeOf(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
+
+    /** Forgets the failure of the last round. */
+    protected fun forgetFailure() {
+        failure = null
+    }
+
+    /** Why [pivot] is of no use where devices shall meet; `null` when nothing is wrong. */
+    protected fun pivotFault(pivot: Any?): String? = when {
+        pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: each device has another one"
+        pivot is Function<*> || pivot != null && pivot.javaClass.isArray ->
+            "a ${pivot.javaClass.simpleName} cannot be a pivot: it equals no other one; use a number, a string, a list or a data class"
+        else -> null
+    }
 
     override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
         val path = claimPath()
@@ -77,6 +109,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         push(pivot)
         try {
             return refuseField(body(), "alignedOn")
+        } catch (failure: Throwable) {
+            failing(failure)
+            throw failure
         } finally {
             popTo(before)
         }
@@ -85,7 +120,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     override fun align(pivot: Any?) = push(pivot)
 
     override fun dealign() {
-        check(depth > 0) { "dealign() without align()" }
+        check(depth > 0) { told("dealign() without align()") }
         popTo(depth - 1)
     }
 
@@ -93,7 +128,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     private fun <T> refuseField(result: T, primitive: String): T {
         check(result !is Field<*, *>) {
-            "$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside"
+            told("$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside")
         }
         return result
     }

@@ -9,7 +9,9 @@ import kotlin.test.assertSame
 import kotlin.test.assertTrue
 
 class PathTreeTest {
-    private val tree = PathTree { null }
+    private val tree = PathTree()
+
+    private fun PathTree.child(parent: PathNode, token: Any?) = find(parent, token) ?: enter(parent, token)
 
     @Test
     fun `equal tokens below one parent are one path`() {

@@ -237,12 +237,12 @@ class PrimitivesTest {
         )
         for (program in programs) {
             val error = assertFailsWith<IllegalArgumentException> { network.round(program = program).getValue(1).getOrThrow() }
-            assertEquals("a builder changes; it cannot be shared or kept (at the path 'here')", error.message)
+            assertEquals("a builder changes; it cannot be shared or kept [node 1 at here]", error.message)
         }
         val pivot = assertFailsWith<IllegalArgumentException> {
             network.round { alignedOn(view) { evolve(0) { it } } }.getValue(1).getOrThrow()
         }
-        assertEquals("a builder changes; it cannot be a pivot", pivot.message)
+        assertEquals("a builder changes; it cannot be a pivot [node 1 at root]", pivot.message)
     }
 
     @Test

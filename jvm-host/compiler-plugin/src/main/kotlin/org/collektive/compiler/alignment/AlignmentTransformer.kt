@@ -6,6 +6,8 @@ import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.backend.common.IrElementTransformerVoidWithContext
 import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
 import org.jetbrains.kotlin.backend.common.lower.DeclarationIrBuilder
+import org.jetbrains.kotlin.backend.common.lower.irCatch
+import org.jetbrains.kotlin.backend.common.lower.irThrow
 import org.jetbrains.kotlin.ir.IrStatement
 import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
 import org.jetbrains.kotlin.ir.builders.irBlock
@@ -14,6 +16,7 @@ import org.jetbrains.kotlin.ir.builders.irGet
 import org.jetbrains.kotlin.ir.builders.irString
 import org.jetbrains.kotlin.ir.builders.irTemporary
 import org.jetbrains.kotlin.ir.builders.irTry
+import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
 import org.jetbrains.kotlin.ir.declarations.IrAnnotationContainer
 import org.jetbrains.kotlin.ir.declarations.IrAnonymousInitializer
 import org.jetbrains.kotlin.ir.declarations.IrClass
@@ -32,6 +35,7 @@ import org.jetbrains.kotlin.ir.declarations.IrVariable
 import org.jetbrains.kotlin.ir.expressions.IrBlock
 import org.jetbrains.kotlin.ir.expressions.IrBlockBody
 import org.jetbrains.kotlin.ir.expressions.IrCall
+import org.jetbrains.kotlin.ir.expressions.IrCatch
 import org.jetbrains.kotlin.ir.expressions.IrConst
 import org.jetbrains.kotlin.ir.expressions.IrConstructorCall
 import org.jetbrains.kotlin.ir.expressions.IrExpression
@@ -54,6 +58,7 @@ import org.jetbrains.kotlin.ir.util.isNullable
 import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
 import org.jetbrains.kotlin.ir.util.primaryConstructor
+import org.jetbrains.kotlin.name.Name
 
 /**
  * Rewrites the aggregate functions of one file:
@@ -61,7 +66,8 @@ import org.jetbrains.kotlin.ir.util.primaryConstructor
  * - so does each arm of a branch that has such a call or reads a field;
  * - an arm, and the body of `alignedOn`, sees fields from outside only through `project`.
  *
- * Pops are in `finally`, so that no way out of a call (return, break, a caught exception) leaves a token behind.
+ * Pops are in `finally`, so that no way out of a call (return, break, a caught exception) leaves a token behind; exceptions are noted
+ * before, since the path would be gone when the round ends.
  */
 internal class AlignmentTransformer(
     private val plugin: IrPluginContext,
@@ -202,7 +208,7 @@ internal class AlignmentTransformer(
         return if (mustAlign) aligned(call) else call
     }
 
-    /** `arguments; push; try { call } finally { pop }` */
+    /** `arguments; push; try { call } catch (failure) { note it; throw it } finally { pop }` */
     private fun aligned(call: IrFunctionAccessExpression): IrExpression {
         dependsOnPath = true
         val callee = call.symbol.owner
@@ -232,7 +238,22 @@ internal class AlignmentTransformer(
             arguments[0] = aggregate()
             arguments[1] = irGet(depth)
         }
-        +irTry(body.type, body, emptyList(), pop)
+        +irTry(body.type, body, listOf(noting(aggregate)), pop)
+    }
+
+    /** `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }` */
+    private fun IrBlockBuilder.noting(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
+        val failure = buildVariable(
+            scope.getLocalDeclarationParent(), startOffset, endOffset, IrDeclarationOrigin.CATCH_PARAMETER, Name.identifier("failure"), plugin.irBuiltIns.throwableType,
+        )
+        val note = irCall(dsl.noteFailure).apply {
+            arguments[0] = aggregate()
+            arguments[1] = irGet(failure)
+        }
+        return irCatch(failure, irBlock(resultType = plugin.irBuiltIns.nothingType) {
+            +note
+            +irThrow(irGet(failure))
+        })
     }
 
     /** The Aggregate of the enclosing function. */

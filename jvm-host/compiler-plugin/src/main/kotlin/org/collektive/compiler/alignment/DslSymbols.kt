@@ -27,6 +27,7 @@ internal class DslSymbols private constructor(
     val fieldContext: IrSimpleFunctionSymbol,
     val pushToken: IrSimpleFunctionSymbol,
     val popToken: IrSimpleFunctionSymbol,
+    val noteFailure: IrSimpleFunctionSymbol,
     val project: IrSimpleFunctionSymbol,
 ) {
     fun isAggregate(type: IrType) = type.isSubtypeOfClass(aggregate)
@@ -64,6 +65,7 @@ internal class DslSymbols private constructor(
                 fieldContext = field.getPropertyGetter(DslNames.context.asString()) ?: return null,
                 pushToken = finder.findFunctions(DslNames.pushToken).singleOrNull() ?: return null,
                 popToken = finder.findFunctions(DslNames.popToken).singleOrNull() ?: return null,
+                noteFailure = finder.findFunctions(DslNames.noteFailure).singleOrNull() ?: return null,
                 project = finder.findFunctions(DslNames.project).singleOrNull() ?: return null,
             )
         }

@@ -1,7 +1,16 @@
 package it.unibo.collektive.aggregate
 
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import it.unibo.collektive.aggregate.api.impl.told
+
 /** Two primitives ran at one [path] in one round; wrap one of them (or each iteration of a loop) in `alignedOn(key) { }`. */
-public class AlignmentClashException(public val path: String) :
-    IllegalStateException(
-        "two primitives ran at the path '$path' in one round; wrap one of them, or each iteration of a loop, in alignedOn(key) { }",
-    )
+public class AlignmentClashException private constructor(public val path: String, message: String) : IllegalStateException(message) {
+    public constructor(path: String) : this(path, "$CLASH, '$path'$ADVICE")
+
+    public constructor(place: ProgramPlace) : this(place.path, told(CLASH + ADVICE, place))
+
+    private companion object {
+        const val CLASH = "two primitives ran at one path in one round"
+        const val ADVICE = "; wrap one of them, or each iteration of a loop, in alignedOn(key) { }"
+    }
+}

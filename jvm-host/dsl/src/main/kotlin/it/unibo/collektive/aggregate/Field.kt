@@ -4,6 +4,7 @@ package it.unibo.collektive.aggregate
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.impl.told
 
 /**
  * A value for this device and one for each neighbour aligned where the field was made.
@@ -53,7 +54,7 @@ public class Field<ID : Any, out T> private constructor(
     public operator fun get(id: ID): T {
         if (id == context.localId) return localValue
         val index = indexOf(id)
-        if (index < 0) throw NoSuchElementException("the field of device ${context.localId} has no value for device $id")
+        if (index < 0) throw NoSuchElementException(context.told("the field has no value for device $id, only for ${all.ids.list}"))
         return valueAt(index)
     }
 
@@ -72,7 +73,7 @@ public class Field<ID : Any, out T> private constructor(
 
     /** A field with these devices and one [value]. */
     public fun <R> mapToConstant(value: R): Field<ID, R> {
-        refuseField(value)
+        refuseField(context, value)
         return Field(context, ids, null, value)
     }
 
@@ -252,7 +253,10 @@ public class Field<ID : Any, out T> private constructor(
 
     private fun requireAligned(other: Field<ID, *>) {
         check((ids === other.ids || ids.contentEquals(other.ids)) && context.localId == other.context.localId) {
-            "fields of different devices cannot be combined: ${all.ids.list} and ${other.all.ids.list}"
+            context.told(
+                "fields of different devices cannot be combined: one has values for ${all.ids.list}, the other for ${other.all.ids.list}; " +
+                    "make both at one place of the program",
+            )
         }
     }
 
@@ -272,13 +276,13 @@ public class Field<ID : Any, out T> private constructor(
             values: Array<out Any?>,
             local: T,
         ): Field<ID, T> {
-            for (value in values) refuseField(value)
-            refuseField(local)
+            for (value in values) refuseField(context, value)
+            refuseField(context, local)
             return Field(context, ids, values, local)
         }
 
-        private fun refuseField(value: Any?) {
-            check(value !is Field<*, *>) { "a field cannot be a value of a field: $value" }
+        private fun refuseField(context: Aggregate<*>, value: Any?) {
+            check(value !is Field<*, *>) { context.told("a field cannot be a value of a field: $value") }
         }
     }
 }

@@ -2,7 +2,10 @@ package it.unibo.collektive.networking
 
 import it.unibo.collektive.aggregate.api.InMemory
 import it.unibo.collektive.aggregate.api.Serialize
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import it.unibo.collektive.aggregate.api.impl.told
 import it.unibo.collektive.path.Path
+import it.unibo.collektive.path.tokens
 import kotlinx.serialization.BinaryFormat
 import kotlinx.serialization.KSerializer
 import kotlinx.serialization.SerialFormat
@@ -26,7 +29,8 @@ public class SerializedMessageFactory<ID : Any, Payload>(private val serializerF
                 InMemory -> throw SerializationException("it was shared for use inside one process only")
             }
         } catch (cause: SerializationException) {
-            throw SerializationException("device $senderId cannot send ${value.payload} at the path '$path': ${cause.message}", cause)
+            val place = ProgramPlace(senderId, path.tokens())
+            throw SerializationException(told("${value.payload} cannot be sent: ${cause.message}", place), cause)
         }
     }
 }

@@ -9,12 +9,19 @@ import java.security.MessageDigest
  * data classes of these does.
  */
 public object DigestHashingFactory : PathFactory {
+    /** @throws IllegalArgumentException when the text of a token is that of `Any`, which differs from device to device. */
     override fun invoke(tokens: List<Any?>): Path {
         val digest = MessageDigest.getInstance("SHA-256")
         for (token in tokens) {
+            require(token is String || token == null || saysWhatItIs(token.javaClass)) {
+                "a ${token?.javaClass?.name} cannot be a pivot where messages are serialised: it has no toString of its own; " +
+                    "use a number, a string, an enum or a data class"
+            }
             val text = "${token?.javaClass?.name} $token"
             digest.update("${text.length} $text".toByteArray())
         }
-        return DigestPath(digest.digest().joinToString("") { "%02x".format(it) })
+        return DigestPath(digest.digest().joinToString("") { "%02x".format(it) }, tokens.toList())
     }
+
+    private fun saysWhatItIs(type: Class<*>) = type.getMethod("toString").declaringClass != Any::class.java
 }

@@ -1,5 +1,7 @@
 package it.unibo.collektive.path
 
+import it.unibo.collektive.aggregate.api.impl.readable
+
 /** A path that keeps its [tokens]: exact and readable, for devices of one process. It cannot be serialised. */
 public data class FullPath(public val tokens: List<Any?>) : Path {
     private val hash = tokens.hashCode()
@@ -8,5 +10,5 @@ public data class FullPath(public val tokens: List<Any?>) : Path {
 
     override fun equals(other: Any?): Boolean = this === other || other is FullPath && hash == other.hash && tokens == other.tokens
 
-    override fun toString(): String = tokens.joinToString(" > ")
+    override fun toString(): String = tokens.joinToString(" > ", transform = ::readable)
 }

@@ -75,5 +75,5 @@ class RoutesTest {
     }
 
     private fun told(entry: Map.Entry<Int, Result<Any?>>): Any? =
-        entry.value.fold({ it }, { "${it::class.simpleName}: ${it.message}" })
+        entry.value.fold({ it }, { "${it::class.simpleName}: ${if (it is AlignmentClashException) it.path else it.message}" })
 }

@@ -3,7 +3,12 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.impl.told
+import kotlinx.serialization.KSerializer
+import kotlinx.serialization.SerializationException
 import kotlinx.serialization.serializer
+import kotlin.reflect.KType
+import kotlin.reflect.typeOf
 
 /**
  * Sends a value of its own to each neighbour and keeps one: [body] gets what aligned neighbours sent here, with the value kept
@@ -44,4 +49,13 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(
  */
 @DelicateCollektiveApi
 public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> =
-    if (inMemoryOnly) InMemory else Serialize(serializer<Shared>())
+    if (inMemoryOnly) InMemory else serialized(typeOf<Shared>())
+
+@PublishedApi
+@Suppress("UNCHECKED_CAST")
+internal fun <Shared> Aggregate<*>.serialized(type: KType): DataSharingMethod<Shared> = try {
+    Serialize(serializer(type) as KSerializer<Shared>)
+} catch (cause: SerializationException) {
+    val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
+    throw SerializationException(told("values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"), cause)
+}

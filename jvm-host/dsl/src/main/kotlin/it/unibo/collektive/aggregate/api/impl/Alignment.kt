@@ -26,6 +26,12 @@ public interface AlignmentStack {
      * there. Unlike a primitive it may be asked any number of times at one path.
      */
     public fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T>
+
+    /** Where the program is. */
+    public val place: ProgramPlace
+
+    /** Remembers the current path as the one where [failure] came up, unless it is known already. */
+    public fun failing(failure: Throwable)
 }
 
 /** Called by compiled programs before an aligned call or branch; the result is for [popToken]. */
@@ -38,6 +44,11 @@ public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
 /** Called by compiled programs after an aligned call or branch, however it ended. */
 public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
     if (aggregate is AlignmentStack) aggregate.popTo(depth) else aggregate?.dealign()
+}
+
+/** Called by compiled programs when [failure] leaves an aligned call or branch, before [popToken]. */
+public fun noteFailure(aggregate: Aggregate<*>?, failure: Throwable) {
+    if (aggregate is AlignmentStack) aggregate.failing(failure)
 }
 
 /** Called by compiled programs where a branch or an `alignedOn` body reads a [field] from outside: [field], restricted to the neighbours aligned there. */

@@ -1,0 +1,60 @@
+package org.collektive.compiler
+
+import org.junit.jupiter.api.assertThrows
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+/** Where a program fails is known when its exception arrives, though the stack is empty then. */
+class FailureTest {
+    @Test
+    fun `an exception is noted where it came up`() = assertFails("plain", "helper > if > deep", "Program.kt:2")
+
+    @Test
+    fun `calls that were over do not count`() = assertFails("afterwards", "helper", "Program.kt:4")
+
+    @Test
+    fun `arms count, and lambdas where they run`() = assertFails("arms", "if > run", "Program.kt:5")
+
+    @Test
+    fun `an exception that was caught does not count`() = assertFails("caught", "deep", "Program.kt:8")
+
+    @Test
+    fun `one that was thrown again keeps its place`() = assertFails("again", "helper > if > deep", "Program.kt:2")
+
+    @Test
+    fun `at the root there is no path`() {
+        val network = ReferenceDevices(0)
+        assertThrows<IllegalStateException> { network.round(compiled.program("root")) }
+        assertEquals(null, (network.devices.getValue(0) as ReferenceDevice).failed)
+    }
+
+    @Test
+    fun `devices of other implementations pass exceptions on`() {
+        assertThrows<IllegalStateException> { ReferenceDevices(0, plain = true).round(compiled.program("plain")) }
+    }
+
+    private fun assertFails(program: String, path: String, location: String) {
+        val network = ReferenceDevices(0)
+        val thrown = assertThrows<IllegalStateException> { network.round(compiled.program(program)) }
+        val (place, failure) = checkNotNull((network.devices.getValue(0) as ReferenceDevice).failed)
+        assertEquals(listOf(thrown, path, location), listOf(failure, place.path, place.location))
+    }
+
+    private companion object {
+        val compiled = Compilation.of(
+            """
+            fun Aggregate<Int>.deep(): Int = if (localId < 0) 1 else error("deep")
+            fun Aggregate<Int>.helper(fails: Boolean = true): Int { neighboring(localId); return if (fails) deep() else error("after") }
+            fun Aggregate<Int>.plain(): Int = helper()
+            fun Aggregate<Int>.afterwards(): Int = neighboring(localId).local.value + helper(fails = false)
+            fun Aggregate<Int>.arms(): Int = if (localId == 0) { run { evolve(0) { it }; error("in an arm") } } else 1
+            fun Aggregate<Int>.caught(): Int {
+                try { helper() } catch (_: IllegalStateException) { evolve(0) { it } }
+                return deep()
+            }
+            fun Aggregate<Int>.again(): Int = try { helper() } catch (e: IllegalStateException) { evolve(0) { it }; throw e }
+            fun Aggregate<Int>.root(): Int { evolve(0) { it }; error("root") }
+            """,
+        )
+    }
+}

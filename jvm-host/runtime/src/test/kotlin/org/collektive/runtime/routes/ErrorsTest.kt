@@ -1,0 +1,148 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.runtime.routes
+
+import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.impl.noteFailure
+import it.unibo.collektive.aggregate.api.impl.popToken
+import it.unibo.collektive.aggregate.api.impl.pushToken
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.api.share
+import kotlinx.serialization.SerializationException
+import org.junit.jupiter.api.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertIs
+import kotlin.test.assertTrue
+
+/** What programs do wrong is told with the node, the path and the place in the sources, on every route, and harms no other node. */
+class ErrorsTest {
+    /** Runs [body] as a compiled program runs a call of [name] in line [line] of Swarm.kt. */
+    private inline fun <R> Aggregate<Int>.call(name: String, line: Int, body: () -> R): R {
+        val depth = pushToken(this, "$name@Swarm.kt:$line#0123456789abcdef")
+        try {
+            return body()
+        } catch (failure: Throwable) {
+            noteFailure(this, failure)
+            throw failure
+        } finally {
+            popToken(this, depth)
+        }
+    }
+
+    /** The error of [program] inside `helper` on node 1 of three in a row, whose rounds go well before and after. */
+    private fun failure(route: Route, program: Aggregate<Int>.() -> Any?): Throwable {
+        val graph = Graph()
+        for (id in 0..2) {
+            graph.add(id)
+            route.add(id)
+        }
+        for ((from, to) in listOf(0 to 1, 1 to 0, 1 to 2, 2 to 1)) graph.link(from, to)
+        fun round(fails: Boolean): Map<Int, Result<Any?>> {
+            graph.now += 2
+            val results = route.round(graph, listOf(0, 1, 2)) {
+                val count = call("count", 1) { evolve(0) { it + 1 } }
+                if (fails && localId == 1) call("helper", 7) { program() } else count to call("near", 2) { neighboring(count).neighbors.list.size }
+            }
+            graph.sent(results.filterValues { it.isSuccess }.keys)
+            return results
+        }
+        round(fails = false)
+        round(fails = false)
+        val failed = round(fails = true)
+        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the others, on ${route.name}")
+        assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), round(fails = false).values.map { it.getOrThrow() }, "afterwards, on ${route.name}")
+        return failed.getValue(1).exceptionOrNull() ?: error("nothing failed on ${route.name}")
+    }
+
+    private fun onAll(check: (Route) -> Unit) = FastRoute(2).use { fast ->
+        for (route in listOf(fast, MailboxRoute(inMemory = true), MailboxRoute(inMemory = false))) check(route)
+    }
+
+    private inline fun <reified E : Throwable> assertTold(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) = onAll { route ->
+        val error = assertIs<E>(failure(route, program), route.name)
+        assertContains(error.message.orEmpty(), what, message = route.name)
+        assertTrue(error.message.orEmpty().endsWith(" [$place]"), "${route.name}: ${error.message}")
+    }
+
+    @Test
+    fun `two primitives at one path`() =
+        assertTold<AlignmentClashException>("alignedOn(key) { }", "node 1 at helper > share (Swarm.kt:9)") {
+            call("share", 9) { share(1) { it.local.value } }
+            call("share", 9) { share(1) { it.local.value } }
+        }
+
+    @Test
+    fun `fields of different devices`() =
+        assertTold<IllegalStateException>("one has values for [0, 2, 1], the other for [1]", "node 1 at helper (Swarm.kt:7)") {
+            // Nobody else comes here.
+            val alone = call("alone", 8) { neighboring(2) }
+            Field.make(this, arrayOf(0, 2), arrayOf(1, 1), 1).alignedMap(alone) { _, a, b -> a + b }
+        }
+
+    @Test
+    fun `a value for a device that is no neighbour`() =
+        assertTold<NoSuchElementException>("no value for device 99, only for [1]", "node 1 at helper (Swarm.kt:7)") {
+            call("neighboring", 8) { neighboring(1) }[99]
+        }
+
+    @Test
+    fun `a field as a value or a result`() {
+        assertTold<IllegalStateException>("a field cannot be a value of a field", "node 1 at helper (Swarm.kt:7)") {
+            val field = call("neighboring", 8) { neighboring(1) }
+            field.mapToConstant(field)
+        }
+        assertTold<IllegalStateException>("alignedOn returned a field", "node 1 at helper > alignedOn > key (Swarm.kt:8)") {
+            call("alignedOn", 8) { alignedOn("key") { neighboring(1) } }
+        }
+    }
+
+    @Test
+    fun `a pivot that cannot be a key`() {
+        val place = "node 1 at helper (Swarm.kt:7)"
+        for (pivot in listOf(intArrayOf(1), arrayOf("a"), { 1 })) {
+            assertTold<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) { alignedOn(pivot) { evolve(0) { it } } }
+        }
+        assertTold<IllegalArgumentException>("a Field cannot be a pivot", place) {
+            val field = call("near", 2) { neighboring(1) }
+            alignedOn(field) { evolve(0) { it } }
+        }
+    }
+
+    @Test
+    fun `a pivot without a text of its own, where messages are serialised`() {
+        class Key
+        val error = failure(MailboxRoute(inMemory = false)) { alignedOn(Key()) { evolve(0) { it } } }
+        assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: it has no toString of its own")
+        assertContains(error.message.orEmpty(), "[node 1 at helper > ")
+    }
+
+    @Test
+    fun `a value that cannot be serialised`() {
+        class Plain
+        val json = MailboxRoute(inMemory = false)
+        val type = assertIs<SerializationException>(failure(json) { call("share", 9) { share(Plain()) { it.local.value } } })
+        assertContains(type.message.orEmpty(), "Plain cannot be sent: there is no serializer; mark the class with @Serializable")
+        assertTrue(type.message.orEmpty().endsWith("[node 1 at helper > share (Swarm.kt:9)]"), type.message)
+        // This route writes messages when they are read.
+        val value = assertFailsWith<SerializationException> {
+            failure(MailboxRoute(inMemory = false)) { call("neighboring", 8) { neighboring(Double.NaN) }.local.value }
+        }
+        assertContains(value.message.orEmpty(), "NaN cannot be sent: ")
+        assertTrue(value.message.orEmpty().endsWith("[node 1 at helper > neighboring (Swarm.kt:8)]"), value.message)
+    }
+
+    @Test
+    fun `recursion without end`() {
+        fun Aggregate<Int>.deeper(): Int = call("deeper", 3) { alignedOn("key") { deeper() } } + 1
+        for (inMemory in listOf(true, false)) {
+            val error = assertIs<StackOverflowError>(failure(MailboxRoute(inMemory)) { deeper() })
+            val told = Regex("the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]")
+            assertTrue(told.matches(error.message.orEmpty()), error.message)
+        }
+    }
+}
