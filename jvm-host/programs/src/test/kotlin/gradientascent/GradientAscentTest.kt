@@ -1,13 +1,11 @@
 package gradientascent
 
-import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.api.Philox
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
-import org.collektive.schema.Vector3T
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
@@ -77,21 +75,5 @@ class GradientAscentTest {
         override val random = Philox(1, id, 0)
         override val parameters = Parameters(mapOf("step" to step))
         override val globals: Any? = null
-    }
-
-    private fun vector(x: Float, y: Float, z: Float) = Vector3T().also {
-        it.x = x
-        it.y = y
-        it.z = z
-    }
-
-    private fun sensors(intensity: Float, position: Vector3T, vararg obstacles: Vector3T): SensorData {
-        val builder = FlatBufferBuilder()
-        val data = SensorDataT()
-        data.intensity = intensity
-        data.position = position
-        data.obstacles = arrayOf(*obstacles)
-        builder.finish(SensorData.pack(builder, data))
-        return SensorData.getRootAsSensorData(builder.dataBuffer())
     }
 }

@@ -3,9 +3,10 @@ package org.collektive.engine
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
+import org.collektive.runtime.AggregateRuntimes
+import org.collektive.runtime.DeviceRuntimes
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.TestFactory
-import kotlin.random.Random
 import kotlin.test.assertEquals
 
 /** Random runs with nodes and links coming and going, against a model made of maps, for any number of threads. */
@@ -14,8 +15,9 @@ class ModelTest {
     fun `the engine does what the model does`(): List<DynamicTest> = Schedule.entries.flatMap { schedule ->
         (1..12).map { seed ->
             DynamicTest.dynamicTest("$schedule, seed $seed") {
-                val expected = Model(schedule).let { model -> ticks(seed).map(model::step) }
-                for (threads in listOf(1, 2, 8)) assertEquals(expected, run(seed, threads, schedule), "$threads threads")
+                val expected = Model(schedule).let { model -> Changes.random(seed, 60).map(model::step) }
+                for (threads in listOf(1, 2, 8)) assertEquals(expected, run(seed, threads, schedule, AggregateRuntimes()), "$threads threads")
+                assertEquals(expected, run(seed, 2, schedule, MailboxRuntimes()), "by mailboxes")
             }
         }
     }
@@ -23,39 +25,11 @@ class ModelTest {
     @TestFactory
     fun `the two schedules differ`(): List<DynamicTest> = listOf(1).map { seed ->
         DynamicTest.dynamicTest("seed $seed") {
-            assert(run(seed, 2, Schedule.LOCKSTEP) != run(seed, 2, Schedule.SEQUENTIAL))
+            assert(run(seed, 2, Schedule.LOCKSTEP, AggregateRuntimes()) != run(seed, 2, Schedule.SEQUENTIAL, AggregateRuntimes()))
         }
     }
 
-    private class Changes(
-        val removed: List<Int>,
-        val added: List<Int>,
-        val unlinked: List<Pair<Int, Int>>,
-        val linked: List<Pair<Int, Int>>,
-        val due: List<Int>,
-    )
-
-    /** A random but valid sequence of ticks. */
-    private fun ticks(seed: Int): List<Changes> {
-        val random = Random(seed)
-        val nodes = sortedSetOf<Int>()
-        val links = sortedSetOf<Pair<Int, Int>>(compareBy({ it.first }, { it.second }))
-        return List(60) {
-            val removed = nodes.filter { random.nextInt(20) == 0 }.shuffled(random)
-            nodes.removeAll(removed.toSet())
-            links.removeIf { it.first in removed || it.second in removed }
-            val added = List(random.nextInt(6)) { random.nextInt(60) }.distinct().filter { it !in nodes }
-            nodes.addAll(added)
-            val unlinked = links.filter { random.nextInt(8) == 0 }.shuffled(random)
-            links.removeAll(unlinked.toSet())
-            val linked = if (nodes.isEmpty()) emptyList() else List(random.nextInt(30)) { nodes.random(random) to nodes.random(random) }
-            val valid = linked.filter { it.first != it.second }.distinct()
-            links.addAll(valid)
-            Changes(removed, added, unlinked, valid, nodes.filter { random.nextInt(5) > 0 })
-        }
-    }
-
-    private fun run(seed: Int, threads: Int, schedule: Schedule): List<Map<Int, Any?>> {
+    private fun run(seed: Int, threads: Int, schedule: Schedule, runtimes: DeviceRuntimes): List<Map<Int, Any?>> {
         val program = program {
             val count = alignedOn("count") { evolve(0L) { it + 1 } }
             val sum = alignedOn("sum") {
@@ -68,18 +42,8 @@ class ModelTest {
             if ((count + localId) % 7 == 0L) error("every seventh")
             Triple(count, sum, near)
         }
-        return TestEngine(program, threads, schedule).use { test ->
-            ticks(seed).map { changes ->
-                with(test) {
-                    step {
-                        changes.removed.forEach(nodesRemoved::add)
-                        add(*changes.added.toIntArray())
-                        changes.unlinked.forEach { unlink(it.first, it.second) }
-                        changes.linked.forEach { link(it.first, it.second) }
-                        due(*changes.due.toIntArray())
-                    }.toMap().mapValues { it.value.takeIf { value -> value is Triple<*, *, *> } }
-                }
-            }
+        return TestEngine(program, threads, schedule, runtimes = runtimes).use { test ->
+            Changes.random(seed, 60).map { changes -> test.step(changes).toMap().mapValues { it.value.takeIf { value -> value is Triple<*, *, *> } } }
         }
     }
 

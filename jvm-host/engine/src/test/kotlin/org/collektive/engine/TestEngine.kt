@@ -5,6 +5,7 @@ import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
+import org.collektive.runtime.DeviceRuntimes
 import java.util.concurrent.TimeUnit
 
 /** A program from a lambda. */
@@ -22,8 +23,9 @@ internal class TestEngine(
     threads: Int = 1,
     schedule: Schedule = Schedule.LOCKSTEP,
     seed: Long = 1,
+    runtimes: DeviceRuntimes = AggregateRuntimes(),
 ) : AutoCloseable {
-    val engine = Engine(EngineSettings(seed, threads, schedule), AggregateRuntimes())
+    val engine = Engine(EngineSettings(seed, threads, schedule), runtimes)
     private val data = object : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
