@@ -43,7 +43,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(24, "a float[] cannot be a pivot", "alignedOn", "Probe.kt:")]
         [TestCase(25, "a probe.SensorData inside a kotlin.Pair is a view", "share", "Probe.kt:")]
         [TestCase(26, "a probe.SensorData inside a java.util.", "share", "Probe.kt:")]
-        [TestCase(27, "no value for device 99", "root", "Probe.kt:")]
+        [TestCase(27, "no value for device 99", "when ", "Probe.kt:")]
         public void An_error_of_a_program_tells_the_node_the_path_and_the_line(int trouble, string what, string path, string line)
         {
             Configure("trouble");

@@ -1,5 +1,6 @@
 package probe
 
+import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
@@ -64,18 +65,15 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
-/** Combines what only one of two nodes sees with what both see. */
-private fun Aggregate<Int>.misaligned(): Int {
-    val all = neighborhood()
-    val alone = listOf(1).map { alignedOn(localId) { listOf(neighboring(it)) }.single() }.single()
-    return all.alignedMap(alone) { _, _, b -> b }.local.value
-}
+/** Combines a field of all neighbours, hidden from projection in a list, with one of those that are here. */
+private fun Aggregate<Int>.misaligned(all: List<Field<Int, Unit>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
 
 /** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
 @Program("trouble")
 public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
     val rounds = evolve(0) { it + 1 }
+    val near = listOf(neighborhood())
     when (sensors.value().toInt()) {
         13 -> error("thirteen")
         14 -> while (true) Thread.onSpinWait()
@@ -87,7 +85,7 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         20 -> println("a line from the program")
         21 -> for (time in 1..2) clash()
         22 -> deeper(0)
-        23 -> misaligned()
+        23 -> misaligned(near)
         24 -> alignedOn(floatArrayOf(1f)) { neighboring(1).local.value }
         25 -> share(sensors.value() to sensors) { it.local.value }
         26 -> share(listOf(Reading("now", sensors))) { it.local.value }
