@@ -581,10 +581,21 @@ class TheHouse(unittest.TestCase):
 
     def test_the_documentations_links_lead_somewhere(self):
         folder = os.path.join(ROOT, "unity/Documentation~")
-        for name in os.listdir(folder):
+        for name in sorted(os.listdir(folder)):
+            if not name.endswith(".md"):
+                continue
             with open(os.path.join(folder, name)) as file:
                 for link in re.findall(r"\]\(([^)h][^)]*)\)", file.read()):
                     self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
+
+    def test_each_setting_of_the_jvm_is_documented(self):
+        with open(os.path.join(ROOT, "unity/Runtime/Bridge/JvmSetting.cs")) as file:
+            keys = re.findall(r"new JvmSetting\(\s*nameof\(JvmSettings\.(\w+)\)", file.read())
+        self.assertGreater(len(keys), 10)
+        with open(os.path.join(ROOT, "unity/Documentation~/jvm-and-jfr.md")) as file:
+            page = file.read()
+        for key in keys:
+            self.assertIn(f"`{key}`", page)
 
     def test_troubleshooting_quotes_messages_that_there_are(self):
         sources = ""
@@ -600,7 +611,7 @@ class TheHouse(unittest.TestCase):
             messages = re.findall(r"^\| `([^`]+)`", file.read(), re.M)
         self.assertGreater(len(messages), 20)
         for message in messages:
-            self.assertIn(message, sources)
+            self.assertTrue(message in sources, f"no source has the message '{message}'")
 
     def test_each_requirement_is_mapped_to_tests_that_exist(self):
         with open(os.path.join(ROOT, "docs/requirements.md")) as file:

@@ -20,6 +20,8 @@ compiled() {
 compiled UnityEngine.dll "" -unsafe+ $(sources "$ROOT/unity/Headless~/UnityEngine")
 compiled Collektive.Bridge.dll "Collektive.FlatBuffers.dll" -unsafe+ "@$package/Runtime/Bridge/csc.rsp" $(sources "$package/Runtime/Bridge")
 compiled Collektive.Unity.dll "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll" $(sources "$package/Runtime/Unity")
+compiled UnityEditor.dll "UnityEngine.dll" $(sources "$ROOT/unity/Headless~/UnityEditor")
+compiled Collektive.Unity.Editor.dll "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll UnityEditor.dll" $(sources "$package/Editor")
 compiled Collektive.Player.exe "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll $(basename "$NEWTONSOFT")" \
   -target:exe $(sources "$ROOT/unity/Headless~/Player" "$ROOT/unity/Headless~/Replay")
 for sample in "$package/Samples~"/*/; do

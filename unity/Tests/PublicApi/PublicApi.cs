@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.Reflection;
 using System.Text;
 
@@ -69,7 +70,7 @@ namespace Collektive.Unity.PublicApi.Tests
         private static string Parameters(ParameterInfo[] parameters, string open, string close)
         {
             if (parameters.Length == 0 && open == "[") return "";
-            var parts = Array.ConvertAll(parameters, parameter => Name(parameter.ParameterType) + " " + parameter.Name + (parameter.IsOptional ? " = " + (parameter.DefaultValue ?? "null") : ""));
+            var parts = Array.ConvertAll(parameters, parameter => Name(parameter.ParameterType) + " " + parameter.Name + (parameter.IsOptional ? " = " + Convert.ToString(parameter.DefaultValue ?? "null", CultureInfo.InvariantCulture) : ""));
             return open + string.Join(", ", parts) + close;
         }
 
