@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The part of the manager's inspector about the JVM: memory, and a flight recording to start and stop while the scene plays.</summary>
+    /// <summary>What an inspector or a window shows of the JVM: memory, and a flight recording to start, dump, stop and find while the scene plays.</summary>
     internal sealed class Recorder
     {
         /// <summary>Where recordings go: beside the project's assets, so that they are found and never imported.</summary>
@@ -16,6 +16,10 @@ namespace Collektive.Unity.Editor
 
         private const double Interval = 0.5;
 
+        private static readonly GUIContent Settings = new GUIContent(
+            "Recording settings", "default: little overhead, for recordings without end. profile: more samples. Or the path of a .jfc file.");
+
+        private string settings = JvmRecording.Profile;
         private JvmStatus status;
         private double asked = double.NegativeInfinity;
 
@@ -27,15 +31,21 @@ namespace Collektive.Unity.Editor
             EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections + " collections");
             EditorGUILayout.LabelField("Flight recording", status.Recording.ToString().ToLowerInvariant() + (status.RecordingPath.Length > 0 ? ": " + status.RecordingPath : ""));
             if (status.RecordingError.Length > 0) EditorGUILayout.HelpBox(status.RecordingError, MessageType.Error);
-            if (status.Recording == RecordingState.Off && GUILayout.Button("Start Recording")) Do(Start);
-            if (status.Recording == RecordingState.On && GUILayout.Button("Stop Recording")) Do(JvmRecording.Stop);
+            if (status.Recording == RecordingState.Off)
+            {
+                settings = EditorGUILayout.TextField(Settings, settings);
+                if (GUILayout.Button("Start Recording")) Do(() => JvmRecording.Start(NewFile("collektive"), settings));
+            }
+            if (status.Recording == RecordingState.On)
+            {
+                if (GUILayout.Button("Dump Recording")) Do(() => JvmRecording.Dump(NewFile("dump")));
+                if (GUILayout.Button("Stop Recording")) Do(JvmRecording.Stop);
+            }
+            if (status.RecordingsWritten > 0 && GUILayout.Button("Show Recordings")) EditorUtility.RevealInFinder(Folder);
         }
 
-        private static void Start()
-        {
-            Directory.CreateDirectory(Folder);
-            JvmRecording.Start(Path.Combine(Folder, "collektive-" + DateTime.Now.ToString("yyyyMMdd-HHmmss", CultureInfo.InvariantCulture) + ".jfr"), JvmRecording.Profile);
-        }
+        private static string NewFile(string name) =>
+            Path.Combine(Folder, name + "-" + DateTime.Now.ToString("yyyyMMdd-HHmmss", CultureInfo.InvariantCulture) + ".jfr");
 
         private void Do(Action action)
         {

@@ -12,6 +12,8 @@ namespace Collektive.Unity.Editor
         private const string KnownPrograms = "Collektive.Programs";
 
         private readonly Recorder recorder = new Recorder();
+        private UnityEditor.Editor jvm;
+        private bool isJvmShown;
 
         /// <summary>The dashboard changes with each tick.</summary>
         public override bool RequiresConstantRepaint() => EditorApplication.isPlaying;
@@ -25,7 +27,22 @@ namespace Collektive.Unity.Editor
             DrawDefaultInspector();
             if (isRunning) EditorGUILayout.HelpBox("Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.", MessageType.Info);
             else DrawPrograms();
+            DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);
+        }
+
+        /// <summary>The settings of the asset that the manager names, in place.</summary>
+        private void DrawJvm(JvmSettingsAsset asset)
+        {
+            if (asset == null) return;
+            isJvmShown = EditorGUILayout.Foldout(isJvmShown, "JVM settings", true);
+            if (!isJvmShown) return;
+            if (jvm == null || jvm.target != asset)
+            {
+                if (jvm != null) DestroyImmediate(jvm);
+                jvm = CreateEditor(asset);
+            }
+            jvm.OnInspectorGUI();
         }
 
         private void DrawPrograms()

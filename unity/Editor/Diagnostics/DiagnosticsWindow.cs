@@ -4,12 +4,14 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Tools &gt; Collektive &gt; Diagnostics: nodes with their values and neighbours, errors, durations, the JVM's log.</summary>
+    /// <summary>Tools &gt; Collektive &gt; Diagnostics: nodes with their values and neighbours, errors, durations, the JVM's log, memory and recordings.</summary>
     internal sealed class DiagnosticsWindow : EditorWindow
     {
         private const int MaxRows = 200;
 
-        private static readonly string[] Tabs = { "Nodes", "Errors", "Times", "Log" };
+        private static readonly string[] Tabs = { "Nodes", "Errors", "Times", "Log", "JVM" };
+
+        private readonly Recorder recorder = new Recorder();
 
         private Diagnostics diagnostics;
         private Vector2 scroll;
@@ -38,7 +40,8 @@ namespace Collektive.Unity.Editor
             if (tab == 0) DrawNodes();
             else if (tab == 1) DrawErrors();
             else if (tab == 2) DrawTimes();
-            else DrawLog();
+            else if (tab == 3) DrawLog();
+            else recorder.Draw();
             GUILayout.EndScrollView();
         }
 

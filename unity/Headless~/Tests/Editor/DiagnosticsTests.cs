@@ -96,7 +96,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             Draw();
-            foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"), (3, "toolbar Nodes Errors Times Log: Log") })
+            foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"), (3, "toolbar Nodes Errors Times Log JVM: Log") })
             {
                 Gui.Act("toolbar", tab);
                 Draw();
@@ -172,7 +172,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_flight_recording_is_started_and_stopped_in_the_inspector()
+        public void A_flight_recording_is_started_dumped_stopped_and_found_in_the_inspector()
         {
             MakeThree();
             var before = Directory.GetCurrentDirectory();
@@ -185,9 +185,18 @@ namespace Collektive.Headless.Tests.Editor
                 Gui.Act("Start Recording", true);
                 Inspect(inspector, "button Stop Recording");
                 Play(2);
+                Gui.Act("Dump Recording", true);
+                Inspect(inspector, "button Show Recordings");
                 Gui.Act("Stop Recording", true);
                 Inspect(inspector, "button Start Recording");
                 Assert.That(Directory.GetFiles(Recorder.Folder, "collektive-*.jfr").Length, Is.EqualTo(1));
+                Assert.That(Directory.GetFiles(Recorder.Folder, "dump-*.jfr").Length, Is.EqualTo(1));
+                Gui.Act("Show Recordings", true);
+                inspector.OnInspectorGUI();
+                Assert.That(Project.Revealed, Is.EqualTo(Recorder.Folder));
+                Gui.Act("Recording settings", "fastest");
+                Gui.Act("Start Recording", true);
+                Inspect(inspector, "help Error: flight recording: there are no settings 'fastest'; there are default, profile and the paths of .jfc files");
             }
             finally
             {
@@ -212,6 +221,19 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(asset.settings.maximumHeapMb, Is.EqualTo(3));
             inspector.OnInspectorGUI();
             Assert.That(Gui.Lines, Has.Some.Contains("help Error: maximum heap is 3: it must be 16"));
+        }
+
+        [Test]
+        public void The_JVMs_settings_are_edited_in_the_managers_inspector()
+        {
+            MakeThree();
+            var inspector = UnityEditor.Editor.CreateEditor(Manager);
+            inspector.OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("foldout JVM settings: closed"));
+            Gui.Act("JVM settings", true);
+            Gui.Act("Maximum heap (MB)", 512);
+            inspector.OnInspectorGUI();
+            Assert.That(Manager.Settings.jvm.settings.maximumHeapMb, Is.EqualTo(512));
         }
 
         /// <summary>Draws until a control is there: starting and writing a recording takes a moment.</summary>

@@ -123,7 +123,7 @@ internal class Recorder(private val shim: ShimCalls) {
     private fun configuration(settings: String): Configuration {
         Configuration.getConfigurations().find { it.name == settings }?.let { return it }
         require(settings.endsWith(".jfc")) {
-            val known = Configuration.getConfigurations().joinToString { it.name }
+            val known = Configuration.getConfigurations().map { it.name }.sorted().joinToString()
             "there are no settings '$settings'; there are $known and the paths of .jfc files"
         }
         return try {
