@@ -39,6 +39,100 @@ class ChecksTest {
     )
 
     @Test
+    fun `an arm that ends the function with a field is an error too`() = assertReports(
+        """
+        fun Aggregate<Int>.early(): Field<Int, Int> {
+            if (localId == 0) return neighboring(localId) // FIELD_FROM_BRANCH
+            when (localId) {
+                1 -> { evolve(0) { it }; return neighboring(localId + 1) } // FIELD_FROM_BRANCH
+                2 -> return neighboring(localId).also { println(it) } // FIELD_FROM_BRANCH
+            }
+            listOf(1).forEach { if (it > localId) return neighboring(localId) } // FIELD_FROM_BRANCH
+            try { if (localId > 5) return if (localId > 6) neighboring(localId) else neighboring(-localId) } finally { } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            return neighboring(localId)
+        }
+        fun Aggregate<Int>.byElvis(maybe: Int?): Field<Int, Int> { maybe ?: return neighboring(localId); return neighboring(maybe) } // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.labelled(): Int = run { if (localId == 0) return@run neighboring(localId); neighborhood().mapValues { 1 } }.local.value // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.fine(): Int {
+            if (localId == 0) return neighboring(localId).local.value
+            if (localId == 1) { val f = run { return@run neighboring(localId) }; println(f.local) }
+            if (localId == 2) { fun local(): Field<Int, Int> { return neighboring(localId) }; println(local().local) }
+            return 0
+        }
+        fun Aggregate<Int>.inCondition(): Field<Int, Int> { if (run { return neighboring(localId) }) println(); return neighboring(localId) }
+        fun notAggregate(make: () -> Field<Int, Int>, flag: Boolean): Any { if (flag) return make(); return 1 }
+        """,
+    )
+
+    @Test
+    fun `loops are found in all kinds of functions and expressions`() = assertReports(
+        """
+        import kotlin.reflect.KProperty
+        fun Aggregate<Int>.helper(x: Int): Int = share(x) { it.local.value + x }
+        fun <ID : Any, T> Aggregate<ID>.generic(items: List<T>): List<T> = items.onEach { neighboring<ID, Any?>(it) } // AGGREGATE_CALL_IN_LOOP
+        inline fun <T> Aggregate<Int>.inlined(items: List<T>, step: Aggregate<Int>.(T) -> T): List<T> = items.map { step(it) } // AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.recursive(n: Int): Int { var s = 0; for (i in 0 until n) s += recursive(i); return s } // AGGREGATE_CALL_IN_LOOP
+        class Group {
+            fun Aggregate<Int>.member(items: List<Int>): Int = items.sumOf { helper(it) } // AGGREGATE_CALL_IN_LOOP
+            companion object { fun Aggregate<Int>.inCompanion() { while (localId > 0) helper(1) } } // AGGREGATE_CALL_IN_LOOP
+        }
+        fun Aggregate<Int>.locals(items: List<Int>): Int {
+            fun deeper(): Int {
+                fun deepest(): List<Int> = items.map { helper(it) } // AGGREGATE_CALL_IN_LOOP
+                return deepest().sum()
+            }
+            return deeper()
+        }
+        fun Aggregate<Int>.default(y: List<Int> = listOf(1).map { helper(it) }): Int = y.size // AGGREGATE_CALL_IN_LOOP
+        object Delegate { operator fun getValue(aggregate: Aggregate<Int>, property: KProperty<*>): List<Int> = listOf(1).map { aggregate.helper(it) } } // AGGREGATE_CALL_IN_LOOP
+        val Aggregate<Int>.delegated: List<Int> by Delegate
+        fun Aggregate<Int>.byLazy(): Int { val all by lazy { listOf(1).map { helper(it) } }; return all.size } // AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.subject(): Any = when (val id = localId) {
+            in 2..3 -> listOf(id).map { helper(it) } // AGGREGATE_CALL_IN_LOOP
+            else -> helper(id)
+        }
+        fun Aggregate<Int>.elvis(items: List<Int>?): Any = items?.map { helper(it) } ?: helper(1) // AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.safe(items: List<Int>?, device: Aggregate<Int>?) { items?.forEach { device?.helper(it) } } // AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.attempt(items: List<Int>): Int =
+            try { items.sumOf { helper(it) } } catch (_: IllegalStateException) { items.maxOf { helper(it) } } finally { for (i in items) helper(i) } // AGGREGATE_CALL_IN_LOOP AGGREGATE_CALL_IN_LOOP AGGREGATE_CALL_IN_LOOP
+        fun Aggregate<Int>.nested(items: List<Int>): Int = run { with(items) { let { all -> all.map { also { _ -> helper(it) }.size }.sum() } } } // AGGREGATE_CALL_IN_LOOP
+        context(aggregate: Aggregate<Int>) fun contextual(items: List<Int>) { for (i in items) aggregate.helper(i) } // AGGREGATE_CALL_IN_LOOP
+        val function = fun Aggregate<Int>.(items: List<Int>) { for (i in items) helper(i) } // AGGREGATE_CALL_IN_LOOP
+        """,
+    )
+
+    @Test
+    fun `fields from branches are found in all kinds of functions and expressions`() = assertReports(
+        """
+        import kotlin.reflect.KProperty
+        fun <ID : Any> Aggregate<ID>.generic(flag: Boolean): Any = if (flag) neighboring<ID, Any?>(localId) else 1 // FIELD_FROM_BRANCH
+        inline fun <T> Aggregate<Int>.inlined(make: () -> Field<Int, T>): Any = if (localId == 0) make() else 1 // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.recursive(n: Int): Field<Int, Int> = if (n > 0) recursive(n - 1) else neighboring(n) // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+        class Group {
+            fun given(device: Aggregate<Int>): Any = if (device.localId == 0) device.neighboring(device.localId) else 1 // FIELD_FROM_BRANCH
+            companion object { fun Aggregate<Int>.inCompanion(): Any = if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+        }
+        fun Aggregate<Int>.locals(): Int {
+            fun local(): Any = if (localId == 0) neighboring(localId) else 1 // FIELD_FROM_BRANCH
+            return local().hashCode()
+        }
+        fun Aggregate<Int>.default(x: Any = if (localId == 0) neighboring(localId) else 1): Int = x.hashCode() // FIELD_FROM_BRANCH
+        object Delegate { operator fun getValue(aggregate: Aggregate<Int>, property: KProperty<*>): Any = if (aggregate.localId == 0) aggregate.neighboring(property.name) else 1 } // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.byLazy(): Int { val all by lazy { val f = if (localId == 0) neighboring(localId) else null; f }; return all.hashCode() } // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.subject(): Any = when (val id = localId) {
+            0, 1 -> neighboring(id) // FIELD_FROM_BRANCH
+            else -> id
+        }
+        fun Aggregate<Int>.elvis(items: List<Int>?): Any = items?.size ?: neighboring(localId) // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.safe(device: Aggregate<Int>?): Any? = if (localId == 0) device?.neighboring(localId) else null // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.attempt(): Any = if (localId == 0) try { neighboring(localId) } finally { println() } else 1 // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.nested(): Any = run { with("a") { let { val f: Any = if (localId == 0) neighboring(localId) else 1; f } } } // FIELD_FROM_BRANCH
+        context(aggregate: Aggregate<Int>) fun contextual(): Any = if (aggregate.localId == 0) aggregate.neighboring(aggregate.localId) else 1 // FIELD_FROM_BRANCH
+        val function = fun Aggregate<Int>.(): Any = if (localId == 0) neighboring(localId) else 1 // FIELD_FROM_BRANCH
+        """,
+    )
+
+    @Test
     fun `branches of values and unused branches are fine`() = assertReports(
         """
         fun Aggregate<Int>.values(): Int = if (localId == 0) neighboring(localId).local.value else 1

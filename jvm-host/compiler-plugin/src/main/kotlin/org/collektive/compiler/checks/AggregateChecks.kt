@@ -16,6 +16,7 @@ internal class AggregateChecks : FirExtensionRegistrar() {
         override val expressionCheckers = object : ExpressionCheckers() {
             override val whenExpressionCheckers = setOf(FieldFromBranch)
             override val elvisExpressionCheckers = setOf(FieldFromElvis)
+            override val returnExpressionCheckers = setOf(FieldReturnedFromBranch)
             override val qualifiedAccessExpressionCheckers = setOf(AggregateCallInLoop)
             override val functionCallCheckers =
                 setOf(ManualAlignment, EvolveThatShares, IgnoredParameter, NeedlessYielding, ConstantNeighboring)
