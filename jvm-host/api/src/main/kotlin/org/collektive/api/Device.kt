@@ -10,7 +10,7 @@ public interface Device {
     /** Simulated seconds at this round. */
     public val time: Double
 
-    /** Simulated seconds since the tick before. */
+    /** Simulated seconds since this node's last round that did not fail; of its first round, since the tick before. */
     public val deltaTime: Double
 
     /** This node's own stream of random numbers, equal in every run with the same seed. A failed round does not wind it back. */

@@ -18,7 +18,10 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val result = TickResult()
     private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
     private val rounds = Array(settings.threads) { Round(it) }
-    private val task = RoundPool.Task(::runRange)
+    private val isSequential = settings.schedule == Schedule.SEQUENTIAL
+    private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
+    private val roundTask = RoundPool.Task(::runRange)
+    private val deliveryTask = RoundPool.Task(::deliverRange)
     private var data: RoundData? = null
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
@@ -48,11 +51,15 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
      */
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
-        validator.check(tick, lastTick + 1)
+        validator.check(tick, clock.tick + 1)
+        result.reset(tick.due.size)
         apply(tick)
         runtimes.tidy(runtimesOfNodes)
         findDue(tick)
+        val begin = System.nanoTime()
         runRounds(data, deadline)
+        deliver(deadline)
+        result.roundNanos = System.nanoTime() - begin
         return result
     }
 
@@ -62,7 +69,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     private fun apply(tick: Tick) {
-        lastTick = tick.number
+        clock.tick = tick.number
         clock.time = tick.time
         clock.deltaTime = tick.deltaTime
         tick.globals?.let { clock.globals = it }
@@ -75,7 +82,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         for (index in 0 until links.size) {
             val from = existing(links.from(index))
             val to = existing(links.to(index))
-            if (to.incoming.put(from, links.length(index), links.attenuation(index), tick.number, validator.place(index))) {
+            if (to.incoming.put(from, links.length(index), links.attenuation(index), tick.number, validator.place(index), transmitters[0])) {
                 from.outgoing.insert(to)
                 linkCount++
             }
@@ -95,7 +102,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun addNodes(tick: Tick) {
         if (tick.nodesAdded.isEmpty()) return
         val added = tick.nodesAdded.map {
-            Node(it.id, it.program, it.parameters, runtimes.device(it.id), clock, settings.seed)
+            Node(it.id, it.program, it.parameters, runtimes.device(it.id), clock, settings.seed, settings.network.isIdeal)
         }
         nodes.insertAll(added.sortedBy(Node::id))
     }
@@ -110,7 +117,6 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     private fun findDue(tick: Tick) {
         val due = tick.due
-        result.reset(due.size)
         var at = 0
         for (index in 0 until due.size) {
             while (nodes.node(at).id != due[index]) at++
@@ -120,23 +126,47 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     private fun runRounds(data: RoundData, deadline: Long) {
         this.data = data
-        val begin = System.nanoTime()
-        val count = result.size
-        val isSequential = settings.schedule == Schedule.SEQUENTIAL
-        val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
-        if (!pool.run(task, count, range, deadline)) {
-            val dump = pool.dump()
-            pool.abandon()
-            throw RoundsNotFinished(lastTick, dump)
-        }
-        for (index in 0 until count) {
+        runOnPool(roundTask, result.size, deadline)
+        for (index in 0 until result.size) {
             if (result.failure(index) != null) result.failureCount++ else if (!isSequential) commit(result.node(index))
         }
-        result.roundNanos = System.nanoTime() - begin
+    }
+
+    /** Puts what was sent on the links. An ideal network has nothing to do: receivers read what their senders sent last. */
+    private fun deliver(deadline: Long) {
+        val counts = result.network
+        if (settings.network.isIdeal) {
+            val allSent = result.size == nodes.size && result.failureCount == 0
+            if (allSent) counts.sent = linkCount.toLong() else countSent(counts)
+            return
+        }
+        runOnPool(deliveryTask, nodes.size, deadline)
+        for (transmitter in transmitters) {
+            counts.add(transmitter.counts)
+            transmitter.counts.clear()
+        }
+    }
+
+    private fun countSent(counts: NetworkCounts) {
+        for (index in 0 until result.size) if (result.failure(index) == null) counts.sent += result.node(index).outgoing.size
+    }
+
+    private fun deliverRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
+        for (index in begin until end) {
+            if (pool.isClosed) return
+            nodes.node(index).incoming.update(transmitters[worker])
+        }
+    }
+
+    private fun runOnPool(task: RoundPool.Task, count: Int, deadline: Long) {
+        val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
+        if (pool.run(task, count, range, deadline)) return
+        val dump = pool.dump()
+        pool.abandon()
+        throw RoundsNotFinished(clock.tick, dump)
     }
 
     private fun runRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
-        val isSequential = settings.schedule == Schedule.SEQUENTIAL
         val round = rounds[worker]
         for (index in begin until end) {
             if (pool.isClosed) return
@@ -144,6 +174,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             thread.node = node.id
             thread.rounds++
             try {
+                node.incoming.update(transmitters[worker])
                 val answer = round.run(node, index)
                 if (isSequential) commit(node)
                 result.answered(index, answer)
@@ -164,7 +195,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     private fun commit(node: Node) {
         node.export = node.runtime.commit()
-        node.sentAt = lastTick
+        node.sentAt = clock.tick
+        node.sentTime = clock.time
     }
 
     /** The round that one thread runs, made once. */

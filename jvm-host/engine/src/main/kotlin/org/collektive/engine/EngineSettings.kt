@@ -7,6 +7,9 @@ public enum class Schedule {
 
     /** Due nodes run in id order; each sees what earlier ones sent in the same tick. */
     SEQUENTIAL,
+
+    /** Nodes are due at times of their own, which the caller knows; those due in one tick see what was sent before it. */
+    ASYNCHRONOUS,
 }
 
 /**
@@ -19,6 +22,7 @@ public class EngineSettings(
     public val seed: Long,
     public val threads: Int = 1,
     public val schedule: Schedule = Schedule.LOCKSTEP,
+    public val network: NetworkModel = NetworkModel(),
 ) {
     init {
         require(threads in 1..MAX_THREADS) { "threads must be 1..$MAX_THREADS, but is $threads" }

@@ -3,8 +3,8 @@ package org.collektive.engine
 import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 
-/** The links into one node, ascending by the sender's id, with their values. */
-internal class IncomingLinks :
+/** The links into the node [receiver], ascending by the sender's id, with their values; channels only unless [isIdeal]. */
+internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean) :
     Peers(),
     Inbox {
     private var lengths = FloatArray(keys.size)
@@ -15,14 +15,33 @@ internal class IncomingLinks :
 
     // Last validation that touched each link: see TickValidator.
     private var marks = LongArray(keys.size)
+    private var channels = if (isIdeal) null else arrayOfNulls<Channel>(keys.size)
     private var boxedIds: Array<Any>? = NONE
 
     override val ids: Array<Any>
         get() = boxedIds ?: Array<Any>(size) { node(it).boxedId }.also { boxedIds = it }
 
-    override fun export(index: Int): Export? = node(index).export
+    override fun export(index: Int): Export? = if (channels == null) node(index).export else channel(index).held
 
-    override fun wasKnown(index: Int): Boolean = since[index] <= node(index).sentAt
+    override fun wasKnown(index: Int): Boolean =
+        since[index] <= if (channels == null) node(index).sentAt else channel(index).heldAt
+
+    /** Takes over what senders sent since the last time, and lets arrive what is due; nothing to do in an ideal network. */
+    fun update(transmitter: Transmitter) {
+        if (channels == null) return
+        for (index in 0 until size) {
+            if (node(index).sentAt > channel(index).takenAt) take(index, transmitter)
+            transmitter.advance(channel(index))
+        }
+    }
+
+    private fun take(index: Int, transmitter: Transmitter) {
+        val channel = channel(index)
+        channel.takenAt = node(index).sentAt
+        transmitter.send(node(index), receiver, lengths[index], attenuations[index], channel)
+    }
+
+    private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel at $index of $size")
 
     fun mark(index: Int): Long = marks[index]
 
@@ -30,13 +49,14 @@ internal class IncomingLinks :
         marks[index] = mark
     }
 
-    /** Makes the link, or gives it new values; `true` when it is new. [hint]: see [indexOf]. */
-    fun put(from: Node, length: Float, attenuation: Float, tick: Long, hint: Int): Boolean {
+    /** Makes the link, or gives it new values; `true` when it is new. A new one brings what its sender sent last. [hint]: see [indexOf]. */
+    fun put(from: Node, length: Float, attenuation: Float, tick: Long, hint: Int, transmitter: Transmitter): Boolean {
         val found = indexOf(from.id, hint)
         val index = if (found >= 0) found else -found - 1
         if (found < 0) insertLink(index, from, tick)
         lengths[index] = length
         attenuations[index] = attenuation
+        if (found < 0 && channels != null) take(index, transmitter)
         return found < 0
     }
 
@@ -46,6 +66,11 @@ internal class IncomingLinks :
         attenuations.copyInto(attenuations, index, index + 1, size)
         since.copyInto(since, index, index + 1, size)
         marks.copyInto(marks, index, index + 1, size)
+        channels?.let {
+            channel(index).close()
+            it.copyInto(it, index, index + 1, size)
+            it[size - 1] = null
+        }
         removeAt(index)
         boxedIds = null
     }
@@ -56,6 +81,7 @@ internal class IncomingLinks :
         attenuations = attenuations.copyOf(capacity)
         since = since.copyOf(capacity)
         marks = marks.copyOf(capacity)
+        channels = channels?.copyOf(capacity)
     }
 
     private fun insertLink(index: Int, from: Node, tick: Long) {
@@ -64,6 +90,10 @@ internal class IncomingLinks :
         attenuations.copyInto(attenuations, index + 1, index, size - 1)
         since.copyInto(since, index + 1, index, size - 1)
         marks.copyInto(marks, index + 1, index, size - 1)
+        channels?.let {
+            it.copyInto(it, index + 1, index, size - 1)
+            it[index] = Channel()
+        }
         since[index] = tick
         marks[index] = 0
         boxedIds = null

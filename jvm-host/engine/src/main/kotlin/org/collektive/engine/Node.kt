@@ -15,29 +15,33 @@ internal class Node(
     val runtime: DeviceRuntime,
     private val clock: Clock,
     seed: Long,
+    isIdeal: Boolean,
 ) : Device {
     /** The one object that stands for [id] wherever ids are objects. */
     val boxedId: Any = id
-    val incoming = IncomingLinks()
+    val incoming = IncomingLinks(id, isIdeal)
     val outgoing = Peers()
 
     /** What the last round that gave an answer sent; `null` before. */
     var export: Export? = null
 
-    /** Tick of that round; 0 before. */
+    /** Tick of that round, and its simulated time; 0 before. */
     var sentAt = 0L
+    var sentTime = 0.0
 
     /** Last validation that removes this node: see TickValidator. */
     var mark = 0L
 
     override val random: Random = Philox(seed, id, purpose = 0)
     override val time: Double get() = clock.time
-    override val deltaTime: Double get() = clock.deltaTime
+    override val deltaTime: Double
+        get() = if (sentAt == 0L || sentAt == clock.tick - 1) clock.deltaTime else clock.time - sentTime
     override val globals: Any? get() = clock.globals
 }
 
 /** What all nodes of a session see alike; changes between rounds only. */
 internal class Clock {
+    var tick = 0L
     var time = 0.0
     var deltaTime = 0.0
     var globals: Any? = null

@@ -21,6 +21,10 @@ internal class RoundPool(private val size: Int) {
     private var count = 0
     private var range = 1
 
+    // What a task threw: an error of ours, since rounds keep theirs.
+    @Volatile
+    private var failure: Throwable? = null
+
     @Volatile
     private var caller: Thread? = null
 
@@ -51,6 +55,7 @@ internal class RoundPool(private val size: Int) {
             if (left <= 0) return false
             LockSupport.parkNanos(this, left)
         }
+        failure?.let { throw IllegalStateException("a thread of the engine failed", it) }
         return true
     }
 
@@ -97,7 +102,11 @@ internal class RoundPool(private val size: Int) {
                     continue
                 }
                 isWanted = false
-                work(this)
+                try {
+                    work(this)
+                } catch (e: Throwable) {
+                    failure = e
+                }
                 // A program may have left its thread interrupted, and park() would not wait any more.
                 Thread.interrupted()
                 if (busy.decrementAndGet() == 0) LockSupport.unpark(caller)

@@ -18,6 +18,9 @@ public class TickResult internal constructor() {
     public var failureCount: Int = 0
         internal set
 
+    /** What the network did. */
+    public val network: NetworkCounts = NetworkCounts()
+
     /** Id of the due node [index]. */
     public fun id(index: Int): Int = node(index).id
 
@@ -45,6 +48,7 @@ public class TickResult internal constructor() {
         size = count
         failureCount = 0
         roundNanos = 0
+        network.clear()
     }
 
     internal fun due(index: Int, node: Node) {

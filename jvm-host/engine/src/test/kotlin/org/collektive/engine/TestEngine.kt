@@ -24,8 +24,9 @@ internal class TestEngine(
     schedule: Schedule = Schedule.LOCKSTEP,
     seed: Long = 1,
     runtimes: DeviceRuntimes = AggregateRuntimes(),
+    network: NetworkModel = NetworkModel(),
 ) : AutoCloseable {
-    val engine = Engine(EngineSettings(seed, threads, schedule), runtimes)
+    val engine = Engine(EngineSettings(seed, threads, schedule, network), runtimes)
     private val data = object : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
@@ -48,7 +49,7 @@ internal class TestEngine(
 
     fun Tick.add(vararg ids: Int) = ids.forEach { nodesAdded.add(NewNode(it, program, Parameters(emptyMap()))) }
 
-    fun Tick.link(from: Int, to: Int) = links.add(from, to, 1f, 0f)
+    fun Tick.link(from: Int, to: Int, length: Float = 1f, attenuation: Float = 0f) = links.add(from, to, length, attenuation)
 
     fun Tick.unlink(from: Int, to: Int) {
         linksRemoved.add(from)

@@ -1,0 +1,82 @@
+package org.collektive.engine
+
+import org.collektive.runtime.Export
+
+/** One link under a network model: the messages on their way, and the one that arrived. Used by one thread at a time. */
+internal class Channel {
+    /** What arrived last and is still valid. */
+    var held: Export? = null
+        private set
+
+    /** Tick at which the newest message that arrived was sent; 0 before. */
+    var heldAt = 0L
+        private set
+
+    /** Tick of the sender's last message that was put on this link; 0 before. */
+    var takenAt = 0L
+
+    private var validUntil = 0.0
+
+    // Messages on their way, in no order.
+    private var exports = NONE
+    private var sentAt = LongArray(0)
+    private var arrivals = DoubleArray(0)
+    private var count = 0
+
+    fun send(export: Export, tick: Long, arrival: Double) {
+        if (count == exports.size) {
+            val capacity = maxOf(2, 2 * count)
+            exports = exports.copyOf(capacity)
+            sentAt = sentAt.copyOf(capacity)
+            arrivals = arrivals.copyOf(capacity)
+        }
+        export.hold()
+        exports[count] = export
+        sentAt[count] = tick
+        arrivals[count++] = arrival
+    }
+
+    /** Lets all messages arrive whose time is [now] or earlier; the one sent last stays. */
+    fun arrive(now: Double, retention: Double) {
+        var index = 0
+        while (index < count) {
+            if (arrivals[index] > now) {
+                index++
+                continue
+            }
+            val export = exports[index]
+            if (sentAt[index] > heldAt) {
+                held?.release()
+                held = export
+                heldAt = sentAt[index]
+                validUntil = arrivals[index] + retention
+            } else {
+                export?.release()
+            }
+            count--
+            exports[index] = exports[count]
+            sentAt[index] = sentAt[count]
+            arrivals[index] = arrivals[count]
+            exports[count] = null
+        }
+    }
+
+    /** Forgets a held message that was valid only until before [now]; `true` when there was one. */
+    fun expire(now: Double): Boolean {
+        val export = held
+        if (export == null || validUntil >= now) return false
+        export.release()
+        held = null
+        return true
+    }
+
+    /** Gives up all messages: the link is no more. */
+    fun close() {
+        held?.release()
+        for (index in 0 until count) exports[index]?.release()
+    }
+
+    private companion object {
+        val NONE = arrayOfNulls<Export>(0)
+    }
+}

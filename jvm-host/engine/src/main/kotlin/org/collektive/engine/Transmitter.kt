@@ -1,0 +1,50 @@
+package org.collektive.engine
+
+import org.collektive.api.Philox
+
+/**
+ * One thread's share of the network: draws, and counts what happens.
+ *
+ * What is drawn for a message depends on the seed, the tick of its sending, and the ids of its sender and receiver alone.
+ */
+internal class Transmitter(private val model: NetworkModel, private val seed: Long, private val clock: Clock) {
+    val counts = NetworkCounts()
+    private val words = IntArray(4)
+
+    /** Times that differ by less are the same: sums of ticks are not exact. */
+    private val tolerance get() = clock.deltaTime * TOLERANCE
+
+    /** Puts what [from] sent last on the [channel] of its link to the node [to]. */
+    fun send(from: Node, to: Int, length: Float, attenuation: Float, channel: Channel) {
+        val export = from.export ?: return
+        counts.sent++
+        words[0] = from.sentAt.toInt()
+        words[1] = from.id
+        words[2] = to
+        words[3] = PURPOSE
+        Philox.block(words, seed.toInt(), (seed ushr 32).toInt())
+        val loss = model.loss + model.lossPerMetre * length + model.lossPerAttenuation * attenuation
+        if (uniform(words[0], words[1]) < loss) {
+            counts.dropped++
+            return
+        }
+        val delay = model.delay + model.jitter * uniform(words[2], words[3])
+        if (delay > 0.0) counts.delayed++
+        channel.send(export, from.sentAt, from.sentTime + delay)
+    }
+
+    /** Lets arrive on [channel] what is due, and forgets what is too old. */
+    fun advance(channel: Channel) {
+        channel.arrive(clock.time + tolerance, model.retention)
+        if (channel.expire(clock.time - tolerance)) counts.expired++
+    }
+
+    private fun uniform(high: Int, low: Int): Double =
+        ((high.toLong() shl 32 or (low.toLong() and 0xFFFF_FFFFL)) ushr 11) * (1.0 / (1L shl 53))
+
+    private companion object {
+        /** Of the random numbers: see `docs/determinism.md`. */
+        const val PURPOSE = 4
+        const val TOLERANCE = 1e-3
+    }
+}

@@ -1,0 +1,209 @@
+package org.collektive.engine
+
+import it.unibo.collektive.aggregate.api.exchanging
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.toMap
+import org.junit.jupiter.api.DynamicTest
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.TestFactory
+import kotlin.math.abs
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+/** What receivers see of what senders sent; ticks are half a second apart. */
+class NetworkTest {
+    /** Each node tells its time; the answer is what the neighbours told. */
+    private val heard = program { device -> neighboring(device.time).neighbors.toMap() }
+
+    /** What 2 hears of 1 in each of [ticks] ticks, while 1 sends in those of [sending]. */
+    private fun heardOf1(network: NetworkModel, ticks: Int, sending: IntRange = 1..ticks, schedule: Schedule = Schedule.LOCKSTEP): List<Double?> =
+        TestEngine(heard, schedule = schedule, network = network).use { test ->
+            with(test) {
+                (1..ticks).map { number ->
+                    val result = step {
+                        if (number == 1) {
+                            add(1, 2)
+                            link(1, 2)
+                        }
+                        if (number in sending) due(1)
+                        due(2)
+                    }
+                    @Suppress("UNCHECKED_CAST")
+                    (result.toMap().getValue(2) as Map<Int, Double>)[1]
+                }
+            }
+        }
+
+    @Test
+    fun `without delay a message is there at the next tick, in sequence in the same`() {
+        // Retention keeps the network from being ideal; ideal or not, the same is heard.
+        for (network in listOf(NetworkModel(), NetworkModel(retention = 1e9))) {
+            assertEquals(listOf(null, 0.5, 1.0, 1.5), heardOf1(network, 4))
+            assertEquals<List<Double?>>(listOf(0.5, 1.0, 1.5), heardOf1(network, 3, schedule = Schedule.SEQUENTIAL))
+        }
+    }
+
+    @Test
+    fun `a delay is counted from the tick of the sending`() {
+        assertEquals(listOf(null, 0.5, 1.0), heardOf1(NetworkModel(delay = 0.5), 3), "one tick is what lockstep takes anyway")
+        assertEquals(listOf(null, null, 0.5, 1.0), heardOf1(NetworkModel(delay = 0.6), 4))
+        assertEquals(listOf(null, null, null, 0.5), heardOf1(NetworkModel(delay = 1.5), 4))
+        assertEquals(listOf(null, 0.5), heardOf1(NetworkModel(delay = 0.5), 2, schedule = Schedule.SEQUENTIAL))
+    }
+
+    @Test
+    fun `a message is valid for the retention after its arrival`() {
+        val network = NetworkModel(retention = 1.0)
+        assertEquals(listOf(null, 0.5, 0.5, null, null), heardOf1(network, 5, sending = 1..1))
+        val late = NetworkModel(retention = 1.0, delay = 1.0)
+        assertEquals(listOf(null, null, 0.5, 0.5, 0.5, null), heardOf1(late, 6, sending = 1..1))
+    }
+
+    @Test
+    fun `what arrives after a later message is of no use`() {
+        val seen = heardOf1(NetworkModel(jitter = 3.0), 200).filterNotNull()
+        assertEquals(seen.sorted(), seen)
+        assertTrue(seen.toSet().size < 150, "some are overtaken")
+        assertTrue(seen.toSet().size > 50, "many are not")
+    }
+
+    @Test
+    fun `everything is lost at a loss of one`() = assertEquals(List(5) { null }, heardOf1(NetworkModel(loss = 1.0), 5))
+
+    @Test
+    fun `a lost message leaves the one before`() {
+        val seen = heardOf1(NetworkModel(loss = 0.5), 100).drop(20)
+        assertTrue(null !in seen && seen.toSet().size in 20..60, "$seen")
+    }
+
+    private fun lossOf(network: NetworkModel, length: Float, attenuation: Float) = TestEngine(heard, network = network).use { test ->
+        with(test) {
+            val ids = IntArray(100) { it }
+            var sent = 0L
+            var dropped = 0L
+            repeat(21) { number ->
+                val result = step {
+                    if (number == 0) {
+                        add(*ids)
+                        for (from in ids) for (step in 1..5) link(from, (from + step) % 100, length, attenuation)
+                    }
+                    due(*ids)
+                }
+                sent += result.network.sent
+                dropped += result.network.dropped
+            }
+            assertEquals(21 * 500L, sent)
+            dropped / sent.toDouble()
+        }
+    }
+
+    @Test
+    fun `loss grows with the link's length and attenuation`() {
+        val network = NetworkModel(loss = 0.1, lossPerMetre = 0.02, lossPerAttenuation = 0.05)
+        for ((length, attenuation, expected) in listOf(Triple(0f, 0f, 0.1), Triple(10f, 0f, 0.3), Triple(0f, 4f, 0.3), Triple(10f, 8f, 0.7), Triple(99f, 0f, 1.0))) {
+            // Four standard deviations of a share of 10,500.
+            assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "$length m, $attenuation")
+        }
+    }
+
+    @Test
+    fun `every message is counted once`() {
+        TestEngine(heard, network = NetworkModel(delay = 0.6, retention = 0.7)).use { test ->
+            with(test) {
+                fun counts(fill: Tick.() -> Unit) = step(fill = fill).network.run { listOf(sent, dropped, delayed, expired) }
+                assertEquals(listOf(2L, 0, 2, 0), counts { add(1, 2, 3); link(1, 2); link(1, 3); due(1) }, "one round, two links; time 0.5")
+                assertEquals(listOf(0L, 0, 0, 0), counts { })
+                assertEquals(listOf(0L, 0, 0, 0), counts { }, "arrived at 1.1")
+                assertEquals(listOf(0L, 0, 0, 2), counts { }, "valid until 1.8, and it is 2.0")
+            }
+        }
+        TestEngine(heard, network = NetworkModel(loss = 1.0)).use { test ->
+            with(test) {
+                val counts = step { add(1, 2); link(1, 2); due(1) }.network
+                assertEquals(listOf(1L, 1L, 0L, 0L), counts.run { listOf(sent, dropped, delayed, expired) })
+            }
+        }
+    }
+
+    @Test
+    fun `an ideal network counts what was sent, failed rounds not`() {
+        TestEngine(program { device -> if (device.id == 3) error("broken") else device.id }).use { test ->
+            with(test) {
+                val first = step { add(1, 2, 3); link(1, 2); link(2, 1); link(3, 1); due(1, 2, 3) }
+                assertEquals(listOf(2L, 0L, 0L, 0L), first.network.run { listOf(sent, dropped, delayed, expired) })
+                assertEquals(1, step { due(1) }.network.sent)
+                assertEquals(0, step { }.network.sent)
+            }
+        }
+    }
+
+    @Test
+    fun `a link that is made brings what its sender sent last, by its own loss`() {
+        val network = NetworkModel(lossPerMetre = 0.01, retention = 10.0)
+        TestEngine(heard, network = network).use { test ->
+            with(test) {
+                step { add(1, 2, 3); due(1) }
+                val result = step { link(1, 2, 0f); link(1, 3, 100f); due(2, 3) }
+                assertEquals<Map<Int, Any?>>(mapOf(2 to mapOf(1 to 0.5), 3 to emptyMap<Int, Double>()), result.toMap())
+                assertEquals(listOf(2L, 1L), result.network.run { listOf(sent, dropped) })
+            }
+        }
+    }
+
+    @Test
+    fun `a value for one receiver reaches it late, but never who came after the sending`() {
+        val program = program { exchanging("to all") { seen -> seen.map { "to ${it.id}" }.yielding { seen.neighbors.toMap() } } }
+        TestEngine(program, network = NetworkModel(delay = 1.0)).use { test ->
+            with(test) {
+                step { add(1, 2, 3); link(1, 2); link(2, 1); link(3, 1); due(2, 3) }
+                step { }
+                step { due(1) }
+                val fourth = step { link(1, 3); due(2, 3) }.toMap()
+                assertEquals<Map<Int, Any?>>(mapOf(2 to emptyMap<Int, String>(), 3 to emptyMap<Int, String>()), fourth)
+                val fifth = step { due(2, 3) }.toMap()
+                assertEquals<Map<Int, Any?>>(mapOf(2 to mapOf(1 to "to 2"), 3 to mapOf(1 to "to 1")), fifth, "3 was not linked: it gets the default")
+            }
+        }
+    }
+
+    @Test
+    fun `nothing on its way survives its link or its nodes`() {
+        val network = NetworkModel(delay = 1.0)
+        val ways = listOf<TestEngine.(Tick) -> Unit>(
+            { it.unlink(1, 2) },
+            { it.unlink(1, 2); it.link(1, 2) },
+            { it.nodesRemoved.add(1); it.add(1); it.link(1, 2) },
+            { it.nodesRemoved.add(2); it.add(2); it.link(1, 2) },
+        )
+        val expected = listOf(emptyMap(), mapOf(1 to 0.5), emptyMap(), mapOf(1 to 0.5))
+        for ((way, heard) in ways.zip(expected)) {
+            TestEngine(this.heard, network = network).use { test ->
+                with(test) {
+                    step { add(1, 2); link(1, 2); due(1) }
+                    step { way(this) }
+                    assertEquals<Map<Int, Any?>>(mapOf(2 to heard), step { due(2) }.toMap())
+                }
+            }
+        }
+    }
+
+    @TestFactory
+    fun `a value out of range is refused by name`(): List<DynamicTest> {
+        val nan = Double.NaN
+        val cases = mapOf<String, () -> NetworkModel>(
+            "loss must be 0..1, but is 1.5" to { NetworkModel(loss = 1.5) },
+            "loss must be 0..1, but is -0.1" to { NetworkModel(loss = -0.1) },
+            "loss must be 0..1, but is NaN" to { NetworkModel(loss = nan) },
+            "loss per metre must be finite and 0 or greater, but is -1.0" to { NetworkModel(lossPerMetre = -1.0) },
+            "loss per attenuation must be finite and 0 or greater, but is NaN" to { NetworkModel(lossPerAttenuation = nan) },
+            "delay must be finite and 0 or greater, but is Infinity" to { NetworkModel(delay = Double.POSITIVE_INFINITY) },
+            "jitter must be finite and 0 or greater, but is -0.5" to { NetworkModel(jitter = -0.5) },
+            "retention must be greater than 0, but is 0.0" to { NetworkModel(retention = 0.0) },
+            "retention must be greater than 0, but is NaN" to { NetworkModel(retention = nan) },
+        )
+        return cases.map { (message, make) ->
+            DynamicTest.dynamicTest(message) { assertEquals("the network's $message", assertFailsWith<IllegalArgumentException> { make() }.message) }
+        }
+    }
+}
