@@ -100,7 +100,7 @@ class TheDemo(Folder):
             rows = list(csv.DictReader(file))
         self.assertEqual(
             list(rows[0]),
-            "second,mean_distance,p90_distance,contacts,links,sense_ms,step_ms,act_ms,physics_ms,tick_ms_p99".split(","))
+            "second,mean_distance,p90_distance,contacts,links,sent,dropped,delayed,expired,sense_ms,step_ms,act_ms,physics_ms,tick_ms_p99".split(","))
         self.assertEqual([int(row["second"]) for row in rows], list(range(61)))
         self.assertLess(float(rows[-1]["mean_distance"]), 0.3 * float(rows[0]["mean_distance"]))
 

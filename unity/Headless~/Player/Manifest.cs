@@ -29,6 +29,8 @@ namespace Collektive.Headless
                 new JProperty("delta_time", scenario.DeltaTime),
                 new JProperty("physics_step", scenario.PhysicsStep),
                 new JProperty("schedule", scenario.Schedule.ToString()),
+                new JProperty("timing", JObject.FromObject(scenario.Timing)),
+                new JProperty("network", JObject.FromObject(scenario.Network)),
                 new JProperty("threads", scenario.Threads),
                 new JProperty("fields", scenario.Fields),
                 new JProperty("set", new JArray(options.Assignments)),

@@ -1,6 +1,7 @@
 using System.IO;
 using System.Linq;
 using Collektive.Bridge;
+using Collektive.Unity;
 using Newtonsoft.Json.Linq;
 using org.collektive.frame;
 
@@ -16,7 +17,7 @@ namespace Collektive.Headless
             var root = file.Root;
             file.RefuseUnknown(
                 root, "", "version", "scene", "scripts", "schema", "programs", "program", "fields", "seed", "seconds", "deltaTime",
-                "physicsStep", "schedule", "threads", "jvm", "outputs");
+                "physicsStep", "schedule", "timing", "network", "threads", "jvm", "outputs");
             var version = file.Required<int>(root, "version");
             if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
             File = file;
@@ -34,6 +35,8 @@ namespace Collektive.Headless
             DeltaTime = file.Optional(root, "deltaTime", 0.05f);
             PhysicsStep = file.Optional(root, "physicsStep", 0.02f);
             Schedule = file.Optional(root, "schedule", Schedule.Lockstep);
+            Timing = ReadTiming(file, file.Optional(root, "timing", new JObject()));
+            Network = ReadNetwork(file, file.Optional(root, "network", new JObject()));
             Threads = file.Optional(root, "threads", 1);
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder);
             var outputs = file.Optional(root, "outputs", new JObject());
@@ -70,6 +73,10 @@ namespace Collektive.Headless
 
         internal Schedule Schedule { get; }
 
+        internal RoundTiming Timing { get; }
+
+        internal NetworkModel Network { get; }
+
         internal int Threads { get; }
 
         internal JvmSettings Jvm { get; }
@@ -95,6 +102,30 @@ namespace Collektive.Headless
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
             return settings;
+        }
+
+        private static RoundTiming ReadTiming(JsonFile file, JObject part)
+        {
+            file.RefuseUnknown(part, "timing.", "period", "phase", "jitter");
+            var timing = new RoundTiming();
+            timing.period = file.Optional(part, "period", timing.period);
+            timing.phase = file.Optional(part, "phase", timing.phase);
+            timing.jitter = file.Optional(part, "jitter", timing.jitter);
+            return timing;
+        }
+
+        private static NetworkModel ReadNetwork(JsonFile file, JObject part)
+        {
+            file.RefuseUnknown(part, "network.", "loss", "lossPerMetre", "lossPerAttenuation", "delay", "jitter", "retention");
+            return new NetworkModel
+            {
+                loss = file.Optional(part, "loss", 0.0),
+                lossPerMetre = file.Optional(part, "lossPerMetre", 0.0),
+                lossPerAttenuation = file.Optional(part, "lossPerAttenuation", 0.0),
+                delay = file.Optional(part, "delay", 0.0),
+                jitter = file.Optional(part, "jitter", 0.0),
+                retention = file.Optional(part, "retention", 0.0),
+            };
         }
 
         private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)

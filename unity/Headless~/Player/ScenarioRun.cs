@@ -63,6 +63,8 @@ namespace Collektive.Headless
             settings.deltaTime = scenario.DeltaTime;
             settings.physicsStep = scenario.PhysicsStep;
             settings.schedule = scenario.Schedule;
+            settings.timing = scenario.Timing;
+            settings.network = scenario.Network;
             settings.threads = scenario.Threads;
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = scenario.Jvm;
@@ -106,7 +108,7 @@ namespace Collektive.Headless
                     Loop.Frame(scenario.DeltaTime);
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + tick + ": " + manager.Failure);
                     if (tick == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
-                    metrics.Add(manager.Times);
+                    metrics.Add(manager.Times, manager.Network);
                     stepTimes.Add(manager.Times.Step);
                     totalTimes.Add(manager.Times.Total);
                     roundTimes.Add(manager.HostMicros.Rounds / 1000.0);

@@ -30,6 +30,14 @@ namespace Collektive.Unity
         [Tooltip("Values of the program's parameters. Parameters without a value here have their default.")]
         private List<NodeParameter> parameters = new List<NodeParameter>();
 
+        [SerializeField]
+        [Tooltip("Asynchronous schedule only. On: the timing below; off: the manager's.")]
+        private bool ownTiming;
+
+        [SerializeField]
+        [Tooltip("When this node runs, if it has its own timing.")]
+        private RoundTiming timing = new RoundTiming();
+
         private readonly List<Sensor> sensors = new List<Sensor>();
         private readonly List<Actuator> actuators = new List<Actuator>();
         private readonly List<NeighbourhoodRule> rules = new List<NeighbourhoodRule>();
@@ -38,6 +46,8 @@ namespace Collektive.Unity
         private ActuatorBuffer answers;
         private int answerIndex;
         private ulong answerTick;
+        private RoundTimer timer;
+        private double asleepUntil;
 
         /// <summary>The id in the running simulation; -1 while the node takes no part.</summary>
         public int Id => joinedId;
@@ -58,6 +68,16 @@ namespace Collektive.Unity
 
         /// <summary>Values of the program's parameters. Read when the node joins.</summary>
         public List<NodeParameter> Parameters => parameters;
+
+        /// <summary>Whether <see cref="Timing"/> counts instead of the manager's, under the asynchronous schedule. Read when the node joins.</summary>
+        public bool OwnTiming
+        {
+            get => ownTiming;
+            set => ownTiming = value;
+        }
+
+        /// <summary>When this node runs if it has <see cref="OwnTiming"/>. Read when the node joins.</summary>
+        public RoundTiming Timing => timing;
 
         /// <summary>Random numbers of this node, for its sensors and actuators; they depend on the seed and the id alone.</summary>
         /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
@@ -111,6 +131,32 @@ namespace Collektive.Unity
             }
         }
 
+        /// <summary>
+        /// Runs no round for so many simulated seconds from now; the node keeps its state, links, and what it sent. 0 wakes it. Under any
+        /// schedule. May be called from the node's own actuators.
+        /// </summary>
+        /// <param name="seconds">0 or greater; infinity: until it is woken.</param>
+        /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
+        public void Sleep(double seconds)
+        {
+            if (!(seconds >= 0)) throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "a node sleeps 0 seconds or more");
+            if (joinedId < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it takes part in a simulation");
+            asleepUntil = SimulationManager.Current.SimulatedTime + seconds;
+        }
+
+        /// <summary>Starts the node's own timer; what is wrong with its timing, or null.</summary>
+        internal string StartTimer(SimulationSettings settings, double now)
+        {
+            if (settings.schedule != org.collektive.frame.Schedule.Asynchronous) return null;
+            var used = ownTiming ? timing : settings.timing;
+            var problem = used.FindProblem(settings.deltaTime);
+            if (problem == null) timer = new RoundTimer(used, new RandomStream(settings.seed, joinedId, RandomPurpose.Schedule), now);
+            return problem;
+        }
+
+        /// <summary>Whether the node runs in the tick at <paramref name="now"/>; asked once per tick.</summary>
+        internal bool TakeDue(double now) => asleepUntil <= now && (timer == null || timer.TakeDue(now));
+
         internal void Joined(int newId, ulong seed)
         {
             joinedId = newId;
@@ -118,6 +164,8 @@ namespace Collektive.Unity
             LastError = "";
             AnswerTime = -1;
             answers = null;
+            timer = null;
+            asleepUntil = 0;
         }
 
         internal void Answered(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)

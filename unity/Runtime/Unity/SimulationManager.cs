@@ -26,6 +26,9 @@ namespace Collektive.Unity
         /// <summary>Frame times are floats: ten of 0.02 s make two ticks of 0.1 s, not one.</summary>
         private const double Almost = 1 - 1e-6;
 
+        /// <summary>Share of a tick by which times may differ and still be the same: sums of ticks are not exact.</summary>
+        private const double Tolerance = 1e-3;
+
         /// <summary>Ids index arrays.</summary>
         private const int MaxId = (1 << 24) - 1;
 
@@ -47,6 +50,7 @@ namespace Collektive.Unity
         private readonly List<Node> due = new List<Node>();
         private readonly GrowingArray<int> dueIds = new GrowingArray<int>();
         private readonly ErrorTally errors = new ErrorTally();
+        private readonly SceneGlobals globals = new SceneGlobals();
         // By node id: whether the JVM knows the node, and whether it left since the last tick.
         private bool[] isKnown = new bool[64];
         private bool[] isGone = new bool[64];
@@ -122,6 +126,9 @@ namespace Collektive.Unity
         /// <summary>Microseconds of the last step that the JVM spent, and of these in rounds.</summary>
         public (int Host, int Rounds) HostMicros { get; private set; }
 
+        /// <summary>What the network did in the last tick.</summary>
+        public NetworkCounts Network { get; private set; }
+
         /// <summary>All ids are below it.</summary>
         internal int IdCapacity => isKnown.Length;
 
@@ -161,6 +168,13 @@ namespace Collektive.Unity
             if (!directed) removed |= Links.ReleaseForScripts(b, a);
             if (!removed) Debug.LogWarning("no script made a link from node " + a + " to node " + b + ": nothing to remove", this);
         }
+
+        /// <summary>
+        /// Writes the scene's global data, which programs see as <c>device.globals</c> from the next tick on. May be called at any time, and
+        /// several times in a tick; <paramref name="write"/> runs when the next tick begins, and finds what was written before.
+        /// </summary>
+        /// <typeparam name="T">The draft that generated code has for the schema's <c>GlobalData</c>.</typeparam>
+        public void SetGlobals<T>(Action<T> write) => globals.Set(write ?? throw new ArgumentNullException(nameof(write)));
 
         /// <summary>Whether <paramref name="to"/> hears <paramref name="from"/>.</summary>
         public bool HasLink(int from, int to) => PresentLinks.Contains(from, to);
@@ -314,6 +328,7 @@ namespace Collektive.Unity
             // The session takes its nodes and links with it: the next one knows none of them.
             leaving.Clear();
             DropLinksOfGone();
+            globals.Clear();
             Current = null;
             Physics.simulationMode = modeBefore;
             CloseSession();
@@ -372,6 +387,7 @@ namespace Collektive.Unity
                 Seed = settings.seed,
                 Threads = settings.threads,
                 Schedule = settings.schedule,
+                Network = settings.network,
                 Jars = jars,
                 Program = settings.program,
             };
@@ -441,9 +457,21 @@ namespace Collektive.Unity
                 leaving.Clear();
             }
             if (anyGone) DropLinksOfGone();
+            var problem = globals.Flush(session.Request);
+            if (problem != null)
+            {
+                Fail(problem);
+                return;
+            }
             for (var i = 0; i < joining.Count; i++)
             {
                 var node = joining[i];
+                problem = node.StartTimer(settings, session.Time);
+                if (problem != null)
+                {
+                    Fail("node " + node.Id + " ('" + node.name + "'): " + problem);
+                    return;
+                }
                 session.Request.AddNode(node.Id, node.Program, ParametersOf(node));
                 isKnown[node.Id] = true;
             }
@@ -534,10 +562,11 @@ namespace Collektive.Unity
             var request = session.Request;
             request.ClearDue();
             request.Sensors.EnsureCapacity(roster.Count);
+            var now = session.Time + Tolerance * settings.deltaTime;
             for (var i = 0; i < roster.Count && session != null; i++)
             {
                 var node = roster[i];
-                if (node.Id < 0) continue;
+                if (node.Id < 0 || !node.TakeDue(now)) continue;
                 var index = dueIds.Count;
                 request.Sensors.Clear(index);
                 if (!Sense(node, request.Sensors, index) || node.Id < 0) continue;
@@ -584,6 +613,7 @@ namespace Collektive.Unity
         {
             var answer = session.Answer;
             Digest = answer.Digest;
+            Network = answer.Network;
             HostMicros = (answer.HostMicros, answer.RoundMicros);
             for (var i = 0; i < answer.ErrorCount; i++)
             {

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Collektive.Bridge;
 using org.collektive.frame;
 using UnityEngine;
 
@@ -40,9 +41,17 @@ namespace Collektive.Unity
         [Min(0)]
         public float stopAfter;
 
-        /// <summary>Which messages a round sees.</summary>
-        [Tooltip("Lockstep: all nodes see what was sent before the tick. Sequential: in id order, each sees what earlier nodes sent.")]
+        /// <summary>When nodes run, and which messages a round sees.</summary>
+        [Tooltip("Lockstep: all nodes run in each tick and see what was sent before it. Sequential: in id order, each sees what earlier nodes sent. Asynchronous: each node has its own period and phase.")]
         public Schedule schedule = Schedule.Lockstep;
+
+        /// <summary>When nodes without a timing of their own run under the asynchronous schedule.</summary>
+        [Tooltip("Asynchronous schedule only: when nodes without a timing of their own run.")]
+        public RoundTiming timing = new RoundTiming();
+
+        /// <summary>What happens to messages between sending and receiving; ideal as made.</summary>
+        [Tooltip("Probability that a message is lost, and what a link's metres and attenuation add to it; seconds of delay, of jitter, and for which a message stays valid (0: until the next one). All 0: ideal.")]
+        public NetworkModel network = new NetworkModel();
 
         /// <summary>Threads of the JVM that run rounds.</summary>
         [Tooltip("Threads of the JVM that run rounds. Results do not depend on it.")]
@@ -67,7 +76,8 @@ namespace Collektive.Unity
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace)) return "no jar with programs is named, or one has no path: add the path to the settings";
-            return null;
+            var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
+            return problem ?? network.FindProblem(deltaTime);
         }
     }
 }

@@ -1,7 +1,9 @@
 using System;
 using System.Collections.Generic;
+using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
+using org.collektive.frame;
 using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
@@ -12,14 +14,20 @@ namespace Collektive.Headless.Tests.Simulation
     {
         private const int Ticks = 12;
 
-        [TestCase(1)]
-        [TestCase(2)]
-        [TestCase(8)]
-        public void Digests_repeat_with_any_number_of_threads(int threads)
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Sequential)]
+        [TestCase(Schedule.Asynchronous)]
+        public void Digests_repeat_with_any_number_of_threads(Schedule schedule)
         {
-            var once = Digests(settings => settings.threads = 1, 0);
-            var again = Digests(settings => settings.threads = threads, 0);
-            Assert.That(again, Is.EqualTo(once));
+            Action<SimulationSettings> With(int threads) => settings =>
+            {
+                settings.threads = threads;
+                settings.schedule = schedule;
+                settings.timing = new RoundTiming { period = 0.12f, jitter = 0.05f };
+                settings.network = new NetworkModel { loss = 0.2, lossPerMetre = 0.1, delay = 0.02, jitter = 0.1, retention = 0.3 };
+            };
+            var once = Digests(With(1), 0);
+            foreach (var threads in new[] { 1, 2, 4, 8 }) Assert.That(Digests(With(threads), 0), Is.EqualTo(once), threads + " threads");
         }
 
         [Test]
@@ -52,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 var place = new Vector3(Manager.Random.Range(0f, 10f), 0, Manager.Random.Range(0f, 10f));
                 nodes.Add(MakeNode(i + 1, place));
-                nodes[i].Node.Program = i % 2 == 0 ? "random" : "scaled";
+                nodes[i].Node.Program = i % 3 == 0 ? "random" : i % 3 == 1 ? "scaled" : "sum";
                 nodes[i].Node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = 2;
             }
             Rejoin(nodes);

@@ -11,6 +11,8 @@ namespace Collektive.Bridge
         Node = 1,
         /// <summary>The scene as a whole: placing nodes, for instance.</summary>
         Scene = 2,
+        /// <summary>When a node's rounds are due.</summary>
+        Schedule = 3,
     }
 
     /// <summary>

@@ -125,11 +125,14 @@ namespace Collektive.Bridge
                 fingerprints[i] = Frame.TypeFingerprint.CreateTypeFingerprint(
                     builder, builder.CreateString(types[i].Key), types[i].Value);
             }
+            var network = settings.Network;
             builder.Finish(Frame.OpenRequest.CreateOpenRequest(
                 builder, SessionSettings.Protocol, settings.Seed, settings.Threads, settings.Schedule,
                 Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema),
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
-                builder.CreateString(settings.Program ?? "")).Value);
+                builder.CreateString(settings.Program ?? ""),
+                Frame.Network.CreateNetwork(
+                    builder, network.loss, network.lossPerMetre, network.lossPerAttenuation, network.delay, network.jitter, network.retention)).Value);
         }
 
         private static ProgramInfo[] ReadPrograms(Frame.OpenResponse response)

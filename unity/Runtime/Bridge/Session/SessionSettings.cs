@@ -17,6 +17,9 @@ namespace Collektive.Bridge
         /// <summary>Which messages a round sees.</summary>
         public org.collektive.frame.Schedule Schedule { get; set; }
 
+        /// <summary>What happens to messages between sending and receiving.</summary>
+        public NetworkModel Network { get; set; } = new NetworkModel();
+
         /// <summary>Paths of the jars with programs; read into memory at the opening, never held open.</summary>
         public IReadOnlyList<string> Jars { get; set; } = new string[0];
 

@@ -43,6 +43,9 @@ namespace Collektive.Bridge
         /// <summary>Microseconds of these that the rounds took.</summary>
         public int RoundMicros => response.RoundMicros;
 
+        /// <summary>What the network did.</summary>
+        public NetworkCounts Network => new NetworkCounts(response.Sent, response.Dropped, response.Delayed, response.Expired);
+
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
         public int Node(int index) => response.Nodes(index);
 

@@ -51,6 +51,10 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT = answer(evo
 @Program("random")
 public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorDataT = answer(device.random.nextDouble().toFloat())
 
+/** The wind of the scene; -1 before it has any. */
+@Program("windy")
+public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorDataT = answer((device.globals as GlobalData?)?.wind() ?: -1f)
+
 @Program("clock")
 public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorDataT =
     answer(device.time.toFloat(), (device.deltaTime * 1000).toInt())

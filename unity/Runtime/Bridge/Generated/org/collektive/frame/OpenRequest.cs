@@ -47,6 +47,8 @@ public struct OpenRequest : IFlatbufferObject
   public ArraySegment<byte>? GetProgramBytes() { return __p.__vector_as_arraysegment(18); }
 #endif
   public byte[] GetProgramArray() { return __p.__vector_as_array<byte>(18); }
+  /// Absent: ideal.
+  public org.collektive.frame.Network? Network { get { int o = __p.__offset(20); return o != 0 ? (org.collektive.frame.Network?)(new org.collektive.frame.Network()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
 
   public static Offset<org.collektive.frame.OpenRequest> CreateOpenRequest(FlatBufferBuilder builder,
       uint protocol = 0,
@@ -56,9 +58,11 @@ public struct OpenRequest : IFlatbufferObject
       VectorOffset jarsOffset = default(VectorOffset),
       StringOffset schemaOffset = default(StringOffset),
       VectorOffset typesOffset = default(VectorOffset),
-      StringOffset programOffset = default(StringOffset)) {
-    builder.StartTable(8);
+      StringOffset programOffset = default(StringOffset),
+      Offset<org.collektive.frame.Network> networkOffset = default(Offset<org.collektive.frame.Network>)) {
+    builder.StartTable(9);
     OpenRequest.AddSeed(builder, seed);
+    OpenRequest.AddNetwork(builder, networkOffset);
     OpenRequest.AddProgram(builder, programOffset);
     OpenRequest.AddTypes(builder, typesOffset);
     OpenRequest.AddSchema(builder, schemaOffset);
@@ -69,7 +73,7 @@ public struct OpenRequest : IFlatbufferObject
     return OpenRequest.EndOpenRequest(builder);
   }
 
-  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(8); }
+  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(9); }
   public static void AddProtocol(FlatBufferBuilder builder, uint protocol) { builder.AddUint(0, protocol, 0); }
   public static void AddSeed(FlatBufferBuilder builder, ulong seed) { builder.AddUlong(1, seed, 0); }
   public static void AddThreads(FlatBufferBuilder builder, int threads) { builder.AddInt(2, threads, 1); }
@@ -88,6 +92,7 @@ public struct OpenRequest : IFlatbufferObject
   public static VectorOffset CreateTypesVectorBlock(FlatBufferBuilder builder, IntPtr dataPtr, int sizeInBytes) { builder.StartVector(1, sizeInBytes, 1); builder.Add<Offset<org.collektive.frame.TypeFingerprint>>(dataPtr, sizeInBytes); return builder.EndVector(); }
   public static void StartTypesVector(FlatBufferBuilder builder, int numElems) { builder.StartVector(4, numElems, 4); }
   public static void AddProgram(FlatBufferBuilder builder, StringOffset programOffset) { builder.AddOffset(7, programOffset.Value, 0); }
+  public static void AddNetwork(FlatBufferBuilder builder, Offset<org.collektive.frame.Network> networkOffset) { builder.AddOffset(8, networkOffset.Value, 0); }
   public static Offset<org.collektive.frame.OpenRequest> EndOpenRequest(FlatBufferBuilder builder) {
     int o = builder.EndTable();
     builder.Required(o, 12);  // jars
@@ -111,6 +116,7 @@ static public class OpenRequestVerify
       && verifier.VerifyString(tablePos, 14 /*Schema*/, true)
       && verifier.VerifyVectorOfTables(tablePos, 16 /*Types*/, org.collektive.frame.TypeFingerprintVerify.Verify, true)
       && verifier.VerifyString(tablePos, 18 /*Program*/, false)
+      && verifier.VerifyTable(tablePos, 20 /*Network*/, org.collektive.frame.NetworkVerify.Verify, false)
       && verifier.VerifyTableEnd(tablePos);
   }
 }

@@ -42,6 +42,12 @@ public struct StepResponse : IFlatbufferObject
   /// Microseconds inside the host, and of these in the rounds.
   public int HostMicros { get { int o = __p.__offset(18); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   public int RoundMicros { get { int o = __p.__offset(20); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
+  /// Messages put on links in this tick, one for each link; of these the lost ones and the ones that a network model delays; and the
+  /// messages that links held and whose retention ended.
+  public int Sent { get { int o = __p.__offset(22); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
+  public int Dropped { get { int o = __p.__offset(24); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
+  public int Delayed { get { int o = __p.__offset(26); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
+  public int Expired { get { int o = __p.__offset(28); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
 
   public static Offset<org.collektive.frame.StepResponse> CreateStepResponse(FlatBufferBuilder builder,
       ulong tick = 0,
@@ -52,10 +58,18 @@ public struct StepResponse : IFlatbufferObject
       int node_count = 0,
       int link_count = 0,
       int host_micros = 0,
-      int round_micros = 0) {
-    builder.StartTable(9);
+      int round_micros = 0,
+      int sent = 0,
+      int dropped = 0,
+      int delayed = 0,
+      int expired = 0) {
+    builder.StartTable(13);
     StepResponse.AddDigest(builder, digest);
     StepResponse.AddTick(builder, tick);
+    StepResponse.AddExpired(builder, expired);
+    StepResponse.AddDelayed(builder, delayed);
+    StepResponse.AddDropped(builder, dropped);
+    StepResponse.AddSent(builder, sent);
     StepResponse.AddRoundMicros(builder, round_micros);
     StepResponse.AddHostMicros(builder, host_micros);
     StepResponse.AddLinkCount(builder, link_count);
@@ -66,7 +80,7 @@ public struct StepResponse : IFlatbufferObject
     return StepResponse.EndStepResponse(builder);
   }
 
-  public static void StartStepResponse(FlatBufferBuilder builder) { builder.StartTable(9); }
+  public static void StartStepResponse(FlatBufferBuilder builder) { builder.StartTable(13); }
   public static void AddTick(FlatBufferBuilder builder, ulong tick) { builder.AddUlong(0, tick, 0); }
   public static void AddDigest(FlatBufferBuilder builder, ulong digest) { builder.AddUlong(1, digest, 0); }
   public static void AddNodes(FlatBufferBuilder builder, VectorOffset nodesOffset) { builder.AddOffset(2, nodesOffset.Value, 0); }
@@ -86,6 +100,10 @@ public struct StepResponse : IFlatbufferObject
   public static void AddLinkCount(FlatBufferBuilder builder, int linkCount) { builder.AddInt(6, linkCount, 0); }
   public static void AddHostMicros(FlatBufferBuilder builder, int hostMicros) { builder.AddInt(7, hostMicros, 0); }
   public static void AddRoundMicros(FlatBufferBuilder builder, int roundMicros) { builder.AddInt(8, roundMicros, 0); }
+  public static void AddSent(FlatBufferBuilder builder, int sent) { builder.AddInt(9, sent, 0); }
+  public static void AddDropped(FlatBufferBuilder builder, int dropped) { builder.AddInt(10, dropped, 0); }
+  public static void AddDelayed(FlatBufferBuilder builder, int delayed) { builder.AddInt(11, delayed, 0); }
+  public static void AddExpired(FlatBufferBuilder builder, int expired) { builder.AddInt(12, expired, 0); }
   public static Offset<org.collektive.frame.StepResponse> EndStepResponse(FlatBufferBuilder builder) {
     int o = builder.EndTable();
     return new Offset<org.collektive.frame.StepResponse>(o);
@@ -107,6 +125,10 @@ static public class StepResponseVerify
       && verifier.VerifyField(tablePos, 16 /*LinkCount*/, 4 /*int*/, 4, false)
       && verifier.VerifyField(tablePos, 18 /*HostMicros*/, 4 /*int*/, 4, false)
       && verifier.VerifyField(tablePos, 20 /*RoundMicros*/, 4 /*int*/, 4, false)
+      && verifier.VerifyField(tablePos, 22 /*Sent*/, 4 /*int*/, 4, false)
+      && verifier.VerifyField(tablePos, 24 /*Dropped*/, 4 /*int*/, 4, false)
+      && verifier.VerifyField(tablePos, 26 /*Delayed*/, 4 /*int*/, 4, false)
+      && verifier.VerifyField(tablePos, 28 /*Expired*/, 4 /*int*/, 4, false)
       && verifier.VerifyTableEnd(tablePos);
   }
 }

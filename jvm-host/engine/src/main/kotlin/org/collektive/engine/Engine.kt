@@ -85,6 +85,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             if (to.incoming.put(from, links.length(index), links.attenuation(index), tick.number, validator.place(index), transmitters[0])) {
                 from.outgoing.insert(to)
                 linkCount++
+                if (settings.network.isIdeal && from.export != null) result.network.sent++
             }
         }
     }
@@ -119,7 +120,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         val due = tick.due
         var at = 0
         for (index in 0 until due.size) {
-            while (nodes.node(at).id != due[index]) at++
+            while (nodes.keys[at] != due[index]) at++
             result.due(index, nodes.node(at))
         }
     }
@@ -137,7 +138,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         val counts = result.network
         if (settings.network.isIdeal) {
             val allSent = result.size == nodes.size && result.failureCount == 0
-            if (allSent) counts.sent = linkCount.toLong() else countSent(counts)
+            if (allSent) counts.sent += linkCount else countSent(counts)
             return
         }
         runOnPool(deliveryTask, nodes.size, deadline)

@@ -32,17 +32,20 @@ class AllocationTest {
 
     @Test
     fun `no allocation per tick in steady state`() {
+        val bad = NetworkModel(loss = 0.2, lossPerMetre = 1e-4, delay = 0.1, jitter = 0.5, retention = 0.4)
         for (schedule in Schedule.entries) {
-            val control = bytesPerTick(schedule, allocates = true)
-            assertTrue(control > NODES * 32, "the control allocates at least its arrays, but only $control B were seen")
-            val bytes = bytesPerTick(schedule, allocates = false)
-            assertTrue(bytes < 1, "$schedule: $bytes B per tick")
+            for (network in listOf(NetworkModel(), bad)) {
+                val control = bytesPerTick(schedule, network, allocates = true)
+                assertTrue(control > NODES * 32, "the control allocates at least its arrays, but only $control B were seen")
+                val bytes = bytesPerTick(schedule, network, allocates = false)
+                assertTrue(bytes < 1, "$schedule, ${if (network.isIdeal) "ideal" else "bad"} network: $bytes B per tick")
+            }
         }
     }
 
     /** Bytes that the engine's thread and those of its pool allocate; the least of several runs, since code that is not compiled yet allocates more. */
-    private fun bytesPerTick(schedule: Schedule, allocates: Boolean): Long {
-        Engine(EngineSettings(1, 2, schedule), AggregateRuntimes()).use { engine ->
+    private fun bytesPerTick(schedule: Schedule, network: NetworkModel, allocates: Boolean): Long {
+        Engine(EngineSettings(1, 2, schedule, network), AggregateRuntimes()).use { engine ->
             val tick = Tick()
             for (id in 0 until NODES) tick.nodesAdded.add(NewNode(id, Constant(allocates), Parameters(emptyMap())))
             for (id in 1 until NODES) tick.links.add(id - 1, id, 1f, 0f)

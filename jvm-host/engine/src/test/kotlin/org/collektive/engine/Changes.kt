@@ -2,42 +2,52 @@ package org.collektive.engine
 
 import kotlin.random.Random
 
+/** A directed link. */
+internal data class Line(val from: Int, val to: Int)
+
+/** What a link has beside its ends. */
+internal class Values(val length: Float, val attenuation: Float)
+
 /** What changes in one tick, and who is due. */
 internal class Changes(
     val removed: List<Int>,
     val added: List<Int>,
-    val unlinked: List<Pair<Int, Int>>,
-    val linked: List<Pair<Int, Int>>,
+    val unlinked: List<Line>,
+    val linked: List<Pair<Line, Values>>,
     val due: List<Int>,
+    val globals: Int?,
 ) {
     companion object {
-        /** A random but valid sequence of [count] ticks, in which nodes and links come and go. */
+        /** A random but valid sequence of [count] ticks, in which nodes and links come and go, some of them at once again. */
         fun random(seed: Int, count: Int): List<Changes> {
             val random = Random(seed)
             val nodes = sortedSetOf<Int>()
-            val links = sortedSetOf<Pair<Int, Int>>(compareBy({ it.first }, { it.second }))
+            val links = sortedSetOf<Line>(compareBy({ it.from }, { it.to }))
             return List(count) {
                 val removed = nodes.filter { random.nextInt(20) == 0 }.shuffled(random)
                 nodes.removeAll(removed.toSet())
-                links.removeIf { it.first in removed || it.second in removed }
-                val added = List(random.nextInt(6)) { random.nextInt(60) }.distinct().filter { it !in nodes }
+                links.removeIf { it.from in removed || it.to in removed }
+                val added = (List(random.nextInt(6)) { random.nextInt(60) } + removed.take(1)).distinct().filter { it !in nodes }
                 nodes.addAll(added)
                 val unlinked = links.filter { random.nextInt(8) == 0 }.shuffled(random)
                 links.removeAll(unlinked.toSet())
-                val linked = if (nodes.isEmpty()) emptyList() else List(random.nextInt(30)) { nodes.random(random) to nodes.random(random) }
-                val valid = linked.filter { it.first != it.second }.distinct()
-                links.addAll(valid)
-                Changes(removed, added, unlinked, valid, nodes.filter { random.nextInt(5) > 0 })
+                val wanted = if (nodes.isEmpty()) emptyList() else List(random.nextInt(30)) { Line(nodes.random(random), nodes.random(random)) }
+                val linked = (wanted + unlinked.filter { random.nextInt(3) == 0 }).filter { it.from != it.to }.distinct()
+                links.addAll(linked)
+                val values = linked.map { it to Values(random.nextInt(20).toFloat(), random.nextInt(3).toFloat()) }
+                Changes(removed, added, unlinked, values, nodes.filter { random.nextInt(5) > 0 }, random.nextInt(100).takeIf { it < 20 })
             }
         }
     }
 }
 
-/** One tick with [changes]. */
-internal fun TestEngine.step(changes: Changes): TickResult = step {
-    changes.removed.forEach(nodesRemoved::add)
-    add(*changes.added.toIntArray())
-    changes.unlinked.forEach { unlink(it.first, it.second) }
-    changes.linked.forEach { link(it.first, it.second) }
+/** One tick with [changes], which arrive in their own order or in a random one. */
+internal fun TestEngine.step(changes: Changes, order: Random? = null): TickResult = step {
+    fun <T> List<T>.arriving() = if (order == null) this else shuffled(order)
+    changes.removed.arriving().forEach(nodesRemoved::add)
+    add(*changes.added.arriving().toIntArray())
+    changes.unlinked.arriving().forEach { unlink(it.from, it.to) }
+    changes.linked.arriving().forEach { (line, values) -> link(line.from, line.to, values.length, values.attenuation) }
     due(*changes.due.toIntArray())
+    globals = changes.globals
 }

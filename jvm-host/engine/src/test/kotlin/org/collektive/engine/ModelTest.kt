@@ -3,34 +3,76 @@ package org.collektive.engine
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
+import org.collektive.api.Philox
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.runtime.DeviceRuntimes
 import org.junit.jupiter.api.DynamicTest
+import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
+import kotlin.random.Random
 import kotlin.test.assertEquals
+import kotlin.test.assertNotEquals
 
-/** Random runs with nodes and links coming and going, against a model made of maps, for any number of threads. */
+/** Random runs with nodes and links coming and going, against a model made of maps, for any number of threads and any network. */
 class ModelTest {
+    private val networks = mapOf(
+        "ideal" to NetworkModel(),
+        "all but ideal" to NetworkModel(retention = 1e9),
+        "lossy" to NetworkModel(loss = 0.3, lossPerMetre = 0.02, lossPerAttenuation = 0.1),
+        "slow" to NetworkModel(delay = 0.7, jitter = 2.0),
+        "forgetful" to NetworkModel(jitter = 0.4, retention = 0.8),
+        "bad" to NetworkModel(loss = 0.2, lossPerMetre = 0.01, lossPerAttenuation = 0.05, delay = 0.5, jitter = 1.6, retention = 1.5),
+    )
+
     @TestFactory
     fun `the engine does what the model does`(): List<DynamicTest> = Schedule.entries.flatMap { schedule ->
-        (1..12).map { seed ->
-            DynamicTest.dynamicTest("$schedule, seed $seed") {
-                val expected = Model(schedule).let { model -> Changes.random(seed, 60).map(model::step) }
-                for (threads in listOf(1, 2, 8)) assertEquals(expected, run(seed, threads, schedule, AggregateRuntimes()), "$threads threads")
-                assertEquals(expected, run(seed, 2, schedule, MailboxRuntimes()), "by mailboxes")
+        networks.flatMap { (name, network) ->
+            (1..4).map { seed ->
+                DynamicTest.dynamicTest("$schedule, $name, seed $seed") {
+                    val expected = Model(schedule, network).let { model -> Changes.random(seed, TICKS).map(model::step) }
+                    for (threads in listOf(1, 2, 4, 8)) assertEquals(expected, run(seed, threads, schedule, network), "$threads threads")
+                    assertEquals(expected, run(seed, 2, schedule, network, runtimes = MailboxRuntimes()), "by mailboxes")
+                }
             }
         }
     }
 
     @TestFactory
-    fun `the two schedules differ`(): List<DynamicTest> = listOf(1).map { seed ->
-        DynamicTest.dynamicTest("seed $seed") {
-            assert(run(seed, 2, Schedule.LOCKSTEP, AggregateRuntimes()) != run(seed, 2, Schedule.SEQUENTIAL, AggregateRuntimes()))
+    fun `changes may come in any order`(): List<DynamicTest> = Schedule.entries.flatMap { schedule ->
+        networks.map { (name, network) ->
+            DynamicTest.dynamicTest("$schedule, $name") {
+                val expected = run(seed = 5, threads = 1, schedule, network)
+                for (order in 1..3) assertEquals(expected, run(seed = 5, threads = 4, schedule, network, Random(order)))
+            }
         }
     }
 
-    private fun run(seed: Int, threads: Int, schedule: Schedule, runtimes: DeviceRuntimes): List<Map<Int, Any?>> {
-        val program = program {
+    @Test
+    fun `schedules and networks differ`() {
+        val runs = networks.filterKeys { it != "all but ideal" }.values.map { run(1, 2, Schedule.LOCKSTEP, it) } +
+            listOf(run(1, 2, Schedule.SEQUENTIAL, NetworkModel()))
+        for (a in runs.indices) for (b in 0 until a) assertNotEquals(runs[a], runs[b], "$a and $b")
+    }
+
+    @Test
+    fun `a network with nothing in its way is an ideal one`() {
+        for (schedule in Schedule.entries) {
+            assertEquals(run(2, 2, schedule, NetworkModel()), run(2, 2, schedule, networks.getValue("all but ideal")))
+        }
+    }
+
+    /** What is known of a tick: the answers, then sent, dropped, delayed and expired messages. */
+    private data class Outcome(val answers: Map<Int, Any?>, val counts: List<Long>)
+
+    private fun run(
+        seed: Int,
+        threads: Int,
+        schedule: Schedule,
+        network: NetworkModel,
+        order: Random? = null,
+        runtimes: DeviceRuntimes = AggregateRuntimes(),
+    ): List<Outcome> {
+        val program = program { device ->
             val count = alignedOn("count") { evolve(0L) { it + 1 } }
             val sum = alignedOn("sum") {
                 exchanging(localId.toLong()) { seen ->
@@ -39,59 +81,129 @@ class ModelTest {
                 }
             }
             val near = alignedOn(localId % 3) { neighboring(count).neighbors.toMap() }
-            if ((count + localId) % 7 == 0L) error("every seventh")
-            Triple(count, sum, near)
+            if (((device.time * 2).toInt() + localId) % 7 == 0) error("every seventh")
+            listOf(count, sum, near, device.globals, device.deltaTime)
         }
-        return TestEngine(program, threads, schedule, runtimes = runtimes).use { test ->
-            Changes.random(seed, 60).map { changes -> test.step(changes).toMap().mapValues { it.value.takeIf { value -> value is Triple<*, *, *> } } }
+        return TestEngine(program, threads, schedule, SEED, runtimes, network).use { test ->
+            Changes.random(seed, TICKS).map { changes ->
+                val result = test.step(changes, order)
+                val counts = result.network.run { listOf(sent, dropped, delayed, expired) }
+                Outcome(result.toMap().mapValues { it.value.takeIf { value -> value is List<*> } }, counts)
+            }
         }
     }
 
-    /** The same program, written as its meaning says. */
-    private class Model(private val schedule: Schedule) {
-        private class Sent(val count: Long, val kept: Long, val toEach: Map<Int, Long>, val known: Set<Int>)
+    /** The same program and the same network, written as their meaning says. */
+    private class Model(private val schedule: Schedule, private val network: NetworkModel) {
+        private class Message(val tick: Int, val count: Long, val kept: Long, val toEach: Map<Int, Long>, val receivers: Set<Int>)
 
-        private val sent = HashMap<Int, Sent>()
-        private val links = HashSet<Pair<Int, Int>>()
+        /** What a link ever brought, with the time of its arrival. */
+        private class Link(var values: Values, val since: Int) {
+            val arrivals = ArrayList<Pair<Message, Double>>()
+            var newest: Message? = null
+            var current: Pair<Message, Double>? = null
+        }
+
+        private val last = HashMap<Int, Message>()
+        private val links = HashMap<Line, Link>()
         private val nodes = sortedSetOf<Int>()
+        private var globals: Int? = null
+        private var tick = 0
+        private val now get() = tick * 0.5
+        private val counts = LongArray(4)
 
-        fun step(changes: Changes): Map<Int, Any?> {
-            for (id in changes.removed) {
-                nodes.remove(id)
-                sent.remove(id)
-                cut { it.first == id || it.second == id }
-            }
+        fun step(changes: Changes): Outcome {
+            tick++
+            counts.fill(0)
+            changes.globals?.let { globals = it }
+            nodes.removeAll(changes.removed.toSet())
+            last.keys.removeAll(changes.removed.toSet())
+            links.keys.removeIf { it.from in changes.removed || it.to in changes.removed }
             nodes.addAll(changes.added)
-            cut { it in changes.unlinked }
-            links.addAll(changes.linked)
-            val before = HashMap(sent)
-            return changes.due.associateWith { id -> round(id, if (schedule == Schedule.SEQUENTIAL) sent else before) }
+            links.keys.removeAll(changes.unlinked.toSet())
+            for ((line, values) in changes.linked) {
+                val known = links[line]
+                if (known != null) {
+                    known.values = values
+                    continue
+                }
+                val link = Link(values, tick)
+                links[line] = link
+                last[line.from]?.let { put(it, line, link) }
+            }
+            val answers = LinkedHashMap<Int, Any?>()
+            val sent = ArrayList<Pair<Int, Message>>()
+            for (id in changes.due) {
+                links.filterKeys { it.to == id }.values.forEach(::settle)
+                val (answer, message) = round(id)
+                answers[id] = answer
+                if (message == null) continue
+                if (schedule == Schedule.SEQUENTIAL) publish(id, message) else sent += id to message
+            }
+            sent.forEach { publish(it.first, it.second) }
+            links.values.forEach(::settle)
+            return Outcome(answers, counts.toList())
         }
 
-        /** Who loses a link is unknown to its sender from then on. */
-        private fun cut(gone: (Pair<Int, Int>) -> Boolean) {
-            for (link in links.filter(gone)) {
-                links.remove(link)
-                sent[link.first]?.let { sent[link.first] = Sent(it.count, it.kept, it.toEach, it.known - link.second) }
+        private fun publish(id: Int, message: Message) {
+            last[id] = message
+            links.filterKeys { it.from == id }.forEach { (line, link) -> put(message, line, link) }
+        }
+
+        private fun put(message: Message, line: Line, link: Link) {
+            counts[0]++
+            val words = intArrayOf(message.tick, line.from, line.to, 4)
+            Philox.block(words, SEED.toInt(), 0)
+            val (first, second) = words.map { it.toUInt().toDouble() }.chunked(2).map { (high, low) ->
+                (high * 4294967296.0 + (low - low % 2048.0)) / 18446744073709551616.0
+            }
+            val loss = network.loss + network.lossPerMetre * link.values.length + network.lossPerAttenuation * link.values.attenuation
+            if (first < loss) {
+                counts[1]++
+                return
+            }
+            val delay = network.delay + network.jitter * second
+            if (delay > 0) counts[2]++
+            link.arrivals += message to message.tick * 0.5 + delay
+        }
+
+        /** The newest message that has arrived so far counts, until its time is over. */
+        private fun settle(link: Link) {
+            val arrived = link.arrivals.filter { it.second <= now + 0.0005 }.maxByOrNull { it.first.tick } ?: return
+            if (arrived.first !== link.newest) {
+                link.newest = arrived.first
+                link.current = arrived
+            }
+            val current = link.current
+            if (current != null && current.second + network.retention < now - 0.0005) {
+                link.current = null
+                counts[3]++
             }
         }
 
-        private fun round(id: Int, visible: Map<Int, Sent>): Any? {
-            val own = sent[id]
+        private fun round(id: Int): Pair<Any?, Message?> {
+            val own = last[id]
             val count = (own?.count ?: 0) + 1
-            val senders = links.filter { it.second == id }.map { it.first }.sorted()
-            val heard = senders.mapNotNull { sender -> visible[sender]?.let { sender to it } }
+            val incoming = links.filterKeys { it.to == id }.toSortedMap(compareBy(Line::from))
+            val heard = incoming.mapNotNull { (line, link) -> link.current?.let { Triple(line.from, link, it.first) } }
             val seen = LinkedHashMap<Int, Long>()
-            for ((sender, message) in heard) {
-                seen[sender] = if (id in message.known) message.toEach[id] ?: message.kept else message.kept
+            for ((sender, link, message) in heard) {
+                val isKnown = id in message.receivers && link.since <= message.tick
+                seen[sender] = if (isKnown) message.toEach[id] ?: message.kept else message.kept
             }
             seen[id] = own?.kept ?: id.toLong()
-            val near = heard.filter { it.first % 3 == id % 3 }.associate { it.first to it.second.count }
-            if ((count + id) % 7 == 0L) return null
+            val near = heard.filter { it.first % 3 == id % 3 }.associate { it.first to it.third.count }
+            if ((tick + id) % 7 == 0) return null to null
             val toEach = seen.mapValues { it.value * 31 + it.key }
-            val receivers = links.filter { it.first == id }.map { it.second }.toSet()
-            sent[id] = Sent(count, toEach.getValue(id), toEach - id, receivers)
-            return Triple(count, seen, near)
+            val receivers = links.keys.filter { it.from == id }.map { it.to }.toSet()
+            val deltaTime = if (own == null) 0.5 else now - own.tick * 0.5
+            val message = Message(tick, count, toEach.getValue(id), toEach - id, receivers)
+            return listOf(count, seen, near, globals, deltaTime) to message
         }
+    }
+
+    private companion object {
+        const val SEED = 9L
+        const val TICKS = 60
     }
 }

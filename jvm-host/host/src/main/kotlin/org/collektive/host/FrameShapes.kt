@@ -4,6 +4,7 @@ import org.collektive.host.FrameVerifier.Companion.inline
 import org.collektive.host.FrameVerifier.Companion.opaque
 import org.collektive.host.FrameVerifier.Companion.string
 import org.collektive.host.FrameVerifier.Companion.strings
+import org.collektive.host.FrameVerifier.Companion.table
 import org.collektive.host.FrameVerifier.Companion.tables
 import org.collektive.host.FrameVerifier.Companion.vector
 import org.collektive.host.FrameVerifier.Shape
@@ -15,6 +16,16 @@ internal object FrameShapes {
 
     private val typeFingerprint = Shape("types", string("name", isRequired = true), inline("hash", 8))
 
+    private val network = Shape(
+        "network",
+        inline("loss", 8),
+        inline("loss_per_metre", 8),
+        inline("loss_per_attenuation", 8),
+        inline("delay", 8),
+        inline("jitter", 8),
+        inline("retention", 8),
+    )
+
     val openRequest = Shape(
         "OpenRequest",
         inline("protocol", 4),
@@ -25,6 +36,7 @@ internal object FrameShapes {
         string("schema", isRequired = true),
         tables("types", typeFingerprint, isRequired = true),
         string("program"),
+        table("network", network),
     )
 
     val controlRequest = Shape(

@@ -62,6 +62,7 @@ internal class FrameVerifier {
         when (field.kind) {
             Kind.INLINE -> {}
             Kind.OPAQUE -> target(position, field.name)
+            Kind.TABLE -> table(target(position, field.name), checkNotNull(field.shape), "$path.${field.name}")
             Kind.STRING -> string(target(position, field.name), field.name)
             Kind.VECTOR -> vector(target(position, field.name), field.elementSize, field.name)
             Kind.STRINGS, Kind.TABLES -> {
@@ -118,7 +119,7 @@ internal class FrameVerifier {
         val isRequired: Boolean = false,
     )
 
-    enum class Kind { INLINE, OPAQUE, STRING, VECTOR, STRINGS, TABLES }
+    enum class Kind { INLINE, OPAQUE, TABLE, STRING, VECTOR, STRINGS, TABLES }
 
     companion object {
         private const val OFFSET = 4
@@ -140,6 +141,8 @@ internal class FrameVerifier {
         fun inline(name: String, size: Int) = Field(name, Kind.INLINE, size)
 
         fun opaque(name: String) = Field(name, Kind.OPAQUE)
+
+        fun table(name: String, shape: Shape) = Field(name, Kind.TABLE, shape = shape)
 
         fun string(name: String, isRequired: Boolean = false) = Field(name, Kind.STRING, isRequired = isRequired)
 

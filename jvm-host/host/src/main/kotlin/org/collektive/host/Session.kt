@@ -4,12 +4,14 @@ import org.collektive.api.schema.DataSchema
 import org.collektive.api.schema.MalformedDataException
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
+import org.collektive.engine.NetworkModel
 import org.collektive.engine.RoundData
 import org.collektive.engine.RoundDigest
 import org.collektive.engine.RoundsNotFinished
 import org.collektive.engine.Schedule
 import org.collektive.engine.TickRefused
 import org.collektive.engine.TickResult
+import org.collektive.frame.Network
 import org.collektive.frame.OpenRequest
 import org.collektive.frame.OpenResponse
 import org.collektive.frame.ParameterInfo
@@ -162,6 +164,11 @@ internal class Session private constructor(
         if (errors != 0) StepResponse.addErrors(builder, errors)
         StepResponse.addNodeCount(builder, engine.nodeCount)
         StepResponse.addLinkCount(builder, engine.linkCount)
+        val network = result.network
+        StepResponse.addSent(builder, count(network.sent))
+        StepResponse.addDropped(builder, count(network.dropped))
+        StepResponse.addDelayed(builder, count(network.delayed))
+        StepResponse.addExpired(builder, count(network.expired))
         StepResponse.addRoundMicros(builder, micros(result.roundNanos))
         StepResponse.addHostMicros(builder, micros(System.nanoTime() - begin))
         return buffer.finish(StepResponse.endStepResponse(builder))
@@ -218,7 +225,9 @@ internal class Session private constructor(
         event.commit()
     }
 
-    private fun micros(nanos: Long) = (nanos / 1000).coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
+    private fun micros(nanos: Long) = count(nanos / 1000)
+
+    private fun count(value: Long) = value.coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
 
     /** The tick's sensors, each thread with readers and writers of its own. */
     private class UserData(schema: DataSchema, threads: Int) : RoundData {
@@ -274,11 +283,24 @@ internal class Session private constructor(
             }
         }
 
+        private fun network(request: Network?): NetworkModel = if (request == null) {
+            NetworkModel()
+        } else {
+            NetworkModel(
+                request.loss(),
+                request.lossPerMetre(),
+                request.lossPerAttenuation(),
+                request.delay(),
+                request.jitter(),
+                if (request.retention() == 0.0) Double.POSITIVE_INFINITY else request.retention(),
+            )
+        }
+
         private fun settings(request: OpenRequest): EngineSettings {
             val schedule = Schedule.entries.getOrNull(request.schedule())
                 ?: throw HostException(HostError.FRAME, "there is no schedule ${request.schedule()}")
             return try {
-                EngineSettings(request.seed(), request.threads(), schedule)
+                EngineSettings(request.seed(), request.threads(), schedule, network(request.network()))
             } catch (e: IllegalArgumentException) {
                 throw HostException(HostError.FRAME, e.message.orEmpty(), e)
             }

@@ -3,6 +3,7 @@ package org.collektive.host
 import org.junit.jupiter.api.AfterEach
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
+import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
@@ -14,9 +15,9 @@ class StepTest {
     private val shim = TestShim()
     private val sessions = ArrayList<TestSession>()
 
-    private fun session(program: String = "sum", threads: Int = 2, schedule: Int = 0): TestSession {
+    private fun session(program: String = "sum", threads: Int = 2, schedule: Int = 0, network: List<Double>? = null): TestSession {
         val session = TestSession(shim)
-        check(session.open(program = program, threads = threads, schedule = schedule) >= 0) { shim.error }
+        check(session.open(program = program, threads = threads, schedule = schedule, network = network) >= 0) { shim.error }
         sessions.add(session)
         return session
     }
@@ -58,16 +59,51 @@ class StepTest {
         assertNotEquals(runs[0], digests(session(schedule = 1)))
     }
 
-    private fun digests(session: TestSession, changedTick: Int = 0): List<Long> {
+    @Test
+    fun `nor the order in which changes arrive, under any schedule and network`() {
+        val bad = listOf(0.2, 0.01, 0.0, 0.05, 0.2, 0.3)
+        val digests = HashSet<List<Long>>()
+        for (schedule in 0..2) {
+            for (network in listOf(null, bad)) {
+                val expected = digests(session(threads = 1, schedule = schedule, network = network))
+                for (threads in listOf(1, 2, 4, 8)) {
+                    val session = session(threads = threads, schedule = schedule, network = network)
+                    assertEquals(expected, digests(session, order = Random(threads)), "$threads threads, schedule $schedule, network $network")
+                }
+                digests += expected
+            }
+        }
+        assertEquals(4, digests.size, "lockstep and asynchronous differ in who is due only")
+    }
+
+    @Test
+    fun `the answer counts messages`() {
+        val session = session(network = listOf(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+        val answer = session.ok(Step(1).apply { added = nodes(1, 2, 3); linked = listOf(1 to 2, 1 to 3); due = listOf(1) })
+        assertEquals(listOf(2, 2, 0, 0), listOf(answer.sent(), answer.dropped(), answer.delayed(), answer.expired()))
+        val slow = session(network = listOf(0.0, 0.0, 0.0, 0.06, 0.0, 0.05))
+        slow.ok(Step(1).apply { added = nodes(1, 2); linked = listOf(1 to 2); due = listOf(1) })
+        val counts = (2L..5L).map { tick -> slow.ok(Step(tick).apply { sensors = emptyList() }).expired() }
+        assertEquals(listOf(0, 0, 1, 0), counts)
+    }
+
+    private fun digests(session: TestSession, changedTick: Int = 0, order: Random? = null): List<Long> {
         val ids = (0 until 200).toList()
+        fun <T> List<T>.arriving() = if (order == null) this else shuffled(order)
         return (1..20).map { tick ->
             session.ok(
                 Step(tick.toLong()).apply {
                     if (tick == 1) {
-                        added = ids.map { Step.Added(it) }
-                        linked = ids.zipWithNext() + ids.zipWithNext { a, b -> b to a }
+                        added = ids.map { Step.Added(it) }.arriving()
+                        linked = (ids.zipWithNext() + ids.zipWithNext { a, b -> b to a }).arriving()
                     }
-                    due = ids.filter { (it + tick) % 3 != 0 }
+                    if (tick == 10) {
+                        removed = ids.filter { it % 7 == 0 }.arriving()
+                        added = ids.filter { it % 14 == 0 }.map { Step.Added(it) }.arriving()
+                        linked = ids.filter { it % 14 == 0 && it > 0 }.map { it - 1 to it }.arriving()
+                        unlinked = ids.filter { it % 7 == 2 }.map { it to it + 1 }.filter { it.second < 200 }.arriving()
+                    }
+                    due = ids.filter { (it + tick) % 3 != 0 && (tick < 10 || it % 7 != 0 || it % 14 == 0) }
                     sensors = due.map { Step.Sensor(it * tick + if (tick == changedTick && it == 100) 1 else 0) }
                 },
             ).digest()

@@ -3,6 +3,7 @@ package org.collektive.host
 import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.frame.Link
 import org.collektive.frame.LinkId
+import org.collektive.frame.Network
 import org.collektive.frame.NodeAdded
 import org.collektive.frame.OpenRequest
 import org.collektive.frame.OpenResponse
@@ -119,15 +120,17 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         protocol: Long = 1,
         schema: String = "probe.ProbeSchema",
         types: Map<String, Long> = ProbeSchema.types,
+        network: List<Double>? = null,
     ): Long {
         val builder = FlatBufferBuilder(1024)
         val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
+        val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5]) } ?: 0
         val paths = jars.map { builder.createString(it) }
         builder.finish(
             OpenRequest.createOpenRequest(
                 builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
                 builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
-                builder.createString(program),
+                builder.createString(program), networkTable,
             ),
         )
         return call(direct(builder)) { request -> Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }

@@ -1,0 +1,224 @@
+using System;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using org.collektive.frame;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Who runs in which tick, and what comes and goes meanwhile; ticks are 0.05 s apart.</summary>
+    [TestFixture]
+    public sealed class ScheduleTests : SimulationFixture
+    {
+        [Test]
+        public void Under_the_asynchronous_schedule_each_node_runs_at_its_own_period()
+        {
+            Configure("count", Asynchronous(0.1f));
+            var usual = MakeNode(0);
+            var own = MakeTimedNode(new RoundTiming { period = 0.25f, phase = 0.05f });
+            Play(1);
+            Assert.That(usual.Answer, Is.EqualTo(1));
+            Assert.That(own.Actuator.Calls, Is.EqualTo(0));
+            Play(1);
+            Assert.That(usual.Actuator.Calls, Is.EqualTo(1));
+            Assert.That(own.Answer, Is.EqualTo(1));
+            Play(18);
+            Assert.That(usual.Answer, Is.EqualTo(10));
+            Assert.That(own.Answer, Is.EqualTo(4));
+            Assert.That(usual.Actuator.Calls, Is.EqualTo(10), "actuators act after their node's rounds only");
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Programs_know_the_time_since_their_own_last_round()
+        {
+            Configure("clock", Asynchronous(0.15f));
+            var node = MakeNode(0);
+            Play(4);
+            Assert.That(node.Answer, Is.EqualTo(0.15f).Within(1e-6f));
+            Assert.That(node.Actuator.Last.Heard, Is.InRange(149, 150), "milliseconds");
+        }
+
+        [TestCase(0f)]
+        [TestCase(float.NaN)]
+        [TestCase(0.04f)]
+        public void A_period_that_cannot_be_is_refused_before_anything_starts(float period)
+        {
+            Configure("count", Asynchronous(period));
+            MakeNode(0);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("period is " + period + " s"));
+            Assert.That(Manager.Tick, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void A_period_of_one_node_that_cannot_be_is_refused_with_the_node()
+        {
+            Configure("count", Asynchronous(0.1f));
+            MakeNode(0);
+            var bad = MakeTimedNode(new RoundTiming { period = 0.01f });
+            Assert.That(bad.Node.Id, Is.EqualTo(1));
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("node 1").And.StringContaining("period is 0.01 s"));
+        }
+
+        [Test]
+        public void A_timing_that_no_schedule_uses_is_not_looked_at()
+        {
+            Configure("count", settings => settings.timing.period = float.NaN);
+            var node = MakeTimedNode(new RoundTiming { period = 0 });
+            Play(2);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Sequential)]
+        [TestCase(Schedule.Asynchronous)]
+        public void A_node_that_sleeps_keeps_its_state_and_what_it_sent(Schedule schedule)
+        {
+            Configure("sum", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
+            var a = MakeNode(1);
+            var b = MakeNode(10);
+            a.Node.Program = "count";
+            Rejoin(a);
+            Manager.AddLink(b.Node.Id, a.Node.Id);
+            Manager.AddLink(a.Node.Id, b.Node.Id);
+            Play(3);
+            var rounds = a.Answer;
+            a.Node.Sleep(0.2);
+            Play(4);
+            Assert.That(a.Answer, Is.EqualTo(rounds));
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(rounds + 1));
+            a.Node.Sleep(double.PositiveInfinity);
+            Play(20);
+            Assert.That(a.Answer, Is.EqualTo(rounds + 1));
+            a.Node.Sleep(0);
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(rounds + 2));
+        }
+
+        [Test]
+        public void Neighbours_of_a_sleeping_node_still_hear_what_it_sent_last()
+        {
+            Configure("sum");
+            var sleeper = MakeNode(7);
+            var other = MakeNode(1);
+            Manager.AddLink(sleeper.Node.Id, other.Node.Id, directed: true);
+            Play(1);
+            sleeper.Node.Sleep(10);
+            sleeper.Sensor.Value = 100;
+            Play(5);
+            Assert.That(other.Answer, Is.EqualTo(7));
+        }
+
+        [Test]
+        public void Sleeping_is_refused_for_less_than_no_time_and_outside_a_simulation()
+        {
+            var node = MakeNode(0);
+            Assert.Throws<ArgumentOutOfRangeException>(() => node.Node.Sleep(-1));
+            Assert.Throws<ArgumentOutOfRangeException>(() => node.Node.Sleep(double.NaN));
+            node.Node.enabled = false;
+            Assert.Throws<InvalidOperationException>(() => node.Node.Sleep(1));
+        }
+
+        [Test]
+        public void A_node_that_failed_comes_back_without_state_messages_or_links_of_scripts()
+        {
+            Configure("count");
+            var listener = MakeNode(0);
+            var failing = MakeNode(0);
+            failing.Node.RequestedId = failing.Node.Id;
+            Manager.AddLink(failing.Node.Id, listener.Node.Id);
+            Play(3);
+            failing.Node.enabled = false;
+            Play(2);
+            Assert.That(failing.Answer, Is.EqualTo(3));
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            failing.Node.enabled = true;
+            Play(1);
+            Assert.That(failing.Answer, Is.EqualTo(1));
+            Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            Assert.That(listener.Answer, Is.EqualTo(6));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void An_id_can_go_to_another_node_in_the_same_tick_and_nothing_of_the_former_reaches_it()
+        {
+            Configure("sum", settings => settings.network.delay = 0.12);
+            var sender = MakeNode(5);
+            var former = MakeNode(0);
+            var id = former.Node.Id;
+            Manager.AddLink(sender.Node.Id, id);
+            Play(2);
+            UnityEngine.Object.Destroy(former.Node.gameObject);
+            Play(1);
+            var later = MakeNode(0, default, id);
+            Play(4);
+            Assert.That(later.Answer, Is.EqualTo(0));
+            Assert.That(later.Actuator.Last.Heard, Is.EqualTo(0));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Global_data_reach_programs_from_the_next_tick_on()
+        {
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = 1);
+            Configure("windy");
+            var node = MakeNode(0);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(-1), "what was set for an earlier simulation is gone");
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = 3);
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = data.Wind + 1);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(4));
+            Play(2);
+            Assert.That(node.Answer, Is.EqualTo(4));
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = data.Wind * 2);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(8));
+        }
+
+        [Test]
+        public void Global_data_of_another_type_or_that_are_not_finite_stop_the_simulation()
+        {
+            Configure("windy");
+            MakeNode(0);
+            Play(1);
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = float.NaN);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("not finite").And.StringContaining("wind"));
+            Configure("windy");
+            Manager.SetGlobals<string>(data => { });
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("System.String").And.StringContaining("GlobalDataDraft"));
+        }
+
+        private static Action<SimulationSettings> Asynchronous(float period) => settings =>
+        {
+            settings.schedule = Schedule.Asynchronous;
+            settings.timing = new RoundTiming { period = period, phase = 0 };
+        };
+
+        private static ProbeNode MakeTimedNode(RoundTiming timing)
+        {
+            var made = MakeNode(0);
+            made.Node.OwnTiming = true;
+            made.Node.Timing.period = timing.period;
+            made.Node.Timing.phase = timing.phase;
+            made.Node.Timing.jitter = timing.jitter;
+            Rejoin(made);
+            return made;
+        }
+
+        /// <summary>What a node is joins with it.</summary>
+        private static void Rejoin(ProbeNode node)
+        {
+            node.Node.RequestedId = node.Node.Id;
+            node.Node.enabled = false;
+            node.Node.enabled = true;
+        }
+    }
+}

@@ -1,0 +1,71 @@
+using System;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// What happens to messages between sending and receiving; times in simulated seconds. As made it is ideal: nothing is lost, and a
+    /// message can be read until the next one replaces it.
+    /// </summary>
+    [Serializable]
+    public sealed class NetworkModel
+    {
+        /// <summary>Probability that a message is lost on a link, 0..1.</summary>
+        public double loss;
+
+        /// <summary>What each metre of the link's length adds to the loss, 0 or greater.</summary>
+        public double lossPerMetre;
+
+        /// <summary>What each unit of the link's attenuation adds to the loss, 0 or greater.</summary>
+        public double lossPerAttenuation;
+
+        /// <summary>Seconds from the tick of the sending to the arrival, 0 or greater.</summary>
+        public double delay;
+
+        /// <summary>Up to so many seconds more, evenly spread, 0 or greater.</summary>
+        public double jitter;
+
+        /// <summary>Seconds for which a link holds a message that arrived; 0: until a later one replaces it.</summary>
+        public double retention;
+
+        /// <summary>The first thing that is wrong; null when all is right.</summary>
+        /// <param name="deltaTime">Simulated seconds of a tick.</param>
+        public string FindProblem(double deltaTime)
+        {
+            if (!(loss >= 0 && loss <= 1)) return "network loss is " + loss + ": it must be in 0..1";
+            if (!IsAmount(lossPerMetre)) return "network loss per metre is " + lossPerMetre + ": it must be 0 or greater";
+            if (!IsAmount(lossPerAttenuation)) return "network loss per attenuation is " + lossPerAttenuation + ": it must be 0 or greater";
+            if (!IsAmount(delay)) return "network delay is " + delay + " s: it must be 0 or greater";
+            if (!IsAmount(jitter)) return "network jitter is " + jitter + " s: it must be 0 or greater";
+            if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
+            return "network retention is " + retention + " s: it must be 0 (until a later message comes) or at least the delta time, " + deltaTime +
+                " s, else messages end before anyone reads them";
+        }
+
+        private static bool IsAmount(double value) => value >= 0 && !double.IsInfinity(value);
+    }
+
+    /// <summary>What the network did in one tick.</summary>
+    public readonly struct NetworkCounts
+    {
+        /// <summary>Makes the counts of a tick.</summary>
+        public NetworkCounts(int sent, int dropped, int delayed, int expired)
+        {
+            Sent = sent;
+            Dropped = dropped;
+            Delayed = delayed;
+            Expired = expired;
+        }
+
+        /// <summary>Messages that were put on links, one for each link.</summary>
+        public int Sent { get; }
+
+        /// <summary>Those of <see cref="Sent"/> that were lost.</summary>
+        public int Dropped { get; }
+
+        /// <summary>Those of <see cref="Sent"/> that arrive later than they would in an ideal network.</summary>
+        public int Delayed { get; }
+
+        /// <summary>Messages that links held and whose retention ended.</summary>
+        public int Expired { get; }
+    }
+}

@@ -1,0 +1,37 @@
+using Collektive.Bridge;
+
+namespace Collektive.Unity
+{
+    /// <summary>Tells for one node when its rounds are due. Round k has the k-th number of the stream, whoever asks when.</summary>
+    internal sealed class RoundTimer
+    {
+        private readonly double origin;
+        private readonly double period;
+        private readonly double jitter;
+        private readonly RandomStream random;
+        private long round;
+        private double next;
+
+        /// <param name="timing">Without problems; read now.</param>
+        /// <param name="random">The node's stream for its schedule.</param>
+        /// <param name="start">Simulated seconds at which the node joins.</param>
+        internal RoundTimer(RoundTiming timing, RandomStream random, double start)
+        {
+            this.random = random;
+            period = timing.period;
+            jitter = timing.jitter;
+            origin = start + (timing.phase < 0 ? period * random.NextDouble() : timing.phase);
+            next = Next();
+        }
+
+        /// <summary>Whether a round came due since the last call that said so; times must not go back.</summary>
+        internal bool TakeDue(double now)
+        {
+            if (next > now) return false;
+            while (next <= now) next = Next();
+            return true;
+        }
+
+        private double Next() => origin + round++ * period + (jitter > 0 ? jitter * random.NextDouble() : 0);
+    }
+}

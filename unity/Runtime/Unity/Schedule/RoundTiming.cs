@@ -1,0 +1,35 @@
+using System;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// When a node runs its rounds under the asynchronous schedule, in simulated seconds: round k is due <c>phase + k * period</c>
+    /// after the node joined, and up to <c>jitter</c> later. A tick runs the rounds that came due since the one before, at most one per node.
+    /// </summary>
+    [Serializable]
+    public sealed class RoundTiming
+    {
+        /// <summary>Seconds from one round to the next; at least the manager's delta time.</summary>
+        [Tooltip("Simulated seconds from one round to the next; at least the delta time.")]
+        public float period = 0.1f;
+
+        /// <summary>Seconds from joining to the first round; negative: drawn for each node, below the period.</summary>
+        [Tooltip("Simulated seconds from joining to the first round. Negative: drawn for each node, below the period.")]
+        public float phase = -1;
+
+        /// <summary>Seconds by which each round may come later, evenly spread; 0 or greater and less than the period.</summary>
+        [Tooltip("Simulated seconds by which each round may come later, evenly spread; less than the period.")]
+        public float jitter;
+
+        /// <summary>The first thing that is wrong; null when all is right.</summary>
+        /// <param name="deltaTime">Simulated seconds of a tick.</param>
+        public string FindProblem(float deltaTime)
+        {
+            if (!(period >= deltaTime) || float.IsInfinity(period)) return "period is " + period + " s: it must be finite and at least the delta time, " + deltaTime + " s";
+            if (float.IsNaN(phase) || float.IsInfinity(phase)) return "phase is " + phase + " s: it must be finite";
+            if (!(jitter >= 0 && jitter < period)) return "jitter is " + jitter + " s: it must be 0 or greater and less than the period, " + period + " s";
+            return null;
+        }
+    }
+}
