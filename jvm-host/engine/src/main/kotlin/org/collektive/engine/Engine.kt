@@ -21,6 +21,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
+    private val commitTask = RoundPool.Task { _, _, begin, end -> commitRange(begin, end) }
     private val deliveryTask = RoundPool.Task(::deliverRange)
     private var data: RoundData? = null
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
@@ -128,9 +129,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun runRounds(data: RoundData, deadline: Long) {
         this.data = data
         runOnPool(roundTask, result.size, deadline)
-        for (index in 0 until result.size) {
-            if (result.failure(index) != null) result.failureCount++ else if (!isSequential) commit(result.node(index))
-        }
+        result.countFailures()
+        if (isSequential) return
+        // Waking the threads again is worth its time for many nodes only.
+        if (result.size < PARALLEL_COMMITS) commitRange(0, result.size) else runOnPool(commitTask, result.size, deadline)
+    }
+
+    private fun commitRange(begin: Int, end: Int) {
+        for (index in begin until end) if (result.failure(index) == null) commit(result.node(index))
     }
 
     /** Puts what was sent on the links. An ideal network has nothing to do: receivers read what their senders sent last. */
@@ -224,6 +230,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         const val RANGES_PER_THREAD = 8
         const val MIN_RANGE = 16
         const val MAX_RANGE = 512
+        const val PARALLEL_COMMITS = 2048
     }
 }
 

@@ -16,7 +16,7 @@ public class TickResult internal constructor() {
 
     /** How many rounds failed. */
     public var failureCount: Int = 0
-        internal set
+        private set
 
     /** What the network did. */
     public val network: NetworkCounts = NetworkCounts()
@@ -49,6 +49,10 @@ public class TickResult internal constructor() {
         failureCount = 0
         roundNanos = 0
         network.clear()
+    }
+
+    internal fun countFailures() {
+        for (index in 0 until size) if (failures[index] != null) failureCount++
     }
 
     internal fun due(index: Int, node: Node) {
