@@ -67,9 +67,9 @@ namespace Collektive.Headless.Tests.Simulation
             var digests = new List<ulong>();
             for (var tick = 1; tick <= Ticks; tick++)
             {
-                if (tick == flipAt) nodes[3].Sensor.Value = BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(nodes[3].Sensor.Value) ^ 1);
+                if (tick == flipAt) nodes[4].Sensor.Value = BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(nodes[4].Sensor.Value) ^ 1);
                 Play(1);
-                if (tick == flipAt) nodes[3].Sensor.Value = 4;
+                if (tick == flipAt) nodes[4].Sensor.Value = 5;
                 foreach (var node in nodes) node.Node.transform.position += new Vector3(node.Node.Random.Range(-0.5f, 0.5f), 0, 0);
                 digests.Add(Manager.Digest);
             }
