@@ -176,18 +176,16 @@ project(":programs") {
         "testImplementation"(project(":host"))
         "generator"(project(":generator"))
     }
-    val schema = "$rootDir/unity/Samples~/GradientAscent/gradient_ascent.fbs"
-    val folder = layout.buildDirectory.dir("generated/schema")
-    generatedJava("schema", folder, files(schema, generator)) {
-        doFirst {
-            commandLine(
-                "${System.getProperty("java.home")}/bin/java", "-cp", generator.asPath, "org.collektive.generator.MainKt",
-                "--flatc", flatc.path, "--schema", schema, "--include", "$rootDir/schema", "--java", folder.get().asFile.path,
-            )
+    for (schema in fileTree("$rootDir/unity/Samples~") { include("*/*.fbs") }.files.sorted()) {
+        val folder = layout.buildDirectory.dir("generated/${schema.nameWithoutExtension}")
+        generatedJava(schema.nameWithoutExtension, folder, files(schema, generator)) {
+            doFirst {
+                commandLine(
+                    "${System.getProperty("java.home")}/bin/java", "-cp", generator.asPath, "org.collektive.generator.MainKt",
+                    "--flatc", flatc.path, "--schema", schema.path, "--include", "$rootDir/schema", "--java", folder.get().asFile.path,
+                )
+            }
         }
-    }
-    tasks.named<ProcessResources>("processResources") {
-        from(folder) { include("META-INF/**") }
     }
     tasks.named<Jar>("jar") {
         archiveFileName.set("collektive-programs.jar")

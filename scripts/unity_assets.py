@@ -24,6 +24,18 @@ SCENES = {
         "settings": {"schema": "gradientascent.GradientAscentSchema", "program": "gradient-ascent", "threads": 2},
         "camera": ((0, 55, -45), 52),
     },
+    "LeaderElection": {
+        "settings": {"schema": "leaderelection.LeaderElectionSchema", "program": "leader-election", "deltaTime": 0.1, "threads": 2},
+        "camera": ((0, 55, -45), 52),
+    },
+    "Channel": {
+        "settings": {"schema": "channel.ChannelSchema", "program": "channel", "deltaTime": 0.1, "threads": 2},
+        "camera": ((0, 55, -45), 52),
+    },
+    "Crowd": {
+        "settings": {"schema": "crowd.CrowdSchema", "program": "crowd", "deltaTime": 0.1, "threads": 2},
+        "camera": ((0, 40, -28), 56),
+    },
 }
 
 

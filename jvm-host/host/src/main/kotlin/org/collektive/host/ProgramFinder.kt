@@ -10,8 +10,18 @@ import java.lang.reflect.Method
 import java.lang.reflect.Modifier
 import java.lang.reflect.ParameterizedType
 
-/** Finds the functions annotated with [Program] in [jars], and loads no class without one. */
-internal class ProgramFinder(private val jars: List<ProgramJar>, private val loader: ClassLoader, private val schema: DataSchema) {
+/**
+ * Finds the functions annotated with [Program] in [jars], and loads no class without one. Those that are made for another of the jars'
+ * schemas, [all] of them, are passed over.
+ */
+internal class ProgramFinder(
+    private val jars: List<ProgramJar>,
+    private val loader: ClassLoader,
+    private val schema: DataSchema,
+    all: List<DataSchema>,
+) {
+    private val otherSensors = all.map(DataSchema::sensorType) - schema.sensorType
+
     /** All programs by name, in the order of the names. */
     fun find(): Map<String, LoadedProgram> {
         val programs = sortedMapOf<String, LoadedProgram>()
@@ -34,12 +44,15 @@ internal class ProgramFinder(private val jars: List<ProgramJar>, private val loa
     }
 
     private fun annotatedMethods(jar: ProgramJar, className: String): List<Method> = try {
-        Class.forName(className, false, loader).declaredMethods.filter { it.isAnnotationPresent(Program::class.java) }.sortedBy(Method::getName)
+        Class.forName(className, false, loader).declaredMethods.filter(::isWanted).sortedBy(Method::getName)
     } catch (e: LinkageError) {
         throw cannotLoad(jar, className, e)
     } catch (e: ClassNotFoundException) {
         throw cannotLoad(jar, className, e)
     }
+
+    private fun isWanted(method: Method) =
+        method.isAnnotationPresent(Program::class.java) && method.parameterTypes.getOrNull(1) !in otherSensors
 
     private fun cannotLoad(jar: ProgramJar, className: String, e: Throwable) =
         HostException(HostError.PROGRAM, "class $className of ${jar.path} cannot be loaded: $e; build the jar again", e)

@@ -6,13 +6,15 @@ import java.util.ServiceLoader
 
 /** Finds the generated code of the schema that the other side was generated from. */
 internal object SchemaFinder {
-    /** The schema [name] of [loader], whose types are those of [types]. */
-    fun find(name: String, types: Map<String, Long>, loader: ClassLoader, jars: List<ProgramJar>): DataSchema {
-        val all = try {
-            ServiceLoader.load(DataSchema::class.java, loader).toList()
-        } catch (e: ServiceConfigurationError) {
-            throw HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
-        }
+    /** All schemas of [loader]. */
+    fun all(loader: ClassLoader, jars: List<ProgramJar>): List<DataSchema> = try {
+        ServiceLoader.load(DataSchema::class.java, loader).toList()
+    } catch (e: ServiceConfigurationError) {
+        throw HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
+    }
+
+    /** The schema [name] of [all], whose types are those of [types]. */
+    fun find(name: String, types: Map<String, Long>, all: List<DataSchema>, jars: List<ProgramJar>): DataSchema {
         val schema = all.find { it.name == name } ?: throw HostException(
             HostError.SCHEMA,
             "there is no schema $name in ${paths(jars)}, only ${all.map(DataSchema::name)}; $ADVICE",

@@ -269,8 +269,9 @@ internal class Session private constructor(
             val jars = (0 until request.jarsLength()).map { ProgramJar.read(request.jars(it)) }
             val loader = ProgramLoader(jars)
             val types = (0 until request.typesLength()).associate { request.types(it).let { type -> type.name() to type.hash() } }
-            val schema = SchemaFinder.find(request.schema(), types, loader, jars)
-            val programs = ProgramFinder(jars, loader, schema).find()
+            val schemas = SchemaFinder.all(loader, jars)
+            val schema = SchemaFinder.find(request.schema(), types, schemas, jars)
+            val programs = ProgramFinder(jars, loader, schema, schemas).find()
             val name = request.program().orEmpty()
             val program = if (name.isEmpty()) null else programs[name] ?: throw StepFrame.noSuchProgram("the session", name, programs.keys)
             return Session(schema, programs, program, settings, shim).also {

@@ -1,0 +1,27 @@
+package channel
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.spreading.distanceTo
+import it.unibo.collektive.stdlib.spreading.gradientCast
+import it.unibo.collektive.stdlib.util.Point2D
+import it.unibo.collektive.stdlib.util.euclideanDistance2D
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+
+/**
+ * Marks the nodes on the shortest way from the source to the target, and those nearly on it. Each node knows its distance to both along
+ * links; the target learns the length of the whole way and tells everybody.
+ */
+@Program("channel", parameters = [Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater.")])
+public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorDataT {
+    val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
+    val fromSource = distanceTo(sensors.source(), metric)
+    val toTarget = distanceTo(sensors.target(), metric)
+    val length = gradientCast(sensors.target(), fromSource, metric)
+    val way = fromSource + toTarget
+    return ActuatorDataT().apply {
+        inChannel = way.isFinite() && way <= length + device.parameters.double("width")
+        distance = if (fromSource.isFinite()) fromSource.toFloat() else -1f
+    }
+}

@@ -1,0 +1,97 @@
+package crowd
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import it.unibo.collektive.stdlib.util.Point2D
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+import org.collektive.schema.Vector3
+import org.collektive.schema.Vector3T
+import kotlin.math.sqrt
+
+/**
+ * Walks to its goal and keeps its distance: to the walkers around, passing them on the right, and to what stands in the way. Where it is too
+ * dense a warning spreads a few hops, and those who hear it slow down.
+ */
+@Program(
+    "crowd",
+    parameters = [
+        Parameter("speed", "1.4", "Metres per second of a free walker, greater than 0."),
+        Parameter("limit", "0.9", "Walkers per square metre from which on a warning is given."),
+        Parameter("hops", "2", "How far a warning spreads."),
+    ],
+)
+public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDataT {
+    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val goal = requireNotNull(sensors.goal()) { "the sensors give no goal" }
+    val here = Point2D(position.x().toDouble(), position.z().toDouble())
+    val speed = device.parameters.double("speed")
+    val way = Steering()
+    way.add(goal.x() - here.x, goal.z() - here.y, limit = 1.0)
+    var close = 1
+    for ((_, there) in neighboring(here).neighbors.list) {
+        val distance = here.distanceTo(there)
+        if (distance < DENSITY_RADIUS) close++
+        way.avoid(there.x - here.x, there.y - here.y, distance - BODY)
+    }
+    val obstacle = Vector3()
+    for (index in 0 until sensors.obstaclesLength()) {
+        sensors.obstacles(obstacle, index)
+        val x = obstacle.x().toDouble()
+        val z = obstacle.z().toDouble()
+        way.avoid(x, z, sqrt(x * x + z * z) - BODY / 2)
+    }
+    val crowding = close / DENSITY_AREA
+    val isWarned = hopDistanceTo(crowding > device.parameters.double("limit")) <= device.parameters.int("hops")
+    val pace = if (isWarned) speed / 2 else speed
+    return ActuatorDataT().apply {
+        velocity = way.velocity(pace)
+        density = crowding.toFloat()
+        warned = isWarned
+    }
+}
+
+/** The sum of a walker's wishes, on the ground. */
+private class Steering {
+    private var x = 0.0
+    private var z = 0.0
+
+    /** A wish along a vector, no longer than [limit]. */
+    fun add(toX: Double, toZ: Double, limit: Double) {
+        val length = sqrt(toX * toX + toZ * toZ)
+        val scale = if (length > limit) limit / length else 1.0
+        x += scale * toX
+        z += scale * toZ
+    }
+
+    /** Away from what lies along a vector with a [gap] in metres, and a little to the right of it. */
+    fun avoid(toX: Double, toZ: Double, gap: Double) {
+        val length = sqrt(toX * toX + toZ * toZ)
+        if (gap > COMFORT || length < TOO_SMALL) return
+        val push = PUSH * (1 - gap / COMFORT) * (1 - gap / COMFORT) / length
+        x += push * (-toX + SIDESTEP * toZ)
+        z += push * (-toZ - SIDESTEP * toX)
+    }
+
+    fun velocity(speed: Double): Vector3T {
+        val length = sqrt(x * x + z * z)
+        val scale = if (length > 1) speed / length else speed
+        return Vector3T().also {
+            it.x = (scale * x).toFloat()
+            it.z = (scale * z).toFloat()
+        }
+    }
+}
+
+/** Metres: diameter of a body, gap below which another is avoided, radius within which walkers are counted. */
+private const val BODY = 0.5
+private const val COMFORT = 1.2
+private const val DENSITY_RADIUS = 2.0
+private const val DENSITY_AREA = Math.PI * DENSITY_RADIUS * DENSITY_RADIUS
+
+/** How hard the nearest are avoided against the wish to arrive, and how much of it to the right. */
+private const val PUSH = 4.0
+private const val SIDESTEP = 0.5
+private const val TOO_SMALL = 1e-6

@@ -1,0 +1,25 @@
+package leaderelection
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.consensus.boundedElection
+import it.unibo.collektive.stdlib.spreading.distanceTo
+import it.unibo.collektive.stdlib.util.Point2D
+import it.unibo.collektive.stdlib.util.euclideanDistance2D
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+
+/**
+ * Divides the swarm into regions, each with a leader that is at most the radius away along links: the greatest id leads all around it,
+ * the greatest of the others those around that one, and so on. When leaders fail, the regions form anew by themselves.
+ */
+@Program("leader-election", parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")])
+public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorDataT {
+    val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
+    val elected = boundedElection(device.parameters.double("radius"), metric)
+    val toNearest = distanceTo(elected == localId, metric)
+    return ActuatorDataT().apply {
+        leader = elected
+        distance = if (toNearest.isFinite()) toNearest.toFloat() else -1f
+    }
+}

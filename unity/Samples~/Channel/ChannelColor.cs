@@ -1,0 +1,17 @@
+using Collektive.Unity;
+using channel;
+using UnityEngine;
+
+namespace Collektive.Samples.Channel
+{
+    /// <summary>Colours the nodes of the channel.</summary>
+    [AddComponentMenu("Collektive/Samples/Channel/Channel Color")]
+    public sealed class ChannelColor : ColorActuator<ActuatorDataValue>
+    {
+        private static readonly Color In = new Color(1, 0.8f, 0.2f);
+        private static readonly Color Out = new Color(0.3f, 0.35f, 0.5f);
+
+        /// <inheritdoc/>
+        protected override Color Read(ActuatorDataValue data) => data.InChannel ? In : Out;
+    }
+}

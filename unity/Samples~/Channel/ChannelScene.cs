@@ -1,0 +1,162 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using channel;
+using UnityEngine;
+
+namespace Collektive.Samples.Channel
+{
+    /// <summary>
+    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls, which radio does not pass, stand across the straight
+    /// way, each with a gap at either end. After a while the nodes in the gaps of the channel fail, and it finds the other way.
+    /// </summary>
+    [AddComponentMenu("Collektive/Samples/Channel Scene")]
+    public sealed class ChannelScene : SceneBuilder
+    {
+        private const int IgnoreRaycastLayer = 2;
+        private const float WallPlace = 15;
+        private const float WallLength = 40;
+
+        private static readonly string[] Names = { "connected", "channel_nodes", "length" };
+        private static readonly Vector3 SourcePlace = new Vector3(-45, 0.5f, -4);
+        private static readonly Vector3 TargetPlace = new Vector3(45, 0.5f, -4);
+
+        /// <summary>How many nodes, the two ends included.</summary>
+        [Min(2)]
+        public int nodes = 600;
+
+        /// <summary>Range of the nodes' radios in metres.</summary>
+        [Min(0)]
+        public float range = 7;
+
+        /// <summary>Simulated seconds after which the nodes in the gaps of the channel fail.</summary>
+        [Min(0)]
+        public float failAfter = 10;
+
+        private readonly List<LinkRecord> links = new List<LinkRecord>();
+        private readonly HashSet<int> reached = new HashSet<int>();
+        private readonly List<Node> failing = new List<Node>();
+        private SimulationManager manager;
+        private Node source;
+        private Node target;
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<string> MetricNames => Names;
+
+        /// <inheritdoc/>
+        public override string ShadeName => "in the channel";
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => new[]
+        {
+            new KeyValuePair<string, Vector3>("source", SourcePlace), new KeyValuePair<string, Vector3>("target", TargetPlace),
+        };
+
+        /// <inheritdoc/>
+        public override float Shade(Node node) => IsInChannel(node) ? 1 : 0;
+
+        /// <summary>
+        /// 1 if links between nodes of the channel join source and target, else 0; how many nodes the channel has; and its length in metres as
+        /// the target knows it.
+        /// </summary>
+        public override void Measure(double[] values)
+        {
+            var count = 0;
+            foreach (var node in manager.Nodes)
+            {
+                if (IsInChannel(node)) count++;
+            }
+            values[0] = IsConnected() ? 1 : 0;
+            values[1] = count;
+            values[2] = target.TryGetAnswer(out ActuatorDataValue answer) ? answer.Distance : -1;
+        }
+
+        /// <inheritdoc/>
+        protected override void Build(SimulationManager manager)
+        {
+            if (nodes < 2 || !(range >= 0))
+            {
+                manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m: a channel needs at least its two ends");
+                return;
+            }
+            this.manager = manager;
+            MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(104, 1, 64)).layer = IgnoreRaycastLayer;
+            MakeBox("Wall", new Vector3(-WallPlace, 1.5f, 0), new Vector3(1, 3, WallLength));
+            MakeBox("Wall", new Vector3(WallPlace, 1.5f, 0), new Vector3(1, 3, WallLength));
+            source = MakeNode(SourcePlace, true, false);
+            target = MakeNode(TargetPlace, false, true);
+            for (var i = 2; i < nodes; i++) MakeNode(FreePlace(manager), false, false);
+            manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDestroy()
+        {
+            if (manager != null) manager.Ticked -= FailWhenDue;
+        }
+
+        private void FailWhenDue(SimulationManager manager)
+        {
+            if (manager.SimulatedTime < failAfter) return;
+            manager.Ticked -= FailWhenDue;
+            failing.Clear();
+            foreach (var node in manager.Nodes)
+            {
+                // The end of a wall that the channel goes around is on the ends' side.
+                var place = node.transform.position;
+                if (place.z < -WallLength / 2 && DistanceToWall(place) < range) failing.Add(node);
+            }
+            foreach (var node in failing) node.gameObject.SetActive(false);
+        }
+
+        private bool IsConnected()
+        {
+            reached.Clear();
+            if (!IsInChannel(source) || !IsInChannel(target)) return false;
+            reached.Add(source.Id);
+            manager.CopyLinks(links);
+            for (var before = 0; before < reached.Count;)
+            {
+                before = reached.Count;
+                foreach (var link in links)
+                {
+                    if (reached.Contains(link.From) && IsInChannel(manager.Find(link.To))) reached.Add(link.To);
+                }
+            }
+            return reached.Contains(target.Id);
+        }
+
+        private static bool IsInChannel(Node node) => node.TryGetAnswer(out ActuatorDataValue answer) && answer.InChannel;
+
+        private static float DistanceToWall(Vector3 place) => Mathf.Abs(Mathf.Abs(place.x) - WallPlace);
+
+        /// <summary>A place that is not in a wall.</summary>
+        private static Vector3 FreePlace(SimulationManager manager)
+        {
+            for (; ; )
+            {
+                var place = new Vector3(manager.Random.Range(-50f, 50f), 0.5f, manager.Random.Range(-30f, 30f));
+                if (DistanceToWall(place) > 1 || Mathf.Abs(place.z) > WallLength / 2 + 0.5f) return place;
+            }
+        }
+
+        private Node MakeNode(Vector3 place, bool isSource, bool isTarget)
+        {
+            var holder = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            holder.SetActive(false);
+            holder.name = isSource ? "Source" : isTarget ? "Target" : "Node";
+            // Other nodes' bodies do not stand in the way of radio.
+            holder.layer = IgnoreRaycastLayer;
+            holder.transform.position = place;
+            if (isSource || isTarget) holder.transform.localScale = 2 * Vector3.one;
+            var node = holder.AddComponent<Node>();
+            holder.AddComponent<LineOfSightNeighbourhood>().Radius = range;
+            holder.AddComponent<PositionSensor>();
+            var end = holder.AddComponent<EndSensor>();
+            end.Source = isSource;
+            end.Target = isTarget;
+            holder.AddComponent<ChannelColor>();
+            holder.SetActive(true);
+            return node;
+        }
+    }
+}

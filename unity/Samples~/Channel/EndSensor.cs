@@ -1,0 +1,40 @@
+using Collektive.Unity;
+using channel;
+using UnityEngine;
+
+namespace Collektive.Samples.Channel
+{
+    /// <summary>Knows whether the channel begins or ends at the node.</summary>
+    [AddComponentMenu("Collektive/Samples/Channel/End Sensor")]
+    public sealed class EndSensor : Sensor<SensorDataValue>
+    {
+        [SerializeField]
+        [Tooltip("Whether the channel begins here.")]
+        private bool source;
+
+        [SerializeField]
+        [Tooltip("Whether the channel ends here.")]
+        private bool target;
+
+        /// <summary>Whether the channel begins here.</summary>
+        public bool Source
+        {
+            get => source;
+            set => source = value;
+        }
+
+        /// <summary>Whether the channel ends here.</summary>
+        public bool Target
+        {
+            get => target;
+            set => target = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void Sense(ref SensorDataValue data)
+        {
+            data.Source = source;
+            data.Target = target;
+        }
+    }
+}

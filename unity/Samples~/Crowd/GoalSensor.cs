@@ -1,0 +1,25 @@
+using Collektive.Unity;
+using crowd;
+using UnityEngine;
+
+namespace Collektive.Samples.Crowd
+{
+    /// <summary>Knows where the walker wants to go.</summary>
+    [AddComponentMenu("Collektive/Samples/Crowd/Goal Sensor")]
+    public sealed class GoalSensor : Sensor<SensorDataDraft>
+    {
+        [SerializeField]
+        [Tooltip("Where the walker wants to go.")]
+        private Vector3 goal;
+
+        /// <summary>Where the walker wants to go.</summary>
+        public Vector3 Goal
+        {
+            get => goal;
+            set => goal = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void Sense(ref SensorDataDraft data) => data.Goal = goal.ToValue();
+    }
+}

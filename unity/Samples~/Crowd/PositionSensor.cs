@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using crowd;
+using UnityEngine;
+
+namespace Collektive.Samples.Crowd
+{
+    /// <summary>Perceives where the walker is.</summary>
+    [AddComponentMenu("Collektive/Samples/Crowd/Position Sensor")]
+    public sealed class PositionSensor : PositionSensor<SensorDataDraft>
+    {
+        /// <inheritdoc/>
+        protected override void Write(ref SensorDataDraft data, Vector3 position) => data.Position = position.ToValue();
+    }
+}

@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using crowd;
+using UnityEngine;
+
+namespace Collektive.Samples.Crowd
+{
+    /// <summary>Walks as the program says.</summary>
+    [AddComponentMenu("Collektive/Samples/Crowd/Walk Actuator")]
+    public sealed class WalkActuator : SetVelocityActuator<ActuatorDataValue>
+    {
+        /// <inheritdoc/>
+        protected override Vector3 Read(ActuatorDataValue data) => data.Velocity.ToUnity();
+    }
+}

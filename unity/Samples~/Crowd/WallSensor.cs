@@ -1,0 +1,18 @@
+using System;
+using Collektive.Unity;
+using crowd;
+using UnityEngine;
+
+namespace Collektive.Samples.Crowd
+{
+    /// <summary>Perceives walls and pillars; other walkers are on another layer, and are heard of.</summary>
+    [AddComponentMenu("Collektive/Samples/Crowd/Wall Sensor")]
+    public sealed class WallSensor : ObstacleSensor<SensorDataDraft>
+    {
+        /// <inheritdoc/>
+        protected override void Write(ref SensorDataDraft data, Span<Obstacle> obstacles)
+        {
+            foreach (var obstacle in obstacles) data.Obstacles.Add(obstacle.Vector.ToValue());
+        }
+    }
+}

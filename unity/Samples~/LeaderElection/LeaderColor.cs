@@ -1,0 +1,17 @@
+using Collektive.Unity;
+using leaderelection;
+using UnityEngine;
+
+namespace Collektive.Samples.LeaderElection
+{
+    /// <summary>Gives all nodes of one leader the same colour.</summary>
+    [AddComponentMenu("Collektive/Samples/LeaderElection/Leader Color")]
+    public sealed class LeaderColor : ColorActuator<ActuatorDataValue>
+    {
+        /// <summary>A hue in 0..1, far from those of neighbouring ids.</summary>
+        public static float HueOf(int leader) => leader * 0.61803399f % 1;
+
+        /// <inheritdoc/>
+        protected override Color Read(ActuatorDataValue data) => Color.HSVToRGB(HueOf(data.Leader), 0.7f, 1);
+    }
+}

@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using leaderelection;
+using UnityEngine;
+
+namespace Collektive.Samples.LeaderElection
+{
+    /// <summary>Shows a lamp above each leader.</summary>
+    [AddComponentMenu("Collektive/Samples/LeaderElection/Leader Lamp")]
+    public sealed class LeaderLamp : EnableActuator<ActuatorDataValue>
+    {
+        /// <inheritdoc/>
+        protected override bool Read(ActuatorDataValue data) => data.Leader == Node.Id;
+    }
+}

@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using leaderelection;
+using UnityEngine;
+
+namespace Collektive.Samples.LeaderElection
+{
+    /// <summary>Perceives where the node is.</summary>
+    [AddComponentMenu("Collektive/Samples/LeaderElection/Position Sensor")]
+    public sealed class PositionSensor : PositionSensor<SensorDataValue>
+    {
+        /// <inheritdoc/>
+        protected override void Write(ref SensorDataValue data, Vector3 position) => data.Position = position.ToValue();
+    }
+}

@@ -1,0 +1,104 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity.PublicApi.Tests
+{
+    // What users write around the ready parts: a line each.
+
+    internal sealed class UsersPosition : PositionSensor<float>
+    {
+        protected override void Write(ref float data, Vector3 position) => data = position.x;
+    }
+
+    internal sealed class UsersVelocity : VelocitySensor<float>
+    {
+        protected override void Write(ref float data, Vector3 velocity) => data = velocity.magnitude;
+    }
+
+    internal sealed class UsersBody : RigidbodySensor<float>
+    {
+        protected override void Write(ref float data, Rigidbody body) => data = body.mass;
+    }
+
+    internal sealed class UsersObstacles : ObstacleSensor<float>
+    {
+        protected override void Write(ref float data, Span<Obstacle> obstacles) => data = obstacles.Length == 0 ? Reach : obstacles[0].Distance;
+    }
+
+    internal sealed class UsersRays : RayFanSensor<float>
+    {
+        protected override void Write(ref float data, Span<RayHit> hits)
+        {
+            foreach (var hit in hits) data += hit.Collider == null ? Range : hit.Distance;
+        }
+    }
+
+    internal sealed class UsersContacts : ContactSensor<float>
+    {
+        protected override void Write(ref float data, Span<Contact> contacts)
+        {
+            foreach (var contact in contacts) data += contact.Body == null ? 0 : Vector3.Dot(contact.Impulse, contact.Normal) + contact.Point.y;
+        }
+    }
+
+    internal sealed class UsersZones : ZoneSensor<float>
+    {
+        protected override void Write(ref float data, Span<Zone> zones)
+        {
+            foreach (var zone in zones) data += zone.Entered ? 1 : zone.Left ? -1 : 0;
+        }
+    }
+
+    internal sealed class UsersIntensity : IntensitySensor<float>
+    {
+        protected override void Write(ref float data, float intensity) => data = intensity;
+    }
+
+    internal sealed class UsersSource : IntensitySource
+    {
+        public override float IntensityAt(Vector3 point) => Peak / (1 + (point - transform.position).sqrMagnitude);
+    }
+
+    internal sealed class UsersMove : MoveActuator<float>
+    {
+        protected override Vector3 Read(float data) => data * Vector3.right;
+    }
+
+    internal sealed class UsersForce : AddForceActuator<float>
+    {
+        protected override Vector3 Read(float data) => data * Vector3.up;
+    }
+
+    internal sealed class UsersFlight : SetVelocityActuator<float>
+    {
+        protected override Vector3 Read(float data) => data * Vector3.forward;
+    }
+
+    internal sealed class UsersColor : ColorActuator<float>
+    {
+        protected override Color Read(float data) => Color.Lerp(Color.black, Color.white, data);
+    }
+
+    internal sealed class UsersLamp : EnableActuator<float>
+    {
+        protected override bool Read(float data) => data > 0;
+    }
+
+    internal sealed class UsersView : FieldView<float>
+    {
+        protected override float Read(float data) => data;
+    }
+
+    internal sealed class UsersRule : NeighbourhoodRule
+    {
+        private readonly List<Node> found = new List<Node>();
+        private readonly List<float> distances = new List<float>();
+
+        protected override void FindNeighbours(SimulationManager manager)
+        {
+            manager.FindNearestNodes(transform.position, 4, found, distances);
+            for (var i = 0; i < found.Count; i++) Connect(found[i], distances[i], found[i].TryGetAnswer(out float answer) ? answer : 0);
+        }
+    }
+}
