@@ -4,8 +4,10 @@
 They are what Unity 6000.0 writes, without the fields that have their default. File ids come from names, so that they last.
 """
 import hashlib
+import json
 import math
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -18,25 +20,9 @@ BUILT_IN_MESHES = "0000000000000000e000000000000000"
 SPHERE = 10207
 JAR = "Packages/org.collektive.unity/Jvm~/collektive-samples.jar"
 
-# The sample scenes: what the manager is started with, the builder's script, and where the camera stands and looks down to.
-SCENES = {
-    "GradientAscent": {
-        "settings": {"schema": "gradientascent.GradientAscentSchema", "program": "gradient-ascent", "threads": 2},
-        "camera": ((0, 55, -45), 52),
-    },
-    "LeaderElection": {
-        "settings": {"schema": "leaderelection.LeaderElectionSchema", "program": "leader-election", "deltaTime": 0.1, "threads": 2},
-        "camera": ((0, 55, -45), 52),
-    },
-    "Channel": {
-        "settings": {"schema": "channel.ChannelSchema", "program": "channel", "deltaTime": 0.1, "threads": 2},
-        "camera": ((0, 55, -45), 52),
-    },
-    "Crowd": {
-        "settings": {"schema": "crowd.CrowdSchema", "program": "crowd", "deltaTime": 0.1, "threads": 2},
-        "camera": ((0, 40, -28), 56),
-    },
-}
+# Where a sample scene's camera stands, and by how many degrees it looks down.
+CAMERA = ((0, 55, -45), 52)
+CAMERAS = {"Crowd": ((0, 40, -28), 56)}
 
 
 class Maker:
@@ -233,9 +219,13 @@ SCENE_SETTINGS = [
 ]
 
 
-def make_scene(maker, sample, scene):
-    path = f"unity/Samples~/{sample}/{sample}.unity"
-    position, down = scene["camera"]
+def make_scene(maker, sample):
+    """The scene of a sample that has a scenario: the same builder with the same fields, the same program, seed and times."""
+    folder = f"unity/Samples~/{sample}"
+    path = f"{folder}/{sample}.unity"
+    with open(os.path.join(maker.root, folder, "scenario.json")) as file:
+        scenario = json.load(file)
+    position, down = CAMERAS.get(sample, CAMERA)
     camera = GameObject(path, "Main Camera", "MainCamera", position, tilted(down))
     camera.add(20, "Camera", """  m_Enabled: 1
   serializedVersion: 2
@@ -259,11 +249,12 @@ def make_scene(maker, sample, scene):
   m_Intensity: 1
 """)
     builder = GameObject(path, sample)
-    builder.add_script(maker, f"unity/Samples~/{sample}/{sample}Scene.cs")
+    fields = "".join(f"  {name}: {number(value)}\n" for name, value in scenario.get("fields", {}).items())
+    builder.add_script(maker, f"{folder}/{scenario['scene'].split('.')[-1]}.cs", fields)
     instance = file_id(path, "Simulation Manager")
     roots = [camera.transform, light.transform, instance, builder.transform]
     maker.write(path, [
-        *SCENE_SETTINGS, *camera.documents(), *light.documents(), manager_instance(maker, instance, scene["settings"]), *builder.documents(),
+        *SCENE_SETTINGS, *camera.documents(), *light.documents(), manager_instance(maker, instance, settings_of(maker, folder, scenario)), *builder.documents(),
         document(1660057539, 9223372036854775807, "SceneRoots", "  m_ObjectHideFlags: 0\n  m_Roots:\n" + "".join(f"  - {{fileID: {root}}}\n" for root in roots)),
     ])
 
@@ -292,6 +283,33 @@ def manager_instance(maker, number, settings):
 """)
 
 
+def settings_of(maker, folder, scenario):
+    """The manager's settings that the scenario names, by their names in C#."""
+    settings = {"schema": schema_class(os.path.join(maker.root, folder, "Generated"))}
+    for name in ["program", "seed", "deltaTime", "physicsStep", "threads"]:
+        if name in scenario:
+            settings[name] = scenario[name]
+    return settings
+
+
+def schema_class(folder):
+    """The name of the generated schema class below a folder."""
+    for where, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(where, name)) as file:
+                match = re.search(r'override string Name => "([^"]+)"', file.read())
+            if match:
+                return match[1]
+    raise ValueError(f"there is no schema class in {folder}; run ./collektive generate")
+
+
+def number(value):
+    """Numbers and switches as Unity writes them."""
+    if not isinstance(value, (bool, int, float)):
+        raise ValueError(f"{value!r}: only numbers and switches can be fields of a sample's scene")
+    return int(value) if isinstance(value, bool) else f"{value:g}"
+
+
 def tilted(degrees):
     """A rotation that looks down by so many degrees."""
     half = math.radians(degrees) / 2
@@ -304,8 +322,9 @@ def make_all(root, out):
     make_material(maker, "Link", (0.75, 0.75, 0.75, 1))
     make_manager(maker)
     make_node(maker)
-    for sample, scene in SCENES.items():
-        make_scene(maker, sample, scene)
+    for sample in sorted(os.listdir(os.path.join(root, "unity/Samples~"))):
+        if os.path.exists(os.path.join(root, "unity/Samples~", sample, "scenario.json")):
+            make_scene(maker, sample)
 
 
 if __name__ == "__main__":
