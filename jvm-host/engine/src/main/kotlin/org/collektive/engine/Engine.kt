@@ -12,6 +12,8 @@ import org.collektive.runtime.RoundProgram
  * what programs do.
  */
 public class Engine(private val settings: EngineSettings, private val runtimes: DeviceRuntimes) : AutoCloseable {
+    // Before the nodes by id, so that collectors come upon nodes in this order.
+    private val order = BreadthFirst()
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
     private val clock = Clock()
@@ -21,9 +23,10 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
-    private val commitTask = RoundPool.Task { _, _, begin, end -> commitRange(begin, end) }
+    private val sendTask = RoundPool.Task { _, _, begin, end -> sendRange(begin, end) }
     private val deliveryTask = RoundPool.Task(::deliverRange)
     private var data: RoundData? = null
+    private var turns = IntArray(0)
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
@@ -55,6 +58,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         validator.check(tick, clock.tick + 1)
         result.reset(tick.due.size)
         apply(tick)
+        if (!isSequential) order.arrange(nodes, linkCount, tick.number)
         runtimes.tidy(runtimesOfNodes)
         findDue(tick)
         val begin = System.nanoTime()
@@ -86,6 +90,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             if (to.incoming.put(from, links.length(index), links.attenuation(index), tick.number, validator.place(index), transmitters[0])) {
                 from.outgoing.insert(to)
                 linkCount++
+                order.linkChanged()
                 if (settings.network.isIdeal && from.export != null) result.network.sent++
             }
         }
@@ -99,6 +104,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             for (index in node.outgoing.size - 1 downTo 0) unlink(node, node.outgoing.node(index))
         }
         nodes.removeIf(validator::removes)
+        order.removeIf(validator::removes)
     }
 
     private fun addNodes(tick: Tick) {
@@ -107,12 +113,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             Node(it.id, it.program, it.parameters, runtimes.device(it.id), clock, settings.seed, settings.network.isIdeal)
         }
         nodes.insertAll(added.sortedBy(Node::id))
+        order.addAll(added)
     }
 
     private fun unlink(from: Node, to: Node) {
         to.incoming.removeLink(from)
         from.outgoing.remove(to)
         linkCount--
+        order.linkChanged()
     }
 
     private fun existing(id: Int): Node = nodes.find(id) ?: error("node $id vanished after validation")
@@ -126,17 +134,24 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
+    /** Index of the due node whose turn comes as number [turn]: by id where each sees what those before sent. */
+    private fun indexOf(turn: Int) = if (isSequential) turn else turns[turn]
+
     private fun runRounds(data: RoundData, deadline: Long) {
         this.data = data
+        if (!isSequential) turns = order.turns(result)
         runOnPool(roundTask, result.size, deadline)
         result.countFailures()
         if (isSequential) return
         // Waking the threads again is worth its time for many nodes only.
-        if (result.size < PARALLEL_COMMITS) commitRange(0, result.size) else runOnPool(commitTask, result.size, deadline)
+        if (result.size < PARALLEL_SENDS) sendRange(0, result.size) else runOnPool(sendTask, result.size, deadline)
     }
 
-    private fun commitRange(begin: Int, end: Int) {
-        for (index in begin until end) if (result.failure(index) == null) commit(result.node(index))
+    private fun sendRange(begin: Int, end: Int) {
+        for (turn in begin until end) {
+            val index = turns[turn]
+            if (result.failure(index) == null) send(result.node(index))
+        }
     }
 
     /** Puts what was sent on the links. An ideal network has nothing to do: receivers read what their senders sent last. */
@@ -175,15 +190,17 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     private fun runRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
         val round = rounds[worker]
-        for (index in begin until end) {
+        for (turn in begin until end) {
             if (pool.isClosed) return
+            val index = indexOf(turn)
             val node = result.node(index)
             thread.node = node.id
             thread.rounds++
             try {
                 node.incoming.update(transmitters[worker])
                 val answer = round.run(node, index)
-                if (isSequential) commit(node)
+                node.sending = node.runtime.commit()
+                if (isSequential) send(node)
                 result.answered(index, answer)
             } catch (failure: Throwable) {
                 // Whatever a program throws, errors of the JVM included, is the failure of its round.
@@ -200,8 +217,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
     }
 
-    private fun commit(node: Node) {
-        node.export = node.runtime.commit()
+    private fun send(node: Node) {
+        node.export = node.sending
         node.sentAt = clock.tick
         node.sentTime = clock.time
     }
@@ -230,7 +247,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         const val RANGES_PER_THREAD = 8
         const val MIN_RANGE = 16
         const val MAX_RANGE = 512
-        const val PARALLEL_COMMITS = 2048
+        const val PARALLEL_SENDS = 2048
     }
 }
 

@@ -25,9 +25,16 @@ internal class Node(
     /** What the last round that gave an answer sent; `null` before. */
     var export: Export? = null
 
+    /** The same, set by the round itself: neighbours that run beside it still read [export]. */
+    var sending: Export? = null
+
     /** Tick of that round, and its simulated time; 0 before. */
     var sentAt = 0L
     var sentTime = 0.0
+
+    /** Tick at which this node was last put in order, and its index among the due ones: see BreadthFirst. */
+    var arrangedAt = 0L
+    var dueIndex = -1
 
     /** Last validation that removes this node: see TickValidator. */
     var mark = 0L
