@@ -18,6 +18,7 @@ import org.collektive.frame.ParameterInfo
 import org.collektive.frame.ProgramInfo
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
+import org.collektive.host.jfr.NetworkStatsEvent
 import org.collektive.host.jfr.ProgramErrorEvent
 import org.collektive.host.jfr.SessionEndEvent
 import org.collektive.host.jfr.SessionStartEvent
@@ -41,6 +42,7 @@ internal class Session private constructor(
     private val buffer = AnswerBuffer(shim)
     private val engine = Engine(settings, AggregateRuntimes(ViewRule))
     private val tickEvent = TickEvent()
+    private val networkEvent = NetworkStatsEvent()
     private var lastEnd = 0L
     private var failure: String? = null
 
@@ -97,6 +99,7 @@ internal class Session private constructor(
         }
         val end = System.nanoTime()
         record(result, request.remaining(), place.toInt(), if (lastEnd == 0L) 0 else begin - lastEnd, end - writeBegin)
+        recordNetwork(result)
         lastEnd = end
         return place
     }
@@ -213,6 +216,18 @@ internal class Session private constructor(
             }
         }
         return StepResponse.createErrorsVector(builder, errors.toIntArray())
+    }
+
+    private fun recordNetwork(result: TickResult) {
+        val event = networkEvent
+        if (!event.isEnabled) return
+        event.begin() // or it would keep the time of its first use
+        event.tick = frame.tick.number
+        event.sent = result.network.sent
+        event.dropped = result.network.dropped
+        event.delayed = result.network.delayed
+        event.expired = result.network.expired
+        event.commit()
     }
 
     private fun record(result: TickResult, index: Int, message: String) {

@@ -65,6 +65,36 @@ internal class TickEvent : Event() {
     var write = 0L
 }
 
+/** Messages of one tick; made once per session and used again. */
+@Name("collektive.NetworkStats")
+@Label("Network Stats")
+@Category("Collektive")
+@StackTrace(false)
+internal class NetworkStatsEvent : Event() {
+    @Label("Tick")
+    @JvmField
+    var tick = 0L
+
+    @Label("Sent")
+    @Description("Messages put on links, one for each link")
+    @JvmField
+    var sent = 0L
+
+    @Label("Dropped")
+    @JvmField
+    var dropped = 0L
+
+    @Label("Delayed")
+    @Description("Messages that arrive later than in an ideal network")
+    @JvmField
+    var delayed = 0L
+
+    @Label("Expired")
+    @Description("Messages that links held and whose retention ended")
+    @JvmField
+    var expired = 0L
+}
+
 /** The program's part of a round; see [ProgramRounds] for which rounds. */
 @Name("collektive.ProgramRound")
 @Label("Program Round")

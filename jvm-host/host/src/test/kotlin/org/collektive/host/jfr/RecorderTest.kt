@@ -62,6 +62,10 @@ class RecorderTest {
         assertTrue(last.getDuration("rounds") < last.duration)
         assertEquals(1, ticks.last().getInt("failedRounds"))
 
+        val network = events.getValue("collektive.NetworkStats").sortedBy { it.startTime }.take(TICKS.toInt())
+        assertEquals((1..TICKS).toList(), network.map { it.getLong("tick") })
+        assertEquals(listOf(2L, 0L, 0L, 0L), listOf("sent", "dropped", "delayed", "expired").map(network.last()::getLong))
+
         val rounds = events.getValue("collektive.ProgramRound").filter { it.getString("program") == "sum" }
         assertEquals((TICKS * NODES + ProgramRounds.EVERY - 1) / ProgramRounds.EVERY, rounds.size.toLong())
         assertEquals(nodes, rounds.map { it.getInt("node") }.distinct().sorted())
