@@ -33,8 +33,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     /** The last tick whose changes were applied; 0 before the first. */
-    public var lastTick: Long = 0
-        private set
+    public val lastTick: Long get() = clock.tick
 
     /** Nodes that there are. */
     public val nodeCount: Int get() = nodes.size
