@@ -151,7 +151,7 @@ project(":host") {
     }
     val folder = layout.buildDirectory.dir("generated/flatbuffers")
     generatedJava("frames", folder, file("$rootDir/schema/frame.fbs")) {
-        commandLine(flatc.path, "--java", "-o", folder.get().asFile.path, "$rootDir/schema/frame.fbs")
+        commandLine(flatc.path, "--java", "--gen-object-api", "-o", folder.get().asFile.path, "$rootDir/schema/frame.fbs")
     }
     // One jar: the JVM's class path in Unity, and the compile class path of programs.
     val classes = extensions.getByType<SourceSetContainer>()["main"].output

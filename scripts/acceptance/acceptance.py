@@ -52,7 +52,7 @@ class TheCommand(unittest.TestCase):
     def test_each_command_has_help(self):
         whole = collektive("--help")
         self.assertEqual(whole.returncode, 0)
-        for command in ["setup", "generate", "demo", "run", "test", "bench", "package", "clean"]:
+        for command in ["setup", "generate", "demo", "run", "replay", "diff", "test", "bench", "package", "clean"]:
             self.assertIn(command, whole.stdout)
             part = collektive(command, "--help")
             self.assertEqual(part.returncode, 0, command)
@@ -217,8 +217,8 @@ class Repeatability(Folder):
         self.assertNotEqual(digests[0], digests[2])
 
 
-class AForeignProject(Folder):
-    """A project outside the clone: own schema, Kotlin, C# and scenario, run by one command."""
+class Project(Folder):
+    """A project outside the clone: own schema, Kotlin, C# and scenario."""
 
     def setUp(self):
         super().setUp()
@@ -231,6 +231,10 @@ class AForeignProject(Folder):
         self.assertIn(old, text)
         with open(path, "w") as opened:
             opened.write(text.replace(old, new))
+
+
+class AForeignProject(Project):
+    """It is run by one command."""
 
     def run_it(self, *arguments):
         return collektive("run", "project/lamps.json", "--out", self.path("out"), *arguments, cwd=self.folder)
@@ -358,6 +362,57 @@ class AForeignProject(Folder):
         self.change("lamps.json", '"programs": "programs"', '"programs": "old.jar"')
         self.change("light.fbs", "seen: [int];", "seen: [int];\n  colour: int;")
         self.refused("ActuatorData")
+
+
+class Records(Project):
+    """Recorded runs of the foreign project."""
+
+    def setUp(self):
+        super().setUp()
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+        self.a = self.record("a")
+
+    def record(self, name, *arguments):
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path(name), *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.path(name, "run.clkrec")
+
+    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self):
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks replayed, every digest is that of the record", result.stdout)
+        self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
+        self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
+
+    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self):
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", "val mine = if (sensors.brightness() == 5f) 9f else sensors.brightness()")
+        self.record("b")
+        jar = subprocess.run(f"ls -t {ROOT}/build/programs/*/programs.jar | head -n 1", shell=True, capture_output=True, text=True).stdout.strip()
+        result = collektive("replay", self.a, "--programs", jar)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stdout, r"tick \d+ is the first that differs.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
+
+    def test_two_runs_are_compared(self):
+        self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
+        result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("tick 1: input of node 9, nodesAdded: present in A, absent in B", result.stdout)
+
+    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self):
+        with open(self.a, "rb") as file:
+            data = file.read()
+        with open(self.a, "wb") as file:
+            file.write(data[:-100])
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
+        self.assertIn("9 ticks replayed, every digest is that of the record", result.stdout)
+
+    def test_what_is_no_record_is_refused(self):
+        for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
+            result = collektive(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(last_error(result).startswith("collektive: "), arguments)
 
 
 class TheReadme(Folder):

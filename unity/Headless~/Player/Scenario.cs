@@ -40,10 +40,11 @@ namespace Collektive.Headless
             Threads = file.Optional(root, "threads", 1);
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder);
             var outputs = file.Optional(root, "outputs", new JObject());
-            file.RefuseUnknown(outputs, "outputs.", "metrics", "replay", "pictures");
+            file.RefuseUnknown(outputs, "outputs.", "metrics", "replay", "pictures", "record");
             Metrics = file.Optional(outputs, "metrics", true);
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
+            Record = file.Optional(outputs, "record", false);
             if (Pictures && !Replay) throw file.Error(outputs["pictures"], "'outputs.pictures' needs 'outputs.replay': pictures are taken from the replay page");
         }
 
@@ -86,6 +87,8 @@ namespace Collektive.Headless
         internal bool Replay { get; }
 
         internal bool Pictures { get; }
+
+        internal bool Record { get; }
 
         internal static Scenario Read(string path) => new Scenario(JsonFile.Read(path), System.IO.Path.GetFullPath(path));
 

@@ -66,6 +66,7 @@ namespace Collektive.Headless
             settings.timing = scenario.Timing;
             settings.network = scenario.Network;
             settings.threads = scenario.Threads;
+            if (scenario.Record) settings.record = Path.Combine(options.Out, "run.clkrec");
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = scenario.Jvm;
             var problem = settings.FindProblem();

@@ -390,6 +390,7 @@ namespace Collektive.Unity
                 Network = settings.network,
                 Jars = jars,
                 Program = settings.program,
+                Record = string.IsNullOrWhiteSpace(settings.record) ? "" : Installation.PathOf(settings.record),
             };
         }
 

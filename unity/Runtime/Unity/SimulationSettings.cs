@@ -63,6 +63,10 @@ namespace Collektive.Unity
         [Min(1)]
         public int stepLimitMs = 10000;
 
+        /// <summary>File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder.</summary>
+        [Tooltip("File to record all frames in, for ./collektive replay and diff; overwritten at each start. Empty: none. Relative paths start at the project's folder.")]
+        public string record = "";
+
         /// <summary>What the JVM is started with, once per process; null for the usual.</summary>
         [Tooltip("What the JVM is started with: heap, collector, compiler. Takes effect when the JVM starts, once per editor session. None: the usual.")]
         public JvmSettingsAsset jvm;

@@ -132,7 +132,8 @@ namespace Collektive.Bridge
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
                 builder.CreateString(settings.Program ?? ""),
                 Frame.Network.CreateNetwork(
-                    builder, network.loss, network.lossPerMetre, network.lossPerAttenuation, network.delay, network.jitter, network.retention)).Value);
+                    builder, network.loss, network.lossPerMetre, network.lossPerAttenuation, network.delay, network.jitter, network.retention),
+                builder.CreateString(settings.Record ?? "")).Value);
         }
 
         private static ProgramInfo[] ReadPrograms(Frame.OpenResponse response)

@@ -26,6 +26,9 @@ namespace Collektive.Bridge
         /// <summary>Program of nodes that name none.</summary>
         public string Program { get; set; } = "";
 
+        /// <summary>Path of the file to record all frames in, for <c>./collektive replay</c>; overwritten. Empty: no record.</summary>
+        public string Record { get; set; } = "";
+
         /// <summary>Limit for opening and closing in milliseconds.</summary>
         public int OpenLimitMs { get; set; } = 30000;
     }

@@ -49,6 +49,14 @@ public struct OpenRequest : IFlatbufferObject
   public byte[] GetProgramArray() { return __p.__vector_as_array<byte>(18); }
   /// Absent: ideal.
   public org.collektive.frame.Network? Network { get { int o = __p.__offset(20); return o != 0 ? (org.collektive.frame.Network?)(new org.collektive.frame.Network()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
+  /// Path of the file to record the session's frames in (docs/record-format.md); empty: none.
+  public string Record { get { int o = __p.__offset(22); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
+#if ENABLE_SPAN_T
+  public Span<byte> GetRecordBytes() { return __p.__vector_as_span<byte>(22, 1); }
+#else
+  public ArraySegment<byte>? GetRecordBytes() { return __p.__vector_as_arraysegment(22); }
+#endif
+  public byte[] GetRecordArray() { return __p.__vector_as_array<byte>(22); }
 
   public static Offset<org.collektive.frame.OpenRequest> CreateOpenRequest(FlatBufferBuilder builder,
       uint protocol = 0,
@@ -59,9 +67,11 @@ public struct OpenRequest : IFlatbufferObject
       StringOffset schemaOffset = default(StringOffset),
       VectorOffset typesOffset = default(VectorOffset),
       StringOffset programOffset = default(StringOffset),
-      Offset<org.collektive.frame.Network> networkOffset = default(Offset<org.collektive.frame.Network>)) {
-    builder.StartTable(9);
+      Offset<org.collektive.frame.Network> networkOffset = default(Offset<org.collektive.frame.Network>),
+      StringOffset recordOffset = default(StringOffset)) {
+    builder.StartTable(10);
     OpenRequest.AddSeed(builder, seed);
+    OpenRequest.AddRecord(builder, recordOffset);
     OpenRequest.AddNetwork(builder, networkOffset);
     OpenRequest.AddProgram(builder, programOffset);
     OpenRequest.AddTypes(builder, typesOffset);
@@ -73,7 +83,7 @@ public struct OpenRequest : IFlatbufferObject
     return OpenRequest.EndOpenRequest(builder);
   }
 
-  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(9); }
+  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(10); }
   public static void AddProtocol(FlatBufferBuilder builder, uint protocol) { builder.AddUint(0, protocol, 0); }
   public static void AddSeed(FlatBufferBuilder builder, ulong seed) { builder.AddUlong(1, seed, 0); }
   public static void AddThreads(FlatBufferBuilder builder, int threads) { builder.AddInt(2, threads, 1); }
@@ -93,6 +103,7 @@ public struct OpenRequest : IFlatbufferObject
   public static void StartTypesVector(FlatBufferBuilder builder, int numElems) { builder.StartVector(4, numElems, 4); }
   public static void AddProgram(FlatBufferBuilder builder, StringOffset programOffset) { builder.AddOffset(7, programOffset.Value, 0); }
   public static void AddNetwork(FlatBufferBuilder builder, Offset<org.collektive.frame.Network> networkOffset) { builder.AddOffset(8, networkOffset.Value, 0); }
+  public static void AddRecord(FlatBufferBuilder builder, StringOffset recordOffset) { builder.AddOffset(9, recordOffset.Value, 0); }
   public static Offset<org.collektive.frame.OpenRequest> EndOpenRequest(FlatBufferBuilder builder) {
     int o = builder.EndTable();
     builder.Required(o, 12);  // jars
@@ -117,6 +128,7 @@ static public class OpenRequestVerify
       && verifier.VerifyVectorOfTables(tablePos, 16 /*Types*/, org.collektive.frame.TypeFingerprintVerify.Verify, true)
       && verifier.VerifyString(tablePos, 18 /*Program*/, false)
       && verifier.VerifyTable(tablePos, 20 /*Network*/, org.collektive.frame.NetworkVerify.Verify, false)
+      && verifier.VerifyString(tablePos, 22 /*Record*/, false)
       && verifier.VerifyTableEnd(tablePos);
   }
 }

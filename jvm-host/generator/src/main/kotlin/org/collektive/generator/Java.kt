@@ -4,7 +4,7 @@ package org.collektive.generator
 internal object Java {
     fun model(schema: UserSchema): Map<String, Any?> {
         val fingerprints = listOfNotNull(schema.sensor, schema.actuator, schema.global)
-        val layouts = reachable(listOfNotNull(schema.sensor, schema.global)).filterIsInstance<TableType>()
+        val layouts = reachable(fingerprints).filterIsInstance<TableType>()
         val rules = reachable(listOf(schema.actuator)).filter { it === schema.actuator || ruled(it) }
         return mapOf(
             "file" to schema.file,
@@ -22,10 +22,8 @@ internal object Java {
             "sensor" to schema.sensor.name.toString(),
             "actuator" to "${schema.actuator.name}T",
             "reader" to schema.actuator.name.toString(),
-            "sensorLayout" to when (val sensor = schema.sensor) {
-                is StructType -> "${sensor.bytes}"
-                is TableType -> constant(sensor)
-            },
+            "sensorLayout" to elementLayout(schema.sensor),
+            "actuatorLayout" to elementLayout(schema.actuator),
             "writer" to when (val actuator = schema.actuator) {
                 is StructType -> "structs(${actuator.name}T.class, ${actuator.bytes}, ${actuator.alignment}"
                 is TableType -> "tables(${actuator.name}T.class"
@@ -47,6 +45,11 @@ internal object Java {
             check(add.containsMatchIn(code)) { "flatc writes ${table.name}.${field.name} in an unknown way" }
             add.replace(code) { "${it.groupValues[1]}${it.groupValues[2]}); builder.slot(${field.id}); }" }
         }
+    }
+
+    private fun elementLayout(type: Composite): String = when (type) {
+        is StructType -> "${type.bytes}"
+        is TableType -> constant(type)
     }
 
     private fun layoutModel(type: TableType) = mapOf(

@@ -9,10 +9,11 @@ import org.collektive.host.FrameVerifier.Companion.tables
 import org.collektive.host.FrameVerifier.Companion.vector
 import org.collektive.host.FrameVerifier.Shape
 
-/** The requests of `frame.fbs`, field by field. */
+/** The frames of `frame.fbs` that are read here, field by field. */
 internal object FrameShapes {
     const val SENSORS = 8
     const val GLOBALS = 9
+    const val ACTUATORS = 3
 
     private val typeFingerprint = Shape("types", string("name", isRequired = true), inline("hash", 8))
 
@@ -37,6 +38,7 @@ internal object FrameShapes {
         tables("types", typeFingerprint, isRequired = true),
         string("program"),
         table("network", network),
+        string("record"),
     )
 
     val controlRequest = Shape(
@@ -64,5 +66,20 @@ internal object FrameShapes {
         vector("due", 4),
         opaque("sensors"),
         opaque("globals"),
+    )
+
+    private val roundError = Shape("errors", inline("node", 4), string("program", isRequired = true), string("message", isRequired = true))
+
+    val stepResponse = Shape(
+        "StepResponse",
+        inline("tick", 8),
+        inline("digest", 8),
+        vector("nodes", 4),
+        opaque("actuators"),
+        tables("errors", roundError),
+        inline("node_count", 4),
+        inline("link_count", 4),
+        inline("host_micros", 4),
+        inline("round_micros", 4),
     )
 }

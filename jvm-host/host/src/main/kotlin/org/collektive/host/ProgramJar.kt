@@ -8,26 +8,34 @@ import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 import java.util.zip.ZipInputStream
 
+/** The bytes of a jar, and the path that they come from. */
+internal class JarBytes(val path: String, val bytes: ByteArray) {
+    companion object {
+        /** Reads the jar at [path]. */
+        fun read(path: String): JarBytes = try {
+            JarBytes(path, Files.readAllBytes(Path.of(path)))
+        } catch (e: NoSuchFileException) {
+            throw HostException(HostError.PROGRAM, "there is no jar $path; build the programs, or correct the path", e)
+        } catch (e: InvalidPathException) {
+            throw HostException(HostError.PROGRAM, "'$path' is not a path of a jar", e)
+        } catch (e: IOException) {
+            throw HostException(HostError.PROGRAM, "the jar $path cannot be read: $e", e)
+        }
+    }
+}
+
 /** A jar of the user's, read into memory: the file can be replaced while its programs run. */
 internal class ProgramJar private constructor(val path: String, val entries: Map<String, ByteArray>) {
     companion object {
         private const val END_RECORD_BYTES = 22
         private const val END_RECORD = 0x06054b50
 
-        /** Reads the jar at [path]. */
-        fun read(path: String): ProgramJar {
-            val bytes = try {
-                Files.readAllBytes(Path.of(path))
-            } catch (e: NoSuchFileException) {
-                throw HostException(HostError.PROGRAM, "there is no jar $path; build the programs, or correct the path", e)
-            } catch (e: InvalidPathException) {
-                throw HostException(HostError.PROGRAM, "'$path' is not a path of a jar", e)
-            } catch (e: IOException) {
-                throw HostException(HostError.PROGRAM, "the jar $path cannot be read: $e", e)
-            }
-            if (!hasEndRecord(bytes)) throw damaged(path, "its end is missing")
+        /** Opens [jar]. */
+        fun open(jar: JarBytes): ProgramJar {
+            val path = jar.path
+            if (!hasEndRecord(jar.bytes)) throw damaged(path, "its end is missing")
             return try {
-                ProgramJar(path, unzip(bytes))
+                ProgramJar(path, unzip(jar.bytes))
             } catch (e: IOException) {
                 throw damaged(path, e.message)
             } catch (e: IllegalArgumentException) {

@@ -23,16 +23,19 @@ import org.collektive.host.jfr.ProgramErrorEvent
 import org.collektive.host.jfr.SessionEndEvent
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.jfr.TickEvent
+import org.collektive.host.record.RecordWriter
 import org.collektive.runtime.AggregateRuntimes
+import java.io.IOException
 import java.nio.ByteBuffer
 
 /** One simulation: its programs, its engine, and the way from its frames to its answers. */
 internal class Session private constructor(
-    private val schema: DataSchema,
+    val schema: DataSchema,
     private val programs: Map<String, LoadedProgram>,
     defaultProgram: LoadedProgram?,
     settings: EngineSettings,
     private val shim: ShimCalls,
+    private val recorder: RecordWriter?,
 ) : AutoCloseable {
     private val frame = StepFrame(programs, defaultProgram)
     private val data = UserData(schema, settings.threads)
@@ -77,6 +80,20 @@ internal class Session private constructor(
      */
     fun step(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
+        if (recorder == null) return run(request, slot, answer, begin, deadline)
+        recording { step(request) }
+        val written = try {
+            run(request, slot, answer, begin, deadline)
+        } catch (e: Throwable) {
+            recording { failed(e.message ?: e.toString()) }
+            throw e
+        }
+        val offset = (written ushr Int.SIZE_BITS).toInt()
+        recording { done(buffer.memory.limit(offset + written.toInt()).position(offset)) }
+        return written
+    }
+
+    private fun run(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         tickEvent.begin()
         frame.read(request)
         readUserData(request)
@@ -110,6 +127,22 @@ internal class Session private constructor(
         event.ticks = engine.lastTick
         event.failure = failure
         event.commit()
+        recorder?.use {
+            try {
+                it.end()
+            } catch (e: IOException) {
+                shim.log(LogLevel.ERROR, it.failure(e))
+            }
+        }
+    }
+
+    private inline fun recording(write: RecordWriter.() -> Unit) {
+        val recorder = recorder ?: return
+        try {
+            recorder.write()
+        } catch (e: IOException) {
+            throw fail(recorder.failure(e), e)
+        }
     }
 
     private fun record(result: TickResult, bytesIn: Int, bytesOut: Int, wait: Long, write: Long) {
@@ -270,10 +303,16 @@ internal class Session private constructor(
     companion object {
         /** Loads what the `OpenRequest` in [frame] asks for. */
         fun open(frame: ByteBuffer, shim: ShimCalls): Session {
+            val request = OpenRequest().__assign(FrameVerifier().verify(frame, FrameShapes.openRequest), frame)
+            val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
+            val path = request.record().orEmpty()
+            return open(request, jars, shim) { if (path.isEmpty()) null else RecordWriter.create(path, frame, jars) }
+        }
+
+        /** Loads what [request] asks for with the programs of [jars]; [record] is asked for when all is well so far. */
+        fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter? = { null }): Session {
             val event = SessionStartEvent()
             event.begin()
-            val root = FrameVerifier().verify(frame, FrameShapes.openRequest)
-            val request = OpenRequest().__assign(root, frame)
             if (request.protocol() != Host.PROTOCOL.toLong()) {
                 throw HostException(
                     HostError.HOST,
@@ -281,15 +320,15 @@ internal class Session private constructor(
                 )
             }
             val settings = settings(request)
-            val jars = (0 until request.jarsLength()).map { ProgramJar.read(request.jars(it)) }
-            val loader = ProgramLoader(jars)
+            val programJars = jars.map(ProgramJar::open)
+            val loader = ProgramLoader(programJars)
             val types = (0 until request.typesLength()).associate { request.types(it).let { type -> type.name() to type.hash() } }
-            val schemas = SchemaFinder.all(loader, jars)
-            val schema = SchemaFinder.find(request.schema(), types, schemas, jars)
-            val programs = ProgramFinder(jars, loader, schema, schemas).find()
+            val schemas = SchemaFinder.all(loader, programJars)
+            val schema = SchemaFinder.find(request.schema(), types, schemas, programJars)
+            val programs = ProgramFinder(programJars, loader, schema, schemas).find()
             val name = request.program().orEmpty()
             val program = if (name.isEmpty()) null else programs[name] ?: throw StepFrame.noSuchProgram("the session", name, programs.keys)
-            return Session(schema, programs, program, settings, shim).also {
+            return Session(schema, programs, program, settings, shim, record()).also {
                 event.programs = programs.keys.joinToString()
                 event.schema = schema.name
                 event.schedule = settings.schedule.name

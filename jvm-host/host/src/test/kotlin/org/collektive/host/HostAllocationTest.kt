@@ -4,6 +4,7 @@ import com.sun.management.ThreadMXBean
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import java.lang.management.ManagementFactory
+import java.nio.file.Files
 import kotlin.test.assertTrue
 
 /** The host's thread allocates nothing per tick once it is warm: frames are read, and answers written, in place. */
@@ -12,9 +13,16 @@ class HostAllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
 
     @Test
-    fun `no allocation per tick on the engine thread`() {
-        val shim = TestShim()
-        val session = TestSession(shim).apply { open(program = "probe") }
+    fun `no allocation per tick on the engine thread`() = assertNoneIn(TestSession(TestShim()).apply { open(program = "probe") })
+
+    @Test
+    fun `a recorded tick allocates nothing either`() {
+        val file = Files.createTempFile("collektive", ".clkrec")
+        assertNoneIn(TestSession(TestShim()).apply { open(program = "probe", record = file.toString()) })
+        Files.delete(file)
+    }
+
+    private fun assertNoneIn(session: TestSession) {
         session.ok(Step(1).apply { added = (0 until 200).map { Step.Added(it) }; due = (0 until 200).toList() })
         val frame = Step(2).apply { due = (0 until 200).toList() }.bytes()
         val tickAt = frame.tickPosition()

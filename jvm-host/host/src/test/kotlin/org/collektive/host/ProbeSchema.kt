@@ -10,7 +10,7 @@ import java.util.ServiceLoader
 internal object ProbeSchema {
     /** Fingerprints as C# would send them. */
     val types: Map<String, Long> by lazy {
-        val loader = ProgramLoader(listOf(ProgramJar.read(ProbeJars.programs.toString())))
+        val loader = ProgramLoader(listOf(ProgramJar.open(JarBytes.read(ProbeJars.programs.toString()))))
         ServiceLoader.load(DataSchema::class.java, loader).single().types
     }
 

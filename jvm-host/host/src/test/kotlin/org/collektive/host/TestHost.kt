@@ -121,6 +121,7 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         schema: String = "probe.ProbeSchema",
         types: Map<String, Long> = ProbeSchema.types,
         network: List<Double>? = null,
+        record: String = "",
     ): Long {
         val builder = FlatBufferBuilder(1024)
         val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
@@ -130,7 +131,7 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
             OpenRequest.createOpenRequest(
                 builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
                 builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
-                builder.createString(program), networkTable,
+                builder.createString(program), networkTable, builder.createString(record),
             ),
         )
         return call(direct(builder)) { request -> Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }

@@ -21,8 +21,11 @@ public interface DataSchema {
     /** The object class that programs return (`ActuatorDataT`). */
     public val actuatorType: Class<*>
 
-    /** Makes a reader; each belongs to one thread at a time. */
-    public fun sensorReader(): SensorReader
+    /** Makes a reader of the table `Sensors`; each belongs to one thread at a time. */
+    public fun sensorReader(): DataReader
+
+    /** Makes a reader of the table `Actuators`; each belongs to one thread at a time. */
+    public fun actuatorReader(): DataReader
 
     /** Makes a writer; each belongs to one thread at a time. */
     public fun actuatorWriter(): ActuatorWriter
@@ -31,8 +34,8 @@ public interface DataSchema {
     public fun globalReader(): GlobalReader?
 }
 
-/** Reads the table `Sensors` of a frame in place; allocates nothing after its construction. */
-public interface SensorReader {
+/** Reads the table `Sensors` or `Actuators` of a frame in place; allocates nothing after its construction. */
+public interface DataReader {
     /**
      * Points this reader at the table at [position] (bytes from the start of the buffer) of [frame]; little-endian. The frame
      * is what lies between the buffer's position and limit.
@@ -52,7 +55,7 @@ public interface SensorReader {
      */
     public fun check()
 
-    /** The `SensorData` of element [index]: a view, the same object at every call, valid until the next one. */
+    /** The data of element [index]: a view, the same object at every call, valid until the next one. */
     public operator fun get(index: Int): Any
 }
 
@@ -78,7 +81,7 @@ public interface GlobalReader {
     /** Points this reader at the table at [position] of [frame], which stays unchanged while [data] is in use. */
     public fun attach(frame: ByteBuffer, position: Int)
 
-    /** Like [SensorReader.check]. */
+    /** Like [DataReader.check]. */
     public fun check()
 
     /** The `GlobalData` view. */

@@ -2,12 +2,12 @@ package org.collektive.api.schema
 
 import java.nio.ByteBuffer
 
-/** Reads the table `Sensors` of any user schema; made by generated code. */
+/** Reads the table `Sensors` or `Actuators` of any user schema; made by generated code. */
 public class ElementReader private constructor(
     private val element: TableLayout?,
     private val bytes: Int,
     private val view: View,
-) : SensorReader {
+) : DataReader {
     private val outline = TableLayout().vector("data", DATA_ENTRY, bytes, false)
     private val whole = if (element == null) outline else TableLayout().tables("data", DATA_ENTRY, element, false)
     private val checker = FrameChecker()
@@ -15,10 +15,10 @@ public class ElementReader private constructor(
     private var position = 0
     private var first = 0
 
-    /** For a `SensorData` that is a table. */
+    /** For elements that are tables. */
     public constructor(layout: TableLayout, view: View) : this(layout, OFFSET_BYTES, view)
 
-    /** For a `SensorData` that is a struct of [bytes] bytes. */
+    /** For elements that are structs of [bytes] bytes. */
     public constructor(bytes: Int, view: View) : this(null, bytes, view)
 
     override var size: Int = 0
@@ -50,7 +50,7 @@ public class ElementReader private constructor(
     }
 
     private companion object {
-        /** Of the only field of `Sensors`, in its vtable. */
+        /** Of the only field of either table, in its vtable. */
         const val DATA_ENTRY = 4
     }
 }

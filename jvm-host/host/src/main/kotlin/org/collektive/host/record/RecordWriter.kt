@@ -1,0 +1,98 @@
+package org.collektive.host.record
+
+import org.collektive.host.HostError
+import org.collektive.host.HostException
+import org.collektive.host.JarBytes
+import java.io.IOException
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.nio.channels.FileChannel
+import java.nio.file.InvalidPathException
+import java.nio.file.Path
+import java.nio.file.StandardOpenOption.CREATE
+import java.nio.file.StandardOpenOption.TRUNCATE_EXISTING
+import java.nio.file.StandardOpenOption.WRITE
+import java.util.zip.CRC32
+
+/**
+ * Writes a session's frames to a file as they come and go, straight from their memory; allocates nothing per tick.
+ *
+ * A request is written before its tick runs, so that a tick that never ends is in the record too. Methods throw [IOException] when the file
+ * cannot be written.
+ */
+internal class RecordWriter private constructor(private val path: String, private val channel: FileChannel) : AutoCloseable {
+    private val header = ByteBuffer.allocateDirect(Chunk.HEADER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
+    private val parts = arrayOf(header, header)
+    private val crc = CRC32()
+
+    /** The `StepRequest` between position and limit of [frame]. */
+    fun step(frame: ByteBuffer) = write(Chunk.STEP, frame)
+
+    /** The `StepResponse` between position and limit of [frame]. */
+    fun done(frame: ByteBuffer) = write(Chunk.DONE, frame)
+
+    /** The step written last failed. */
+    fun failed(why: String) = write(Chunk.FAIL, text(why))
+
+    /** The session ended in order. */
+    fun end() = write(Chunk.END, NOTHING)
+
+    override fun close() {
+        channel.close()
+    }
+
+    /** What to tell the user when writing failed. */
+    fun failure(cause: IOException): String =
+        "the record $path cannot be written ($cause): make room or name another place, then start again"
+
+    private fun head(open: ByteBuffer, jars: List<JarBytes>) {
+        header.clear().put(MAGIC).flip()
+        while (header.hasRemaining()) channel.write(header)
+        write(Chunk.HEAD, text("java=${Runtime.version()}\nos=${System.getProperty("os.name")} ${System.getProperty("os.arch")}\n"))
+        write(Chunk.OPEN, open)
+        for (jar in jars) {
+            val name = jar.path.encodeToByteArray()
+            val payload = ByteBuffer.allocate(Int.SIZE_BYTES + name.size + jar.bytes.size).order(ByteOrder.LITTLE_ENDIAN)
+            write(Chunk.JAR, payload.putInt(name.size).put(name).put(jar.bytes).flip())
+        }
+    }
+
+    private fun write(kind: Int, payload: ByteBuffer) {
+        val begin = payload.position()
+        header.clear().putInt(kind).putInt(payload.remaining())
+        header.putInt(Chunk.checksum(crc, header, payload)).flip()
+        parts[1] = payload
+        while (header.hasRemaining() || payload.hasRemaining()) channel.write(parts)
+        payload.position(begin)
+    }
+
+    private fun text(text: String) = ByteBuffer.wrap(text.encodeToByteArray())
+
+    companion object {
+        const val VERSION: Short = 1
+        const val MAGIC_TEXT = "CLKREC"
+
+        /** What a record begins with: a name and the version of the format. */
+        val MAGIC: ByteArray get() = MAGIC_TEXT.encodeToByteArray() + byteArrayOf(VERSION.toByte(), 0)
+
+        private val NOTHING = ByteBuffer.allocate(0)
+
+        /** Begins the record [path] of a session that [open] opened with [jars]; what was there is overwritten. */
+        fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
+            try {
+                val writer = RecordWriter(path, FileChannel.open(Path.of(path), CREATE, WRITE, TRUNCATE_EXISTING))
+                try {
+                    writer.head(open, jars)
+                } catch (e: IOException) {
+                    writer.close()
+                    throw e
+                }
+                return writer
+            } catch (e: IOException) {
+                throw HostException(HostError.ARGUMENT, "the record $path cannot be written: $e; name another place", e)
+            } catch (e: InvalidPathException) {
+                throw HostException(HostError.ARGUMENT, "'$path' is not a path of a record", e)
+            }
+        }
+    }
+}
