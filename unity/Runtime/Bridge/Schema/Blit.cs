@@ -16,12 +16,5 @@ namespace Collektive.Bridge
             }
             return builder.EndVector().Value;
         }
-
-        internal static unsafe int Inline<T>(FlatBufferBuilder builder, T value, int alignment) where T : unmanaged
-        {
-            builder.Prep(alignment, sizeof(T));
-            builder.Put<byte>((IntPtr)(&value), sizeof(T));
-            return builder.Offset;
-        }
     }
 }

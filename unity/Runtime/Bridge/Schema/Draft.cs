@@ -15,4 +15,26 @@ namespace Collektive.Bridge
         /// <summary>Writes the table, children first; its offset. Called by the buffers.</summary>
         public abstract int Write(DraftWriter writer);
     }
+
+    /// <summary>
+    /// A <see cref="Draft"/> whose table lies in the frame as <typeparamref name="TRow"/>: room for all fields, absent ones too, so that a table is one
+    /// block. Used by generated code.
+    /// </summary>
+    public abstract class Draft<TRow> : Draft where TRow : unmanaged
+    {
+        /// <summary>Where the fields lie in a row.</summary>
+        public abstract RowLayout Layout { get; }
+
+        /// <summary>Writes what the table leads to and keeps the offsets; a bit for each slot that is absent.</summary>
+        public abstract ulong WriteChildren(DraftWriter writer);
+
+        /// <summary>
+        /// Fills the row after <see cref="WriteChildren"/>. <paramref name="vtable"/> and <paramref name="place"/> are where the vtable and the row lie, in bytes
+        /// from the end of the frame.
+        /// </summary>
+        public abstract void Fill(ref TRow row, int vtable, int place);
+
+        /// <inheritdoc/>
+        public sealed override int Write(DraftWriter writer) => writer.Table(this);
+    }
 }

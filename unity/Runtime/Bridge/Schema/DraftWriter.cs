@@ -4,13 +4,16 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Writes the children of drafts: strings, vectors, structs. Offsets of children wait on a stack that is reused every tick.
+    /// Writes drafts and their children: strings, vectors, tables. Offsets of children wait on a stack that is reused every tick.
     /// Used by generated code.
     /// </summary>
     public sealed class DraftWriter
     {
         private int[] offsets = new int[16];
         private int depth;
+        // The vtables of this frame, which tables with the same fields share.
+        private VTablePlace[] vtables = new VTablePlace[8];
+        private int vtableCount;
 
         /// <summary>The builder that is written to.</summary>
         public FlatBufferBuilder Builder { get; private set; }
@@ -23,6 +26,7 @@ namespace Collektive.Bridge
             Builder = builder;
             Place = -1;
             depth = 0;
+            vtableCount = 0;
         }
 
         /// <summary>Refuses data without a required field.</summary>
@@ -64,10 +68,38 @@ namespace Collektive.Bridge
             return Blit.Vector(Builder, list.Items, list.Count, alignment);
         }
 
-        /// <summary>Adds a struct to the open table; null is absent.</summary>
-        public void Struct<T>(int slot, T? value, int alignment) where T : unmanaged
+        internal unsafe int Table<TRow>(Draft<TRow> draft) where TRow : unmanaged
         {
-            if (value.HasValue) Builder.AddStruct(slot, Blit.Inline(Builder, value.GetValueOrDefault(), alignment), 0);
+            var vtable = VTable(draft.Layout, draft.WriteChildren(this));
+            Builder.Prep(draft.Layout.Alignment, sizeof(TRow));
+            var row = default(TRow);
+            draft.Fill(ref row, vtable, Builder.Offset + sizeof(TRow));
+            Builder.Put<byte>((IntPtr)(&row), sizeof(TRow));
+            return Builder.Offset;
+        }
+
+        /// <summary>The vtable of rows without the slots in <paramref name="absent"/>, in bytes from the end of the frame; written at its first use.</summary>
+        internal int VTable(RowLayout layout, ulong absent)
+        {
+            for (var i = vtableCount - 1; i >= 0; i--)
+            {
+                if (ReferenceEquals(vtables[i].Layout, layout) && vtables[i].Absent == absent) return vtables[i].Place;
+            }
+            if (vtableCount == vtables.Length) Array.Resize(ref vtables, 2 * vtableCount);
+            var place = WriteVTable(layout, absent);
+            vtables[vtableCount++] = new VTablePlace { Layout = layout, Absent = absent, Place = place };
+            return place;
+        }
+
+        private int WriteVTable(RowLayout layout, ulong absent)
+        {
+            var offsets = layout.Offsets;
+            var bytes = (2 + offsets.Length) * sizeof(ushort);
+            Builder.Prep(sizeof(ushort), bytes);
+            for (var slot = offsets.Length - 1; slot >= 0; slot--) Builder.PutUshort((absent >> slot & 1) == 0 ? offsets[slot] : (ushort)0);
+            Builder.PutUshort((ushort)layout.Bytes);
+            Builder.PutUshort((ushort)bytes);
+            return Builder.Offset;
         }
 
         internal void Push(int offset)
@@ -77,10 +109,20 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Writes the last offsets of the stack as a vector, in the order in which they were pushed.</summary>
-        internal int PopVector(int count)
+        internal unsafe int PopVector(int count)
         {
             Builder.StartVector(sizeof(int), count, sizeof(int));
-            for (var i = 0; i < count; i++) Builder.AddOffset(offsets[--depth]);
+            if (count > 0)
+            {
+                depth -= count;
+                var place = Builder.Offset + count * sizeof(int);
+                for (var i = depth; i < depth + count; i++)
+                {
+                    offsets[i] = place - offsets[i];
+                    place -= sizeof(int);
+                }
+                fixed (int* first = &offsets[depth]) Builder.Put<byte>((IntPtr)first, count * sizeof(int));
+            }
             return Builder.EndVector().Value;
         }
 
@@ -88,6 +130,13 @@ namespace Collektive.Bridge
         {
             var where = Place < 0 ? "the global data: " : "the sensor data of due node number " + Place + ": ";
             return new BridgeException(BridgeError.Argument, where + what);
+        }
+
+        private struct VTablePlace
+        {
+            internal RowLayout Layout;
+            internal ulong Absent;
+            internal int Place;
         }
     }
 }

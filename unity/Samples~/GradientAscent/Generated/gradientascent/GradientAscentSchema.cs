@@ -31,6 +31,7 @@ namespace gradientascent
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Y, 4);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Z, 8);
             }
+            global::gradientascent.SensorDataDraft.Row.Check();
         }
 
         /// <inheritdoc/>
@@ -40,7 +41,7 @@ namespace gradientascent
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::gradientascent.SensorDataDraft>();
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::gradientascent.SensorDataDraft, global::gradientascent.SensorDataDraft.Row>();
 
         /// <inheritdoc/>
         public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::gradientascent.ActuatorDataValue>();
@@ -68,8 +69,11 @@ namespace gradientascent
 namespace gradientascent
 {
     /// <summary>Staging of the table <c>SensorData</c>.</summary>
-    public sealed class SensorDataDraft : Bridge::Draft
+    public sealed class SensorDataDraft : Bridge::Draft<SensorDataDraft.Row>
     {
+        private static readonly Bridge::RowLayout layout = new Bridge::RowLayout(4, 24, 4, 8, 20);
+        private int child2;
+
         /// <summary>Makes a draft with the defaults of the schema.</summary>
         public SensorDataDraft()
         {
@@ -103,15 +107,44 @@ namespace gradientascent
         }
 
         /// <inheritdoc/>
-        public override int Write(Bridge::DraftWriter writer)
+        public override Bridge::RowLayout Layout => layout;
+
+        /// <inheritdoc/>
+        public override ulong WriteChildren(Bridge::DraftWriter writer)
         {
-            var child2 = writer.Values(Obstacles, false, 4);
-            var builder = writer.Builder;
-            builder.StartTable(3);
-            builder.AddFloat(0, Intensity, 0.0f);
-            writer.Struct<global::org.collektive.schema.Vector3Value>(1, Position, 4);
-            builder.AddOffset(2, child2, 0);
-            return builder.EndTable();
+            child2 = writer.Values(Obstacles, false, 4);
+            var absent = 0UL;
+            if (!Position.HasValue) absent |= 1UL << 1;
+            if (child2 == 0) absent |= 1UL << 2;
+            return absent;
+        }
+
+        /// <inheritdoc/>
+        public override void Fill(ref Row row, int vtable, int place)
+        {
+            row.VTable = vtable - place;
+            row.Field0 = Intensity;
+            row.Field1 = Position.GetValueOrDefault();
+            row.Field2 = child2 == 0 ? 0 : place - 20 - child2;
+        }
+
+        /// <summary>The table as it lies in a frame.</summary>
+        [StructLayout(LayoutKind.Sequential)]
+        public struct Row
+        {
+            internal int VTable;
+            internal float Field0;
+            internal global::org.collektive.schema.Vector3Value Field1;
+            internal int Field2;
+
+            internal static void Check()
+            {
+                var row = default(Row);
+                Bridge::MirrorLayout.Size<Row>(24);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field0, 4);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field1, 8);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field2, 20);
+            }
         }
     }
 }

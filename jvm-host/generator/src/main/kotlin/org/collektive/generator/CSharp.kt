@@ -22,7 +22,7 @@ internal object CSharp {
         "layouts" to schema.structs.map(::layout),
         "sensors" to when (val sensor = schema.sensor) {
             is StructType -> "Bridge::StructSensorBuffer<${mirror(sensor)}>(${sensor.alignment})"
-            is TableType -> "Bridge::TableSensorBuffer<${draft(sensor)}>()"
+            is TableType -> "Bridge::TableSensorBuffer<${draft(sensor)}, ${draft(sensor)}.Row>()"
         },
         "actuators" to when (val actuator = schema.actuator) {
             is StructType -> "Bridge::StructActuatorBuffer<${mirror(actuator)}>()"
@@ -53,7 +53,7 @@ internal object CSharp {
         "checks" to type.fields.mapNotNull { finiteCheck(type, it) },
     )
 
-    private fun draftModel(type: TableType) = mapOf(
+    private fun draftModel(type: TableType): Map<String, Any?> = rowModel(type, RowPlaces(type)) + mapOf(
         "namespace" to type.name.namespace,
         "name" to "${type.name.simple}Draft",
         "documentation" to documentation(type.documentation, "Staging of the table", type.name.simple),
@@ -71,9 +71,16 @@ internal object CSharp {
         "clears" to type.fields.map { clear(it, member(type, it)) },
         "checks" to type.fields.mapNotNull { finiteCheck(type, it) },
         "children" to type.fields.mapNotNull { requirement(type, it) } + type.fields.mapNotNull { child(type, it) },
-        "slots" to type.slots,
-        // The largest alignments first waste the least room.
-        "additions" to type.fields.sortedWith(compareBy({ -alignment(it.type) }, Field::id)).map { addition(it, member(type, it)) },
+    )
+
+    private fun rowModel(type: TableType, places: RowPlaces): Map<String, Any?> = mapOf(
+        "alignment" to places.alignment,
+        "bytes" to places.bytes,
+        "offsets" to (0 until type.slots).map { slot -> places.offsets.entries.find { it.key.id == slot }?.value ?: 0 },
+        "childIds" to type.fields.filter { isChild(it.type) }.map(Field::id),
+        "absences" to type.fields.mapNotNull { absence(type, it) },
+        "fills" to type.fields.map { "row.Field${it.id} = ${rowValue(it, member(type, it), places.offsets.getValue(it))};" },
+        "places" to places.offsets.map { (field, offset) -> mapOf("type" to rowType(field.type), "place" to "Field${field.id}", "offset" to offset) },
     )
 
     private fun declaration(owner: TableType, field: Field): String {
@@ -146,26 +153,41 @@ internal object CSharp {
             is VectorType -> when (type.element) {
                 is StringType -> "writer.Strings($member, ${field.required}, \"${owner.name.simple}.${field.name}\")"
                 is TableType -> "writer.Tables($member, ${field.required})"
-                else -> "writer.Values($member, ${field.required}, ${alignment(type.element)})"
+                else -> "writer.Values($member, ${field.required}, ${RowPlaces.alignment(type.element)})"
             }
             else -> return null
         }
-        return "var child${field.id} = $write;"
+        return "child${field.id} = $write;"
     }
 
-    private fun addition(field: Field, member: String): String {
-        val slot = field.id
-        return when (val type = field.type) {
-            is Scalar -> add(slot, type, member, field)
-            is EnumType -> add(slot, type.underlying, "(${type.underlying.csharp}${if (field.optional) "?" else ""})$member", field)
-            is StructType -> "writer.Struct<${csharp(type)}>($slot, $member, ${type.alignment});"
-            is StringType, is VectorType, is TableType -> "builder.AddOffset($slot, child$slot, 0);"
+    private fun isChild(type: Type) = type is StringType || type is TableType || type is VectorType
+
+    private fun absence(owner: TableType, field: Field): String? {
+        val member = member(owner, field)
+        val condition = when {
+            isChild(field.type) -> "child${field.id} == 0"
+            field.optional || field.type is StructType && !field.required -> "!$member.HasValue"
+            else -> return null
         }
+        return "if ($condition) absent |= 1UL << ${field.id};"
     }
 
-    private fun add(slot: Int, type: Scalar, value: String, field: Field): String {
-        val default = if (field.optional) "" else ", ${literal(type, field.default)}"
-        return "builder.Add${type.builder}($slot, $value$default);"
+    private fun rowType(type: Type): String = when {
+        isChild(type) -> "int"
+        type == Scalar.BOOL -> "byte"
+        type is EnumType -> type.underlying.csharp
+        else -> csharp(type)
+    }
+
+    private fun rowValue(field: Field, member: String, offset: Int): String {
+        val type = field.type
+        if (isChild(type)) return "child${field.id} == 0 ? 0 : place - $offset - child${field.id}"
+        val value = if (field.optional || type is StructType && !field.required) "$member.GetValueOrDefault()" else member
+        return when {
+            type == Scalar.BOOL -> "(byte)($value ? 1 : 0)"
+            type is EnumType -> "(${type.underlying.csharp})$value"
+            else -> value
+        }
     }
 
     private fun literal(type: Scalar, default: Default): String = when (type) {
@@ -198,14 +220,7 @@ internal object CSharp {
 
     private fun draft(type: TableType) = "global::${type.name}Draft"
 
-    private fun alignment(type: Type): Int = when (type) {
-        is Scalar -> type.bytes
-        is EnumType -> type.underlying.bytes
-        is StructType -> type.alignment
-        else -> 4
-    }
-
-    private val taken = setOf("Clear", "FindNotFinite", "Write")
+    private val taken = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
     /** The C# name of a field; an underscore is added where a member of that name is there already. */
     private fun member(owner: Composite, field: Field): String {

@@ -4,18 +4,18 @@ package org.collektive.generator
 internal sealed interface Type
 
 /** A number or truth value. [bytes] is its size and its alignment. */
-internal enum class Scalar(val text: String, val csharp: String, val builder: String, val bytes: Int) : Type {
-    BOOL("bool", "bool", "Bool", 1),
-    BYTE("byte", "sbyte", "Sbyte", 1),
-    UBYTE("ubyte", "byte", "Byte", 1),
-    SHORT("short", "short", "Short", 2),
-    USHORT("ushort", "ushort", "Ushort", 2),
-    INT("int", "int", "Int", 4),
-    UINT("uint", "uint", "Uint", 4),
-    LONG("long", "long", "Long", 8),
-    ULONG("ulong", "ulong", "Ulong", 8),
-    FLOAT("float", "float", "Float", 4),
-    DOUBLE("double", "double", "Double", 8),
+internal enum class Scalar(val text: String, val csharp: String, val bytes: Int) : Type {
+    BOOL("bool", "bool", 1),
+    BYTE("byte", "sbyte", 1),
+    UBYTE("ubyte", "byte", 1),
+    SHORT("short", "short", 2),
+    USHORT("ushort", "ushort", 2),
+    INT("int", "int", 4),
+    UINT("uint", "uint", 4),
+    LONG("long", "long", 8),
+    ULONG("ulong", "ulong", 8),
+    FLOAT("float", "float", 4),
+    DOUBLE("double", "double", 8),
     ;
 
     val real: Boolean get() = this == FLOAT || this == DOUBLE

@@ -75,12 +75,18 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val type = if (source.isStruct) {
             StructType(name, documentation, plain(source.declarationFile()) == core, source.bytesize(), source.minalign())
         } else {
-            TableType(name, documentation, (sources.maxOfOrNull { it.id() } ?: -1) + 1)
+            TableType(name, documentation, slots(name, sources))
         }
         composites[index] = type
         type.fields = sources.filter { !it.deprecated() }.map { field(source, it) }
         if (type is StructType) checkLayout(type)
         return type
+    }
+
+    private fun slots(table: TypeName, fields: List<BinaryField>): Int {
+        val slots = (fields.maxOfOrNull { it.id() } ?: -1) + 1
+        if (slots > MAX_SLOTS) throw error("${table.simple}: it has $slots fields, more than $MAX_SLOTS; put some into a table of their own")
+        return slots
     }
 
     private fun field(owner: BinaryObject, source: BinaryField): Field {
@@ -182,6 +188,8 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private fun error(what: String) = GeneratorException("${file.fileName}: $what")
 
     private companion object {
+        /** The bridge keeps which fields are absent in 64 bits. */
+        const val MAX_SLOTS = 64
         const val UNION = "unions are not supported; use one optional table field for each case"
 
         /** Fields of these names would make flatc's own code fail to compile. */

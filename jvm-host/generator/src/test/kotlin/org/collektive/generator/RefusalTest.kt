@@ -31,6 +31,8 @@ internal class RefusalTest {
         assertEquals("user.fbs: SensorData.shapes: unions are not supported; use one optional table field for each case", refusal(user("table A {} table B {} union Shape { A, B }", "shapes: [Shape];")))
         assertEquals("user.fbs: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table", refusal(user("struct Grid { cells: [float:4]; }", "grid: Grid;")))
         assertContains(refusal(user("", "huge: [ubyte] (vector64);")), "SensorData.huge")
+        val many = (0..64).joinToString(" ") { "f$it: int;" }
+        assertEquals("user.fbs: Wide: it has 65 fields, more than 64; put some into a table of their own", refusal(user("table Wide { $many }", "wide: Wide;")))
         assertEquals("user.fbs: Odd: force_align is not supported; remove it", refusal(user("struct Odd (force_align: 16) { x: float; }", "odd: Odd;")))
     }
 

@@ -1,0 +1,22 @@
+namespace Collektive.Bridge
+{
+    /// <summary>Where the fields of a table lie in its rows: see <see cref="Draft{TRow}"/>. Used by generated code.</summary>
+    public sealed class RowLayout
+    {
+        /// <summary>
+        /// Takes the row's alignment, its size, and the offset of each slot of the schema in bytes; 0 for deprecated slots.
+        /// </summary>
+        public RowLayout(int alignment, int bytes, params ushort[] offsets)
+        {
+            Alignment = alignment;
+            Bytes = bytes;
+            Offsets = offsets;
+        }
+
+        internal int Alignment { get; }
+
+        internal int Bytes { get; }
+
+        internal ushort[] Offsets { get; }
+    }
+}
