@@ -168,6 +168,17 @@ project(":host") {
     tasks.named("assemble") { dependsOn(hostJar) }
 }
 
+project(":bench") {
+    dependencies {
+        "compileOnly"(project(":host"))
+        "compileOnly"(project(":programs"))
+    }
+    tasks.named<Jar>("jar") {
+        archiveFileName.set("collektive-bench.jar")
+        destinationDirectory.set(file("target"))
+    }
+}
+
 project(":programs") {
     val generator = configurations.create("generator")
     dependencies {

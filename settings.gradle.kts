@@ -19,7 +19,7 @@ dependencyResolutionManagement {
 
 rootProject.name = "collektive"
 
-for (module in listOf("flatbuffers", "dsl", "runtime", "stdlib", "compiler-plugin", "api", "generator", "engine", "host", "programs")) {
+for (module in listOf("flatbuffers", "dsl", "runtime", "stdlib", "compiler-plugin", "api", "generator", "engine", "host", "programs", "bench")) {
     include(module)
     project(":$module").projectDir = file("jvm-host/$module")
 }

@@ -6,7 +6,7 @@ help_test() {
   cat <<'H'
 usage: ./collektive test [SUITE]...
 
-Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance.
+Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance, bench.
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. A changed public API of the JVM
 side fails the suite jvm, which then shows the difference from jvm-host/*/api/*.api and the command that accepts it.
 H
@@ -136,7 +136,7 @@ test_acceptance() {
 wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
 
 cmd_test() {
-  local known="shim jvm csharp assets roundtrip page acceptance" name jdk
+  local known="shim jvm csharp assets roundtrip page acceptance bench" name jdk
   SUITES=("$@")
   for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
   setup_system
@@ -157,6 +157,7 @@ cmd_test() {
   if wanted roundtrip; then suite roundtrip bash "$ROOT/schema/test/roundtrip.sh"; fi
   if wanted page || wanted acceptance; then build_replay_page; fi
   if wanted acceptance; then suite acceptance test_acceptance; fi
+  if wanted bench; then suite bench python3 "$ROOT/scripts/bench_test.py" "$ROOT"; fi
   if wanted page; then suite page test_page; fi
   echo "$TOTAL_PASSED passed, $TOTAL_FAILED failed"
   [ "$TOTAL_FAILED" = 0 ]

@@ -2,4 +2,5 @@ using System.Reflection;
 using System.Runtime.CompilerServices;
 
 [assembly: AssemblyVersion("0.1.0.0")]
+[assembly: InternalsVisibleTo("Collektive.Headless.Bench")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]

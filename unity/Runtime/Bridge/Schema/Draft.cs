@@ -22,8 +22,13 @@ namespace Collektive.Bridge
     /// </summary>
     public abstract class Draft<TRow> : Draft where TRow : unmanaged
     {
-        /// <summary>Where the fields lie in a row.</summary>
-        public abstract RowLayout Layout { get; }
+        /// <summary>Makes a draft whose fields lie in a row as <paramref name="layout"/> says.</summary>
+        protected Draft(RowLayout layout)
+        {
+            Layout = layout;
+        }
+
+        internal RowLayout Layout { get; }
 
         /// <summary>Writes what the table leads to and keeps the offsets; a bit for each slot that is absent.</summary>
         public abstract ulong WriteChildren(DraftWriter writer);

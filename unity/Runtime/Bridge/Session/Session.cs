@@ -52,7 +52,7 @@ namespace Collektive.Bridge
             var session = new Session(settings, schema);
             try
             {
-                session.Open(settings, schema.Name, schema.Types);
+                session.Connect(settings, schema);
                 return session;
             }
             catch
@@ -100,9 +100,9 @@ namespace Collektive.Bridge
             }
         }
 
-        private void Open(SessionSettings settings, string schema, IReadOnlyList<KeyValuePair<string, ulong>> types)
+        private void Connect(SessionSettings settings, DataSchema schema)
         {
-            WriteOpenRequest(settings, schema, types);
+            WriteOpenRequest(builder, settings, schema);
             var offset = builder.DataBuffer.Position;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
             ulong opened;
@@ -113,10 +113,10 @@ namespace Collektive.Bridge
             Programs = ReadPrograms(Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer));
         }
 
-        private void WriteOpenRequest(
-            SessionSettings settings, string schema, IReadOnlyList<KeyValuePair<string, ulong>> types)
+        internal static void WriteOpenRequest(FlatBufferBuilder builder, SessionSettings settings, DataSchema schema)
         {
             builder.Clear();
+            var types = schema.Types;
             var jars = new StringOffset[settings.Jars.Count];
             for (var i = 0; i < jars.Length; i++) jars[i] = builder.CreateString(settings.Jars[i]);
             var fingerprints = new Offset<Frame.TypeFingerprint>[types.Count];
@@ -128,7 +128,7 @@ namespace Collektive.Bridge
             var network = settings.Network;
             builder.Finish(Frame.OpenRequest.CreateOpenRequest(
                 builder, SessionSettings.Protocol, settings.Seed, settings.Threads, settings.Schedule,
-                Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema),
+                Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema.Name),
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
                 builder.CreateString(settings.Program ?? ""),
                 Frame.Network.CreateNetwork(

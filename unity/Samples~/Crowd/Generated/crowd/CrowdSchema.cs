@@ -33,6 +33,7 @@ namespace crowd
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Y, 4);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Z, 8);
             }
+            global::crowd.SensorDataDraft.Row.Check();
         }
 
         /// <inheritdoc/>
@@ -42,7 +43,7 @@ namespace crowd
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::crowd.SensorDataDraft>();
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::crowd.SensorDataDraft, global::crowd.SensorDataDraft.Row>();
 
         /// <inheritdoc/>
         public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::crowd.ActuatorDataValue>();
@@ -77,10 +78,13 @@ namespace crowd
 namespace crowd
 {
     /// <summary>Staging of the table <c>SensorData</c>.</summary>
-    public sealed class SensorDataDraft : Bridge::Draft
+    public sealed class SensorDataDraft : Bridge::Draft<SensorDataDraft.Row>
     {
+        private static readonly Bridge::RowLayout layout = new Bridge::RowLayout(4, 32, 4, 16, 28);
+        private int child2;
+
         /// <summary>Makes a draft with the defaults of the schema.</summary>
-        public SensorDataDraft()
+        public SensorDataDraft() : base(layout)
         {
             Clear();
         }
@@ -112,15 +116,42 @@ namespace crowd
         }
 
         /// <inheritdoc/>
-        public override int Write(Bridge::DraftWriter writer)
+        public override ulong WriteChildren(Bridge::DraftWriter writer)
         {
-            var child2 = writer.Values(Obstacles, false, 4);
-            var builder = writer.Builder;
-            builder.StartTable(3);
-            writer.Struct<global::org.collektive.schema.Vector3Value>(0, Position, 4);
-            writer.Struct<global::org.collektive.schema.Vector3Value>(1, Goal, 4);
-            builder.AddOffset(2, child2, 0);
-            return builder.EndTable();
+            child2 = writer.Values(Obstacles, false, 4);
+            var absent = 0UL;
+            if (!Position.HasValue) absent |= 1UL << 0;
+            if (!Goal.HasValue) absent |= 1UL << 1;
+            if (child2 == 0) absent |= 1UL << 2;
+            return absent;
+        }
+
+        /// <inheritdoc/>
+        public override void Fill(ref Row row, int vtable, int place)
+        {
+            row.VTable = vtable - place;
+            row.Field0 = Position.GetValueOrDefault();
+            row.Field1 = Goal.GetValueOrDefault();
+            row.Field2 = child2 == 0 ? 0 : place - 28 - child2;
+        }
+
+        /// <summary>The table as it lies in a frame.</summary>
+        [StructLayout(LayoutKind.Sequential)]
+        public struct Row
+        {
+            internal int VTable;
+            internal global::org.collektive.schema.Vector3Value Field0;
+            internal global::org.collektive.schema.Vector3Value Field1;
+            internal int Field2;
+
+            internal static void Check()
+            {
+                var row = default(Row);
+                Bridge::MirrorLayout.Size<Row>(32);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field0, 4);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field1, 16);
+                Bridge::MirrorLayout.Offset(ref row, ref row.Field2, 28);
+            }
         }
     }
 }

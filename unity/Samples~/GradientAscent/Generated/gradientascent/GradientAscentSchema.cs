@@ -75,7 +75,7 @@ namespace gradientascent
         private int child2;
 
         /// <summary>Makes a draft with the defaults of the schema.</summary>
-        public SensorDataDraft()
+        public SensorDataDraft() : base(layout)
         {
             Clear();
         }
@@ -105,9 +105,6 @@ namespace gradientascent
             for (var i = 0; i < Obstacles.Count; i++) if (Obstacles[i].FindNotFinite() is string path) return "obstacles[" + i + "]." + path;
             return null;
         }
-
-        /// <inheritdoc/>
-        public override Bridge::RowLayout Layout => layout;
 
         /// <inheritdoc/>
         public override ulong WriteChildren(Bridge::DraftWriter writer)

@@ -81,5 +81,9 @@ internal object FrameShapes {
         inline("link_count", 4),
         inline("host_micros", 4),
         inline("round_micros", 4),
+        inline("sent", 4),
+        inline("dropped", 4),
+        inline("delayed", 4),
+        inline("expired", 4),
     )
 }

@@ -13,7 +13,8 @@ public object Host {
     /** Number of the contract in `schema/frame.fbs` and of these entries. */
     internal const val PROTOCOL = 1
 
-    internal var shim: ShimCalls = NativeShim
+    /** What stands behind the host: the native library, unless another is set before [start]. */
+    public var shim: ShimCalls = NativeShim
     private val sessions = HashMap<Long, Session>()
     private val control by lazy { Control(shim) }
 

@@ -18,12 +18,15 @@ public object Shim {
 }
 
 /** [Shim] as the host uses it, so that the host also runs without the native library. */
-internal interface ShimCalls {
-    fun grow(slot: Long, capacity: Int): ByteBuffer?
+public interface ShimCalls {
+    /** See [Shim.grow]. */
+    public fun grow(slot: Long, capacity: Int): ByteBuffer?
 
-    fun error(text: String)
+    /** See [Shim.error]. */
+    public fun error(text: String)
 
-    fun log(level: LogLevel, line: String)
+    /** See [Shim.log]. */
+    public fun log(level: LogLevel, line: String)
 }
 
 internal object NativeShim : ShimCalls {
@@ -35,4 +38,4 @@ internal object NativeShim : ShimCalls {
 }
 
 /** `clk_log_level`. */
-internal enum class LogLevel { DEBUG, INFO, WARNING, ERROR }
+public enum class LogLevel { DEBUG, INFO, WARNING, ERROR }

@@ -1,0 +1,48 @@
+# ./collektive bench: measurements.
+
+BENCH_JAR="$ROOT/jvm-host/bench/target/collektive-bench.jar"
+
+help_bench() {
+  cat <<'H'
+usage: ./collektive bench tick [--quick] [--nodes N,N...] [--out FILE]
+
+tick   What a tick costs, all in one run and in turn: in-process (this product), the same shim with a call for each node, the same
+       frames over a TCP socket, the rounds without the boundary, plain loops; then an empty tick and the addition of nodes. Prints a
+       table and what is promised, and writes build/bench/tick.json. --quick takes under two minutes on two idle cores; without it
+       there are more ticks and a run of 20,000 (pauses, memory). Times of a busy machine mean little.
+H
+}
+
+build_bench() {
+  build_native
+  build_jvm
+  build_csharp
+  assembly Collektive.Headless.Bench.exe "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $NEWTONSOFT" \
+    "$ROOT/unity/Headless~/Bench" "$ROOT/unity/Headless~/Player/Quantiles.cs" "$ROOT/unity/Samples~/GradientAscent/Generated" -- \
+    $GENERATED_CODE_SYMBOLS -target:exe
+  cp -u "$NEWTONSOFT" "$CSHARP/"
+}
+
+cmd_bench() {
+  case ${1:-} in
+    tick) shift; bench_tick "$@" ;;
+    *) fail "bench: name what to measure: tick (see ./collektive bench --help)" ;;
+  esac
+}
+
+bench_tick() {
+  local out="$BUILD/bench/tick.json" arguments=()
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --quick) arguments+=(--quick); shift ;;
+      --nodes) [ $# -ge 2 ] || fail "bench tick: --nodes needs numbers with commas between them"; arguments+=(--nodes "$2"); shift 2 ;;
+      --out) out=${2:?--out needs a file}; shift 2 ;;
+      *) fail "bench tick: unknown argument $1 (see ./collektive bench --help)" ;;
+    esac
+  done
+  setup_system
+  build_bench
+  managed mono-sgen "$CSHARP/Collektive.Headless.Bench.exe" --java-home "$(find_jdk)" --host-jar "$HOST_JAR" --jar "$SAMPLES_JAR" --jar "$BENCH_JAR" \
+    --out "$out" "${arguments[@]}" || exit 1
+  say "wrote $out"
+}

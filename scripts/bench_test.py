@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Runs a short ./collektive bench tick and looks at what does not depend on the machine. The last line is "N passed, N failed"."""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+ROOT = os.path.abspath(sys.argv[1])
+OUT = os.path.join(ROOT, "build/bench/test.json")
+KEYS = ["name", "variant", "program", "topology", "nodes", "threads", "median_us", "p99_us", "min_us", "managed_bytes_per_tick", "jvm_bytes_per_tick"]
+
+
+class BenchTick(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        command = [os.path.join(ROOT, "collektive"), "bench", "tick", "--quick", "--nodes", "12,500", "--out", OUT]
+        cls.result = subprocess.run(command, capture_output=True, text=True)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(OUT) as file:
+            cls.whole = json.load(file)
+        cls.rows = cls.whole["rows"]
+
+    def test_the_file_has_its_form(self):
+        self.assertEqual(sorted(self.whole), ["machine", "rows"])
+        self.assertTrue(self.whole["machine"])
+        for row in self.rows:
+            self.assertEqual(list(row), KEYS)
+
+    def test_all_variants_are_there(self):
+        found = {(row["name"], row["variant"], row["nodes"]) for row in self.rows}
+        for nodes in [12, 500]:
+            for variant in ["in-process", "per-node-call", "socket", "engine-only", "hand-written", "in-process, every 8 ms", "socket, every 8 ms"]:
+                self.assertIn(("tick", variant, nodes), found)
+        self.assertIn(("crossing", "in-process", 0), found)
+        self.assertIn(("spawn", "in-process", 500), found)
+
+    def test_times_are_in_order(self):
+        for row in self.rows:
+            self.assertLess(0, row["min_us"], row)
+            self.assertLessEqual(row["min_us"], row["median_us"], row)
+            self.assertLessEqual(row["median_us"], row["p99_us"], row)
+
+    def test_a_tick_allocates_no_managed_memory(self):
+        for row in self.rows:
+            if row["name"] in ("tick", "crossing") and row["variant"] in ("in-process", "per-node-call", "in-process, every 8 ms"):
+                self.assertEqual(row["managed_bytes_per_tick"], 0, row)
+
+    def test_the_jvm_allocates_for_rounds_only(self):
+        def bytes_of(variant):
+            return next(row["jvm_bytes_per_tick"] for row in self.rows if row["variant"] == variant and row["nodes"] == 500)
+        self.assertLess(bytes_of("in-process"), bytes_of("engine-only") * 1.5 + 1000)
+
+    def test_the_table_is_printed(self):
+        for word in ["in-process", "hand-written", "bridge at 500 nodes", "managed bytes per tick, 500 nodes"]:
+            self.assertIn(word, self.result.stdout)
+
+
+if __name__ == "__main__":
+    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(BenchTick))
+    failed = len(result.failures) + len(result.errors)
+    print(f"{result.testsRun - min(failed, result.testsRun)} passed, {failed} failed")
+    sys.exit(1 if failed else 0)

@@ -1,0 +1,53 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+
+namespace Collektive.Headless.Bench
+{
+    /// <summary>The speed that is promised for a machine of two cores that does nothing else, and what was measured.</summary>
+    internal static class Gates
+    {
+        internal static void Print(List<Row> rows, TextWriter output)
+        {
+            output.WriteLine();
+            var at500 = Find(rows, "tick", "in-process", 500, 2);
+            var engine500 = Find(rows, "tick", "engine-only", 500, 2);
+            var at10000 = Find(rows, "tick", "in-process", 10000, 2);
+            var single = Find(rows, "tick", "in-process", 10000, 1);
+            var loops = Find(rows, "tick", "hand-written", 10000, 1);
+            var at50000 = Find(rows, "tick", "in-process", 50000, 2);
+            var crossing = Find(rows, "crossing", "in-process", 0, 1);
+            var soak = Find(rows, "soak", "in-process", 1000, 2);
+            if (at500 != null && engine500 != null)
+            {
+                AtMost(output, "bridge at 500 nodes, us", at500.Median - engine500.Median, System.Math.Max(0.15 * at500.Median, 60));
+                AtMost(output, "tick at 500 nodes, us", at500.Median, 250);
+            }
+            if (crossing != null) AtMost(output, "crossing, us", crossing.Median, 15);
+            if (at10000 != null) AtMost(output, "tick at 10,000 nodes, us", at10000.Median, 3500);
+            if (at50000 != null) AtMost(output, "tick at 50,000 nodes, us", at50000.Median, 20000);
+            if (at10000 != null && loops != null) AtMost(output, "times hand-written at 10,000", at10000.Median / loops.Median, 15);
+            if (at10000 != null && at500 != null) AtMost(output, "cost per node, 10,000 to 500", at10000.Median / 20 / at500.Median, 1.5);
+            if (at10000 != null && single != null) AtLeast(output, "two threads to one at 10,000", single.Median / at10000.Median, 1.6);
+            foreach (var row in rows)
+            {
+                if (row.Name == "tick" && row.Variant == "in-process") AtMost(output, "managed bytes per tick, " + row.Nodes + " nodes", row.ManagedBytes, 0);
+            }
+            if (soak == null) return;
+            AtMost(output, "soak: RSS after tick 5000, %", 100.0 * ((double)soak.More["rss_kb_end"] / (double)soak.More["rss_kb_tick_5000"] - 1), 2);
+            AtMost(output, "soak: p99.9, us", soak.Quantile(0.999), System.Math.Max(5 * soak.Median, 1000));
+        }
+
+        private static Row Find(List<Row> rows, string name, string variant, int nodes, int threads) =>
+            rows.Find(row => row.Name == name && row.Variant == variant && row.Nodes == nodes && row.Threads == threads);
+
+        private static void AtMost(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at most", limit, value <= limit);
+
+        private static void AtLeast(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at least", limit, value >= limit);
+
+        private static void Line(TextWriter output, string what, double value, string relation, double limit, bool met)
+        {
+            output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#} {2} {3:0.0#}{4}", what, value, relation, limit, met ? "" : "   MISSED"));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using gradientascent;
+using org.collektive.schema;
+
+namespace Collektive.Headless.Bench
+{
+    /// <summary>
+    /// The benchmark's world: nodes a metre apart on a grid that is as square as it can be, each linked with its (up to) eight neighbours. The
+    /// Kotlin side builds the same one.
+    /// </summary>
+    internal sealed class GridWorld
+    {
+        /// <summary>Every fourth node senses one obstacle.</summary>
+        private const int ObstacleEvery = 4;
+
+        private static readonly Vector3Value Obstacle = new Vector3Value { X = 0.4f, Y = 0, Z = 0.3f };
+
+        private readonly int width;
+
+        internal GridWorld(int size)
+        {
+            Size = size;
+            width = (int)Math.Ceiling(Math.Sqrt(size));
+        }
+
+        internal int Size { get; }
+
+        /// <summary>Asks for all nodes and links.</summary>
+        internal void AddTo(StepRequest request)
+        {
+            for (var node = 0; node < Size; node++) request.AddNode(node, null, null);
+            for (var to = 0; to < Size; to++)
+            {
+                for (var dz = -1; dz <= 1; dz++)
+                {
+                    for (var dx = -1; dx <= 1; dx++) AddLink(request, to, dx, dz);
+                }
+            }
+        }
+
+        internal void RemoveFrom(StepRequest request)
+        {
+            for (var node = 0; node < Size; node++) request.RemoveNode(node);
+        }
+
+        /// <summary>Makes all nodes due, with what they sense in a tick.</summary>
+        internal void Sense(StepRequest request, long tick)
+        {
+            request.ClearDue();
+            request.Sensors.EnsureCapacity(Size);
+            for (var node = 0; node < Size; node++) Sense(request, node, node, tick);
+        }
+
+        /// <summary>Makes one node due; its data are element <paramref name="index"/>.</summary>
+        internal void Sense(StepRequest request, int node, int index, long tick)
+        {
+            var sensors = (SensorBuffer<SensorDataDraft>)request.Sensors;
+            sensors.Clear(index);
+            var data = sensors.Items[index];
+            data.Intensity = (node * 37 + (int)(tick % 64)) % 101;
+            data.Position = new Vector3Value { X = node % width, Y = 0, Z = node / width };
+            if (node % ObstacleEvery == 0) data.Obstacles.Add(Obstacle);
+            request.AddDue(node);
+        }
+
+        /// <summary>Reads all answers; their sum, so that nothing is optimised away.</summary>
+        internal static float Act(StepAnswer answer)
+        {
+            var actuators = (ActuatorBuffer<ActuatorDataValue>)answer.Actuators;
+            var sum = 0f;
+            for (var i = 0; i < actuators.Count; i++)
+            {
+                var target = actuators[i].Target;
+                sum += target.X + target.Z;
+            }
+            return sum;
+        }
+
+        private void AddLink(StepRequest request, int to, int dx, int dz)
+        {
+            var column = to % width + dx;
+            var from = (to / width + dz) * width + column;
+            if (from == to || column < 0 || column >= width || from < 0 || from >= Size) return;
+            request.SetLink(new LinkRecord { From = from, To = to, Length = (float)Math.Sqrt(dx * dx + dz * dz) });
+        }
+    }
+}

@@ -1,0 +1,126 @@
+using System.Diagnostics;
+using Collektive.Bridge;
+using gradientascent;
+
+namespace Collektive.Headless.Bench
+{
+    /// <summary>The product: C# fills the frame, one call, the JVM runs the rounds, C# reads the answer in place.</summary>
+    internal class InProcess : Variant
+    {
+        private readonly AllocationProbe probe;
+        private long tick;
+
+        internal InProcess(BenchSettings settings, AllocationProbe probe, string name, string variant, int nodes, int threads)
+            : base(name, variant, nodes == 0 ? "none" : "a", nodes, threads)
+        {
+            this.probe = probe;
+            World = new GridWorld(nodes);
+            Session = Session.Open(
+                new SessionSettings { Seed = 1, Threads = threads, Jars = settings.Jars, Program = "gradient-ascent" }, new GradientAscentSchema());
+        }
+
+        protected GridWorld World { get; }
+
+        protected Session Session { get; }
+
+        /// <summary>Keeps the answers from being optimised away.</summary>
+        internal float Sum { get; private set; }
+
+        internal override int CallsPerTick => 1;
+
+        internal override long JvmBytes() => probe.Read();
+
+        internal override void Run(int count, double[] times)
+        {
+            if (tick == 0) Prepare();
+            for (var i = 0; i < count; i++)
+            {
+                Pause();
+                var begin = Stopwatch.GetTimestamp();
+                Sum += Tick(++tick);
+                times[i] = Measurement.Micros(begin, Stopwatch.GetTimestamp());
+            }
+        }
+
+        public override void Dispose() => Session.Dispose();
+
+        protected virtual void Prepare() => World.AddTo(Session.Request);
+
+        protected virtual void Pause()
+        {
+        }
+
+        protected virtual float Tick(long number)
+        {
+            World.Sense(Session.Request, number);
+            Session.Step(Measurement.DeltaTime, Measurement.LimitMs);
+            return GridWorld.Act(Session.Answer);
+        }
+    }
+
+    /// <summary>The same at a pace, as in a game: caches and cores cool down between ticks.</summary>
+    internal sealed class PacedInProcess : InProcess
+    {
+        internal PacedInProcess(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
+            : base(settings, probe, "tick", "in-process, every 8 ms", nodes, threads)
+        {
+        }
+
+        internal override bool IsPaced => true;
+
+        protected override void Pause() => Measurement.Pause();
+    }
+
+    /// <summary>The seed's manner over the same shim: a call for each node.</summary>
+    internal sealed class PerNodeCall : InProcess
+    {
+        internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads) : base(settings, probe, "tick", "per-node-call", nodes, threads)
+        {
+        }
+
+        internal override int CallsPerTick => World.Size;
+
+        protected override float Tick(long number)
+        {
+            var sum = 0f;
+            for (var node = 0; node < World.Size; node++)
+            {
+                Session.Request.ClearDue();
+                Session.Request.Sensors.EnsureCapacity(1);
+                World.Sense(Session.Request, node, 0, number);
+                Session.Step(Measurement.DeltaTime, Measurement.LimitMs);
+                sum += GridWorld.Act(Session.Answer);
+            }
+            return sum;
+        }
+    }
+
+    /// <summary>A tick adds all nodes with their links; between two of them all leave again.</summary>
+    internal sealed class Spawn : InProcess
+    {
+        internal Spawn(BenchSettings settings, AllocationProbe probe, int nodes, int threads) : base(settings, probe, "spawn", "in-process", nodes, threads)
+        {
+        }
+
+        /// <summary>The tick between two counts too.</summary>
+        internal override int CallsPerTick => 2;
+
+        protected override void Prepare()
+        {
+        }
+
+        protected override void Pause()
+        {
+            if (Session.Tick > 0) World.RemoveFrom(Session.Request);
+            Session.Request.ClearDue();
+            Session.Step(Measurement.DeltaTime, Measurement.LimitMs);
+        }
+
+        protected override float Tick(long number)
+        {
+            World.AddTo(Session.Request);
+            Session.Step(Measurement.DeltaTime, Measurement.LimitMs);
+            return Session.Answer.EngineNodes;
+        }
+    }
+}
