@@ -169,9 +169,14 @@ project(":host") {
 }
 
 project(":bench") {
+    val jmh = parent.getValue("jmh.version")
     dependencies {
         "compileOnly"(project(":host"))
         "compileOnly"(project(":programs"))
+        "implementation"("org.openjdk.jmh:jmh-core:$jmh")
+        "annotationProcessor"("org.openjdk.jmh:jmh-generator-annprocess:$jmh")
+        "kotlinCompilerPluginClasspath"(project(":compiler-plugin"))
+        "testImplementation"(project(":host"))
     }
     tasks.named<Jar>("jar") {
         archiveFileName.set("collektive-bench.jar")

@@ -4,8 +4,11 @@ BENCH_JAR="$ROOT/jvm-host/bench/target/collektive-bench.jar"
 
 help_bench() {
   cat <<'H'
-usage: ./collektive bench tick [--quick] [--nodes N,N...] [--out FILE]
+usage: ./collektive bench rounds [--quick]
+       ./collektive bench tick [--quick] [--nodes N,N...] [--out FILE]
 
+rounds What a round of aggregate programs costs on the engine, time and garbage, beside plain loops; measured with JMH. Prints a table
+       and writes build/bench/rounds.json. About eight minutes, three with --quick.
 tick   What a tick costs, all in one run and in turn: in-process (this product), the same shim with a call for each node, the same
        frames over a TCP socket, the rounds without the boundary, plain loops; then an empty tick and the addition of nodes. Prints a
        table and what is promised, and writes build/bench/tick.json. --quick takes under two minutes on two idle cores; without it
@@ -25,8 +28,9 @@ build_bench() {
 
 cmd_bench() {
   case ${1:-} in
+    rounds) shift; bench_rounds "$@" ;;
     tick) shift; bench_tick "$@" ;;
-    *) fail "bench: name what to measure: tick (see ./collektive bench --help)" ;;
+    *) fail "bench: name what to measure: rounds or tick (see ./collektive bench --help)" ;;
   esac
 }
 
@@ -45,4 +49,15 @@ bench_tick() {
   managed mono-sgen "$CSHARP/Collektive.Headless.Bench.exe" --java-home "$(find_jdk)" --host-jar "$HOST_JAR" --jar "$SAMPLES_JAR" --jar "$BENCH_JAR" \
     --out "$out" "${arguments[@]}" || exit 1
   say "wrote $out"
+}
+
+bench_rounds() {
+  case ${1:-} in "" | --quick) ;; *) fail "bench rounds: unknown argument $1 (see ./collektive bench --help)" ;; esac
+  setup_system
+  build_jvm
+  mkdir -p "$BUILD/bench"
+  # JMH uses what newer JVMs warn of, in each process that it starts.
+  "$(find_jdk)/bin/java" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
+    "$BUILD/bench/rounds.json" "$@" 2> >(grep -v '^WARNING: .*\(sun.misc.Unsafe\|Please consider\)' >&2) || exit 1
+  say "wrote build/bench/rounds.json"
 }

@@ -33,7 +33,7 @@ public class Field<ID : Any, out T> private constructor(
     public val all: CollapseAll<FieldEntry<ID, T>> get() = AllEntries(this)
 
     /** How many neighbours there are; for libraries that cannot afford entries, like the next ones. */
-    public val neighborCount: Int get() = ids.size
+    public val neighborCount: Int get() = (neighborValues ?: ids).size
 
     /** Whether it is known that all values are one object. */
     public val isConstant: Boolean get() = neighborValues == null

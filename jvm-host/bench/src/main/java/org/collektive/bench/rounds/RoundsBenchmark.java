@@ -1,0 +1,83 @@
+package org.collektive.bench.rounds;
+
+import java.util.concurrent.TimeUnit;
+import org.openjdk.jmh.annotations.Benchmark;
+import org.openjdk.jmh.annotations.BenchmarkMode;
+import org.openjdk.jmh.annotations.Level;
+import org.openjdk.jmh.annotations.Mode;
+import org.openjdk.jmh.annotations.OutputTimeUnit;
+import org.openjdk.jmh.annotations.Param;
+import org.openjdk.jmh.annotations.Scope;
+import org.openjdk.jmh.annotations.Setup;
+import org.openjdk.jmh.annotations.State;
+import org.openjdk.jmh.annotations.TearDown;
+
+/** One tick of a settled network. In Java, since JMH makes its code with a processor of Java's annotations. */
+@BenchmarkMode(Mode.AverageTime)
+@OutputTimeUnit(TimeUnit.MICROSECONDS)
+public class RoundsBenchmark {
+    /** Which network. */
+    @State(Scope.Benchmark)
+    public static class Network {
+        @Param("grid8")
+        public String topology;
+
+        @Param("1000")
+        public int nodes;
+
+        @Param("a")
+        public String program;
+
+        EngineRounds engine;
+        HandwrittenRounds handwritten;
+
+        /** Ticks of any network here until values are at rest. */
+        private int ticksToSettle() {
+            return 50 + 3 * (int) Math.sqrt(nodes);
+        }
+
+        void makeEngine() {
+            engine = new EngineRounds(program, Topology.Companion.named(topology, nodes));
+            for (int tick = 0; tick < ticksToSettle(); tick++) engine.tick();
+        }
+
+        void makeHandwritten() {
+            handwritten = new HandwrittenRounds(program, Topology.Companion.named(topology, nodes));
+            for (int tick = 0; tick < ticksToSettle(); tick++) handwritten.tick();
+        }
+    }
+
+    /** On the engine. */
+    @State(Scope.Benchmark)
+    public static class OnEngine {
+        @Setup(Level.Trial)
+        public void setUp(Network network) {
+            network.makeEngine();
+        }
+
+        @TearDown(Level.Trial)
+        public void tearDown(Network network) {
+            network.engine.close();
+        }
+    }
+
+    /** By hand. */
+    @State(Scope.Benchmark)
+    public static class ByHand {
+        @Setup(Level.Trial)
+        public void setUp(Network network) {
+            network.makeHandwritten();
+        }
+    }
+
+    @Benchmark
+    public Object engine(Network network, OnEngine engine) {
+        return network.engine.tick();
+    }
+
+    @Benchmark
+    public Object handwritten(Network network, ByHand hand) {
+        network.handwritten.tick();
+        return network.handwritten;
+    }
+}

@@ -1,0 +1,71 @@
+package org.collektive.bench.rounds
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.impl.ProgramPlace
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.engine.Engine
+import org.collektive.engine.EngineSettings
+import org.collektive.engine.NewNode
+import org.collektive.engine.NodeProgram
+import org.collektive.engine.RoundData
+import org.collektive.engine.Tick
+import org.collektive.engine.TickResult
+import org.collektive.runtime.AggregateRuntimes
+
+/** The engine with one program on every device of [topology]; one thread. */
+public class EngineRounds(program: String, private val topology: Topology) : AutoCloseable {
+    private val engine = Engine(EngineSettings(seed = 0), AggregateRuntimes())
+    private val tick = Tick()
+    private val program = Program(program)
+    private val data = Data(senses(topology))
+
+    init {
+        for (id in 0 until topology.size) {
+            tick.nodesAdded += NewNode(id, this.program, Parameters(emptyMap()))
+            for (neighbor in topology.neighbors[id]) tick.links.add(neighbor, id, topology.distance(id, neighbor).toFloat(), 0f)
+            tick.due.add(id)
+        }
+        tick()
+        tick.nodesAdded.clear()
+        tick.links.clear()
+    }
+
+    /** One round of every device. */
+    public fun tick(): TickResult {
+        tick.number++
+        tick.time += 1.0
+        tick.deltaTime = 1.0
+        val result = engine.step(tick, data, System.nanoTime() + LIMIT)
+        check(result.failureCount == 0) { "a round failed: ${(0 until result.size).firstNotNullOf(result::failure)}" }
+        return result
+    }
+
+    override fun close() {
+        engine.close()
+    }
+
+    private class Data(private val senses: List<Senses>) : RoundData {
+        override fun sensors(worker: Int, index: Int): Any = senses[index]
+
+        override fun fault(worker: Int, answer: Any): String? = null
+    }
+
+    private class Program(override val name: String) : NodeProgram {
+        private val code: Aggregate<Int>.(Senses) -> Any = when (name) {
+            "a" -> { senses -> gradientAscent(senses) }
+            "b" -> { senses -> distanceFromSource(senses) }
+            "b2" -> { senses -> bellmanFordFromSource(senses) }
+            "c" -> { senses -> followers(senses) }
+            else -> throw IllegalArgumentException("no program '$name', only a, b, b2 and c")
+        }
+
+        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any = aggregate.code(sensors as Senses)
+
+        override fun describe(failure: Throwable, place: ProgramPlace?): String = failure.stackTraceToString()
+    }
+
+    private companion object {
+        const val LIMIT = 60_000_000_000
+    }
+}

@@ -1,0 +1,55 @@
+package org.collektive.bench.rounds
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.stdlib.accumulation.convergeCast
+import it.unibo.collektive.stdlib.consensus.boundedElection
+import it.unibo.collektive.stdlib.spreading.bellmanFordGradientCast
+import it.unibo.collektive.stdlib.spreading.distanceTo
+import it.unibo.collektive.stdlib.spreading.gradientCast
+import it.unibo.collektive.stdlib.util.euclideanDistance2D
+import kotlin.math.sqrt
+
+/** Program a, the case study: towards the neighbours that sense more of the source, away from obstacles. */
+internal fun Aggregate<Int>.gradientAscent(senses: Senses): Heading {
+    val here = senses.position
+    var x = 0.0
+    var y = 0.0
+    for ((_, there) in neighboring(senses).neighbors.list) {
+        val more = there.intensity - senses.intensity
+        if (more <= 0.0) continue
+        val dx = there.position.x - here.x
+        val dy = there.position.y - here.y
+        val pull = more / sqrt(dx * dx + dy * dy)
+        x += pull * dx
+        y += pull * dy
+    }
+    for (obstacle in senses.obstacles) {
+        val distance = sqrt(obstacle.x * obstacle.x + obstacle.y * obstacle.y)
+        val push = 1 / (distance * distance * distance)
+        x -= push * obstacle.x
+        y -= push * obstacle.y
+    }
+    return Heading(x, y)
+}
+
+/** Program b: the distance from the source, by the self-stabilising gradient cast. */
+internal fun Aggregate<Int>.distanceFromSource(senses: Senses): Double =
+    distanceTo(senses.isSource, euclideanDistance2D(senses.position))
+
+/** Program b2: the same by Bellman and Ford's algorithm. */
+internal fun Aggregate<Int>.bellmanFordFromSource(senses: Senses): Double = bellmanFordGradientCast(
+    source = senses.isSource,
+    local = if (senses.isSource) 0.0 else Double.POSITIVE_INFINITY,
+    accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
+    metric = euclideanDistance2D(senses.position),
+)
+
+/** Program c: leaders within 5 metres, how far they are, how many follow each, and word of that to all. */
+internal fun Aggregate<Int>.followers(senses: Senses): Region {
+    val metric = euclideanDistance2D(senses.position)
+    val isLeader = boundedElection(bound = 5.0, metric = metric) == localId
+    val potential = distanceTo(isLeader, metric)
+    val count = convergeCast(1, potential) { a, b -> a + b }
+    return Region(isLeader, gradientCast(isLeader, count, metric))
+}
