@@ -65,6 +65,132 @@ class ChecksTest {
     )
 
     @Test
+    fun `a branch whose field becomes the value of a lambda is an error too`() = assertReports(
+        """
+        fun Aggregate<Int>.ended(): Any = run { println(); if (localId == 0) neighboring(localId) else neighboring(-localId) } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+        fun Aggregate<Int>.delegated(): Int {
+            val late by lazy {
+                when (localId) {
+                    0 -> neighboring(localId) // FIELD_FROM_BRANCH
+                    else -> neighborhood().mapValues { 1 } // FIELD_FROM_BRANCH
+                }
+            }
+            return late.local.value
+        }
+        fun Aggregate<Int>.kinds(maybe: Field<Int, Int>?): Any {
+            val byElvis = run { maybe ?: neighboring(localId) } // FIELD_FROM_BRANCH
+            val byTry = run { try { if (localId == 0) neighboring(localId) else null } catch (e: IllegalStateException) { when { localId > 1 -> neighboring(-localId); else -> 1 } } finally { } } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            val inBlocks = run { if (localId == 0) { if (localId > 1) { neighboring(localId) } else { 1 } } else { null ?: run { neighboring(localId) } } } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            val function = fun(): Any { return if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+            val lambda = { if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+            val typed: (Int) -> Any? = { if (it == 0) neighboring(localId) else null } // FIELD_FROM_BRANCH
+            val named = run(block = { if (localId == 0) neighboring(localId) else 1 }) // FIELD_FROM_BRANCH
+            val labelled = run here@{ return@here if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+            val safe = maybe?.let { if (localId == 0) it else null } // FIELD_FROM_BRANCH
+            val each = listOf(1).map { alignedOn(it) { if (it == localId) neighboring(localId) else 1 } } // FIELD_FROM_BRANCH
+            val deep = with("a") { let { run { if (localId == 0) neighboring(localId) else 1 } } } // FIELD_FROM_BRANCH
+            run { if (localId == 0) neighboring(localId) else neighboring(-localId) }.local // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            exchange(0) { sent -> if (localId == 0) sent.mapValues { it + 1 } else sent } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            keep { if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+            return listOf(byElvis, byTry, inBlocks, function, lambda, typed, named, labelled, safe, each, deep)
+        }
+        fun keep(make: () -> Any) { println(make()) }
+        val program: Aggregate<Int>.() -> Any = { if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
+        """,
+    )
+
+    @Test
+    fun `branches that are statements of a lambda, or whose lambda's value is dropped, are fine`() = assertReports(
+        """
+        fun Aggregate<Int>.statements(maybe: Field<Int, Int>?): Any {
+            val unit: () -> Unit = { if (localId == 0) neighboring(localId) else neighboring(-localId) }
+            run<Unit> { when { localId == 0 -> neighboring(localId); else -> neighboring(-localId) } }
+            run<Unit> { maybe ?: neighboring(localId) }
+            run<Unit> { try { if (localId == 0) neighboring(localId) else neighboring(-localId) } finally { } }
+            apply { if (localId == 0) neighboring(localId) else neighboring(-localId) }
+            also { maybe ?: neighboring(localId) }
+            listOf(1).forEach { if (it == localId) alignedOn(it) { neighboring(localId) } else alignedOn(-it) { neighboring(localId) } }
+            val noElse = run<Any> { if (localId == 0) neighboring(localId) }
+            val first = run { if (localId == 0) neighboring(localId) else neighboring(-localId); 1 }
+            val inLoop = run { do { if (localId == 0) println() else null } while (localId < 0) }
+            val atLast = run { try { 1 } finally { if (localId == 0) neighboring(localId) else neighboring(-localId) } }
+            val values = run { if (localId == 0) neighboring(localId).local.value else 1 }
+            val straight = run { neighboring(localId) }
+            run { if (localId == 0) neighboring(localId) else neighboring(-localId) }
+            maybe?.let { with(it) { if (localId == 0) neighboring(localId) else it } }
+            if (localId == 0) run { maybe ?: neighboring(localId) } else println()
+            alignedOn(1) { when (localId) { 0 -> neighboring(localId); else -> neighboring(-localId) } }
+            run here@{ if (localId == 0) return@here neighboring(localId); neighboring(-localId) }
+            if (localId == 0) { if (localId > 1) { neighboring(localId) } else { neighboring(-localId) } } else { maybe ?: neighboring(localId) }
+            return listOf(unit, noElse, first, inLoop, atLast, values, straight)
+        }
+        fun Aggregate<Int>.unitBody(): Unit = run { if (localId == 0) neighboring(localId) else neighboring(-localId) }
+        class Early(device: Aggregate<Int>) { init { device.run { if (localId == 0) neighboring(localId) else neighboring(-localId) } } }
+        fun notAggregate(make: () -> Field<Int, Int>, flag: Boolean): Any = run { if (flag) make() else 1 }
+        @CollektiveIgnore("test") fun Aggregate<Int>.ignored(): Any = run { if (localId == 0) neighboring(localId) else 1 }
+        """,
+    )
+
+    @Test
+    fun `a field that an arm assigns to a variable from outside is an error too`() = assertReports(
+        """
+        fun Aggregate<Int>.assigning(given: Field<Int, Int>): Any? {
+            var f = neighboring(localId)
+            if (localId == 0) { println(); f = neighboring(localId + 1) } // FIELD_FROM_BRANCH
+            if (localId == 1) f = given else println() // FIELD_FROM_BRANCH
+            when (localId) { 2 -> f = f.mapValues { it + 1 } } // FIELD_FROM_BRANCH
+            val late: Field<Int, Int>
+            if (localId == 3) {
+                late = neighboring(localId) // FIELD_FROM_BRANCH
+            } else {
+                late = neighboring(-localId) // FIELD_FROM_BRANCH
+            }
+            var any: Any? = null
+            any ?: run { any = neighboring(localId) } // FIELD_FROM_BRANCH
+            val all = localId == 4 && given.also { any = it }.local.value > 0 // FIELD_FROM_BRANCH
+            if (localId == 5) { fun later() { any = neighboring(localId) }; later() } // FIELD_FROM_BRANCH
+            if (localId == 6) { var inner = given; if (localId > 7) { inner = neighboring(localId) }; println(inner.local) } // FIELD_FROM_BRANCH
+            run { var inner = given; for (i in 1..2) if (i == localId) { inner = given.mapValues { i } }; inner.local } // FIELD_FROM_BRANCH
+            if (localId == 8) try { any = neighboring(localId) } finally { } // FIELD_FROM_BRANCH
+            if (localId == 9) f = if (localId > 10) neighboring(localId) else given // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            if (localId == 11) f += given // FIELD_FROM_BRANCH
+            return listOf(f, late, any, all)
+        }
+        operator fun Field<Int, Int>.plus(other: Field<Int, Int>): Field<Int, Int> = alignedMapValues(other) { a, b -> a + b }
+        """,
+    )
+
+    @Test
+    fun `fields assigned inside their arm, or in no arm, and values assigned anywhere are fine`() = assertReports(
+        """
+        fun Aggregate<Int>.assigning(given: Field<Int, Int>): Any? {
+            var f = neighboring(localId)
+            f = f.mapValues { it + 1 }
+            run { f = neighboring(localId) }
+            try { f = given } finally { }
+            if (run { f = given; localId == 0 }) println()
+            var n: Any? = 0
+            var none: Field<Int, Int>? = f
+            if (localId == 0) { n = neighboring(localId).local.value; none = null }
+            if (localId == 1) {
+                var inner = given
+                inner = inner.mapValues { it + 1 }
+                run { inner = neighboring(localId) }
+                var (a, b) = given to given
+                a = b
+                val step: (Field<Int, Int>) -> Int = { var own = it; own = given; own.local.value }
+                n = inner.local.value + a.local.value + step(b)
+            }
+            val set = { f = given }
+            if (localId == 2) set()
+            return listOf(f, n, none)
+        }
+        fun notAggregate(make: () -> Field<Int, Int>, flag: Boolean): Any { var f = make(); if (flag) { f = make() }; return f }
+        @CollektiveIgnore("test") fun Aggregate<Int>.ignored(): Any { var f = neighboring(localId); if (localId == 0) { f = neighboring(1) }; return f }
+        """,
+    )
+
+    @Test
     fun `loops are found in all kinds of functions and expressions`() = assertReports(
         """
         import kotlin.reflect.KProperty

@@ -9,13 +9,11 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.declarations.FirAnonymousFunction
 import org.jetbrains.kotlin.fir.declarations.FirClass
 import org.jetbrains.kotlin.fir.declarations.FirFunction
-import org.jetbrains.kotlin.fir.expressions.FirAnonymousFunctionExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirLoop
 import org.jetbrains.kotlin.fir.expressions.FirPropertyAccessExpression
 import org.jetbrains.kotlin.fir.expressions.FirQualifiedAccessExpression
 import org.jetbrains.kotlin.fir.expressions.arguments
-import org.jetbrains.kotlin.fir.expressions.unwrapArgument
 import org.jetbrains.kotlin.fir.references.toResolvedCallableSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 import org.jetbrains.kotlin.fir.types.resolvedType
@@ -41,7 +39,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
                 is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
                 is FirFunction, is FirClass -> return false
                 is FirFunctionCall -> {
-                    if (lambda == null || !element.takes(lambda)) continue
+                    if (lambda == null || element.parameterOf(lambda) == null) continue
                     when {
                         isAlignedOn(element) -> return false
                         isPerElement(element) -> return true
@@ -61,9 +59,6 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
             lambda.valueParameters.map { it.returnTypeRef }
         types.any { it.coneType.isAggregate() }
     }
-
-    private fun FirFunctionCall.takes(lambda: FirAnonymousFunction) =
-        arguments.any { (it.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction === lambda }
 
     private fun isAlignedOn(call: FirFunctionCall) = call.callee?.isDsl(DslNames.alignedOn) == true
 

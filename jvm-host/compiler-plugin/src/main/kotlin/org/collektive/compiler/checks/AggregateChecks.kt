@@ -17,6 +17,7 @@ internal class AggregateChecks : FirExtensionRegistrar() {
             override val whenExpressionCheckers = setOf(FieldFromBranch)
             override val elvisExpressionCheckers = setOf(FieldFromElvis)
             override val returnExpressionCheckers = setOf(FieldReturnedFromBranch)
+            override val variableAssignmentCheckers = setOf(FieldAssignedInBranch)
             override val qualifiedAccessExpressionCheckers = setOf(AggregateCallInLoop)
             override val functionCallCheckers =
                 setOf(ManualAlignment, EvolveThatShares, IgnoredParameter, NeedlessYielding, ConstantNeighboring)

@@ -26,7 +26,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
         override val MAP by KtDiagnosticFactoryToRendererMap("Collektive") { map ->
             map.put(
                 FIELD_FROM_BRANCH,
-                "This branch returns a Field, which holds only the neighbours that chose the same branch. " +
+                "This Field leaves its branch, but holds only the neighbours that chose the same branch. " +
                     "Choose between values: collapse the field inside the branch, or make it before.",
             )
             map.put(

@@ -6,23 +6,28 @@ import org.jetbrains.kotlin.fir.FirElement
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
 import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
-import org.jetbrains.kotlin.fir.declarations.FirFunction
+import org.jetbrains.kotlin.fir.declarations.FirProperty
 import org.jetbrains.kotlin.fir.expressions.FirBlock
 import org.jetbrains.kotlin.fir.expressions.FirBooleanOperatorExpression
 import org.jetbrains.kotlin.fir.expressions.FirElvisExpression
 import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirReturnExpression
 import org.jetbrains.kotlin.fir.expressions.FirStatement
+import org.jetbrains.kotlin.fir.expressions.FirTryExpression
+import org.jetbrains.kotlin.fir.expressions.FirVariableAssignment
 import org.jetbrains.kotlin.fir.expressions.FirWhenBranch
 import org.jetbrains.kotlin.fir.expressions.FirWhenExpression
+import org.jetbrains.kotlin.fir.expressions.unwrapLValue
+import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
+import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
 /** Fields must not leave `if` and `when`: outside, devices that chose other arms are aligned too. */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
-        if (!expression.usedAsExpression) return
-        for (branch in expression.branches) reportField(branch.result.statements.lastOrNull())
+        if (!isValueTaken(expression)) return
+        for (branch in expression.branches) reportField(branch.result)
     }
 }
 
@@ -30,14 +35,7 @@ internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppChe
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
-        if (!isStatement(expression)) reportField(expression.rhs)
-    }
-
-    /** Whether nobody takes the result. */
-    context(context: CheckerContext)
-    private fun isStatement(expression: FirElvisExpression): Boolean {
-        val (owner, block) = context.containingElements.takeWhile { it !== expression }.takeLast(2).takeIf { it.size == 2 } ?: return false
-        return block is FirBlock && (owner is FirFunction || block.statements.last() !== expression)
+        if (isValueTaken(expression)) reportField(expression.rhs)
     }
 }
 
@@ -45,36 +43,54 @@ internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppChe
 internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirReturnExpression) {
-        if (isInArm(expression)) reportField(expression.result)
+        val isOutside = { element: FirElement -> element === expression.target.labeledElement }
+        if (isInArm(expression, isOutside) && isValueTaken(expression.result)) reportField(expression.result)
     }
+}
 
-    /** Whether there is an arm between [expression] and the function that it ends. */
-    context(context: CheckerContext)
-    private fun isInArm(expression: FirReturnExpression): Boolean {
-        var inner: FirElement = expression
-        for (element in context.containingElements.asReversed()) {
-            if (element === expression.target.labeledElement) return false
-            val isArm = when (element) {
-                is FirWhenBranch -> element.result === inner
-                is FirElvisExpression -> element.rhs === inner
-                is FirBooleanOperatorExpression -> element.rightOperand === inner
-                else -> false
-            }
-            if (isArm) return true
-            inner = element
-        }
-        return false
+/** The same for an assignment inside an arm to a local variable from outside. */
+internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignment>(MppCheckerKind.Common) {
+    context(context: CheckerContext, reporter: DiagnosticReporter)
+    override fun check(expression: FirVariableAssignment) {
+        if (!expression.rValue.isField()) return
+        val variable = expression.unwrapLValue()?.calleeReference?.toResolvedVariableSymbol() as? FirLocalPropertySymbol ?: return
+        val isOutside = { element: FirElement -> element.contains { it is FirProperty && it.symbol == variable } }
+        if (isInArm(expression, isOutside)) reportField(expression.rValue)
     }
+}
+
+/** Whether there is an arm around [statement], inside the first element that [isOutside]. */
+context(context: CheckerContext)
+private fun isInArm(statement: FirStatement, isOutside: (FirElement) -> Boolean): Boolean {
+    var inner: FirElement = statement
+    for (element in context.containingElements.asReversed()) {
+        if (isOutside(element)) return false
+        val isArm = when (element) {
+            is FirWhenBranch -> element.result === inner
+            is FirElvisExpression -> element.rhs === inner
+            is FirBooleanOperatorExpression -> element.rightOperand === inner
+            else -> false
+        }
+        if (isArm) return true
+        inner = element
+    }
+    return false
 }
 
 context(context: CheckerContext, reporter: DiagnosticReporter)
 private fun reportField(result: FirStatement?) {
-    when {
+    when (result) {
         // Their own arms are checked.
-        result is FirWhenExpression || result is FirElvisExpression -> Unit
-        result is FirBlock -> reportField(result.statements.lastOrNull())
-        result !is FirExpression || !isAggregateCode() -> Unit
-        with(context.session) { result.resolvedType.isField() } ->
-            reporter.reportOn(result.source, AggregateDiagnostics.FIELD_FROM_BRANCH)
+        is FirWhenExpression, is FirElvisExpression -> Unit
+        is FirBlock -> reportField(result.statements.lastOrNull())
+        is FirTryExpression -> {
+            reportField(result.tryBlock)
+            for (catch in result.catches) reportField(catch.block)
+        }
+        is FirExpression ->
+            if (isAggregateCode() && result.isField()) reporter.reportOn(result.source, AggregateDiagnostics.FIELD_FROM_BRANCH)
     }
 }
+
+context(context: CheckerContext)
+private fun FirExpression.isField(): Boolean = with(context.session) { resolvedType.isField() }

@@ -3,12 +3,14 @@ package org.collektive.compiler.checks
 import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.fir.FirElement
 import org.jetbrains.kotlin.fir.declarations.FirAnonymousFunction
+import org.jetbrains.kotlin.fir.declarations.FirValueParameter
 import org.jetbrains.kotlin.fir.expressions.FirAnonymousFunctionExpression
 import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirPropertyAccessExpression
 import org.jetbrains.kotlin.fir.expressions.FirReturnExpression
 import org.jetbrains.kotlin.fir.expressions.arguments
+import org.jetbrains.kotlin.fir.expressions.resolvedArgumentMapping
 import org.jetbrains.kotlin.fir.expressions.unwrapArgument
 import org.jetbrains.kotlin.fir.expressions.unwrapSmartcastExpression
 import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
@@ -18,6 +20,10 @@ import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
 /** The lambda that a primitive of the DSL runs, when it is written at the call. */
 internal val FirFunctionCall.lambda: FirAnonymousFunction?
     get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
+
+/** The parameter that gets [lambda], if this call is given it. */
+internal fun FirFunctionCall.parameterOf(lambda: FirAnonymousFunction): FirValueParameter? = resolvedArgumentMapping?.entries
+    ?.firstOrNull { (argument) -> (argument.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction === lambda }?.value
 
 /** The variable or parameter that an expression only reads. */
 internal val FirExpression.readVariable: FirVariableSymbol<*>?
