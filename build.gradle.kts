@@ -145,6 +145,7 @@ project(":host") {
     dependencies {
         "api"(project(":engine"))
         "api"(project(":stdlib"))
+        "implementation"("org.slf4j:slf4j-jdk14:${parent.getValue("slf4j.version")}")
         "testImplementation"(project(":generator"))
         "testImplementation"("org.jetbrains.kotlin:abi-tools:$kotlinVersion")
         "testImplementation"("org.jetbrains.kotlin:kotlin-metadata-jvm:$kotlinVersion")

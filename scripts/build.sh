@@ -6,6 +6,7 @@ SAMPLES_JAR="$ROOT/jvm-host/programs/target/collektive-programs.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
 COMPILER_PLUGIN="$ROOT/jvm-host/compiler-plugin/target/compiler-plugin-0.1.0.jar"
 NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
+MONO_POSIX=/usr/lib/mono/4.5/Mono.Posix.dll
 NEWTONSOFT=/usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll
 # What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
 GENERATED_CODE_SYMBOLS="$(cat "$ROOT/unity/Runtime/Bridge/csc.rsp") -unsafe+"
@@ -55,7 +56,7 @@ build_csharp() {
   assembly UnityEngine.dll "" "$unity/Headless~/UnityEngine" -- -unsafe+
   assembly Collektive.Unity.dll "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll" "$unity/Runtime/Unity"
   assembly Collektive.Player.exe \
-    "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $NEWTONSOFT" \
+    "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $NEWTONSOFT $MONO_POSIX" \
     "$unity/Headless~/Player" "$unity/Headless~/Replay" -- -target:exe
 }
 

@@ -5,7 +5,7 @@ SYSTEM_TOOLS="git:git cc:gcc c++:g++ cmake:cmake make:make javac:openjdk-17-jdk-
   python3:python3 mcs:mono-mcs mono-sgen:mono-devel mono-boehm:mono-runtime-boehm chromium:chromium"
 # Libraries without a command, as "file:debian package".
 SYSTEM_FILES="/usr/lib/x86_64-linux-gnu/libode.so:libode-dev /usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll:libnunit-cil-dev
-  /usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll:libnewtonsoft-json5.0-cil"
+  /usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll:libnewtonsoft-json5.0-cil /usr/lib/mono/4.5/Mono.Posix.dll:libmono-posix4.0-cil"
 
 missing_packages() {
   local entry

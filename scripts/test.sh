@@ -4,9 +4,12 @@ PROBE="$ROOT/unity/Headless~/Tests/Simulation/Probe"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]...
+usage: ./collektive test [SUITE]... | --faults [WORDS] | --exits | --sanitize
 
-Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance, bench.
+Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance, bench, faults, exits.
+  --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
+  --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
+  --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. A changed public API of the JVM
 side fails the suite jvm, which then shows the difference from jvm-host/*/api/*.api and the command that accepts it.
 H
@@ -43,16 +46,26 @@ test_jdks() {
 }
 
 test_shim() {
+  cmake_configure && cmake --build "$BUILD/cmake" -j 2 && shim_cases "$BUILD/cmake"
+}
+
+test_sanitized_shim() {
+  cmake -S "$ROOT/native-shim" -B "$BUILD/sanitized" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCOLLEKTIVE_SANITIZE=ON \
+    -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)" && cmake --build "$BUILD/sanitized" -j 2 && shim_cases "$BUILD/sanitized"
+}
+
+# shim_cases BUILD: the shim's tests of a CMake build, on every JVM.
+shim_cases() {
   local jdk passed=0 failed=0 log
-  cmake_configure && cmake --build "$BUILD/cmake" -j 2 || return 1
   for jdk in $(test_jdks); do
     echo "== $jdk"
-    log=$(CLK_TEST_JAVA_HOME="$jdk" ctest --test-dir "$BUILD/cmake" --output-on-failure -j 2) || true
+    log=$(CLK_TEST_JAVA_HOME="$jdk" ctest --test-dir "$1" --output-on-failure -j 2) || true
     printf '%s\n' "$log"
     failed=$((failed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of [0-9]*.*/\1/p' | tail -n 1)))
     passed=$((passed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of \([0-9]*\).*/\2 - \1/p' | tail -n 1)))
   done
   echo "$passed passed, $failed failed"
+  [ "$failed" = 0 ]
 }
 
 test_jvm() {
@@ -136,7 +149,10 @@ test_acceptance() {
 wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
 
 cmd_test() {
-  local known="shim jvm csharp assets roundtrip page acceptance bench" name jdk
+  local known="shim jvm csharp assets roundtrip page acceptance bench faults exits" name jdk
+  case ${1:-} in
+    --faults | --exits | --sanitize) test_at_length "$@"; return ;;
+  esac
   SUITES=("$@")
   for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
   setup_system
@@ -154,6 +170,14 @@ cmd_test() {
     for jdk in $(test_jdks); do suite "csharp-on-$(basename "$jdk")" csharp_tests mono-sgen "$jdk"; done
   fi
   if wanted assets; then suite assets test_assets; fi
+  if wanted faults; then
+    build_faults "$BUILD/faults-short.json" mono-sgen "$(find_jdk)"
+    suite faults faults "$BUILD/faults-short.json"
+  fi
+  if wanted exits; then
+    build_faults "$BUILD/faults.json" "mono-sgen mono-boehm" "$(test_jdks | xargs)"
+    suite exits exits "$BUILD/faults.json" 10
+  fi
   if wanted roundtrip; then suite roundtrip bash "$ROOT/schema/test/roundtrip.sh"; fi
   if wanted page || wanted acceptance; then build_replay_page; fi
   if wanted acceptance; then suite acceptance test_acceptance; fi
@@ -161,6 +185,17 @@ cmd_test() {
   if wanted page; then suite page test_page; fi
   echo "$TOTAL_PASSED passed, $TOTAL_FAILED failed"
   [ "$TOTAL_FAILED" = 0 ]
+}
+
+# What takes long, with its whole output.
+test_at_length() {
+  setup_system
+  build_native
+  if [ "$1" = --sanitize ]; then test_sanitized_shim; return; fi
+  build_jvm
+  build_csharp
+  build_faults "$BUILD/faults.json" "mono-sgen mono-boehm" "$(test_jdks | xargs)"
+  if [ "$1" = --faults ]; then faults "$BUILD/faults.json" "${@:2}"; else exits "$BUILD/faults.json" 200; fi
 }
 
 test_page() {

@@ -120,8 +120,9 @@ CLK_API int32_t clk_jvm_state(void);
  * one CLK_JVM_NOT_RUNNING. */
 CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
 
-/* Closes all sessions and destroys the JVM on the engine thread. For the end of the process only: no JVM can follow.
- * CLK_TIMEOUT leaves the JVM as it is; the process may exit all the same. CLK_OK when none was ever started. */
+/* Closes all sessions, saves flight recordings and destroys the JVM on the engine thread. For the end of the process only: no JVM
+ * can follow. Programs' threads that do not end are halted where they are. With CLK_TIMEOUT not all of that was done in time; the
+ * JVM's threads are then halted if possible (the state tells), so that the process may exit. CLK_OK when none was ever started. */
 CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 
 /* ---- Slots ----------------------------------------------------------------------------------------------------------- */

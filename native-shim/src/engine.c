@@ -69,6 +69,13 @@ int32_t engine_check_running(void) {
     }
 }
 
+/* The one who waits for the engine, and those who wait for their turn, one after the other. */
+static void wake_all(void) {
+    prim_run_once(&engine.once, init);
+    prim_semaphore_post(&engine.done);
+    prim_semaphore_post(&engine.turn);
+}
+
 void engine_lose(const char *format, ...) {
     if (atomic_flag_test_and_set(&engine.losing)) return;
     va_list arguments;
@@ -77,10 +84,12 @@ void engine_lose(const char *format, ...) {
     va_end(arguments);
     engine_set_state(CLK_STATE_LOST);
     log_format(CLK_LOG_ERROR, "the JVM is lost: %s", engine.reason);
-    prim_run_once(&engine.once, init);
-    /* For the one who waits for the engine, and for those who wait for their turn, one after the other. */
-    prim_semaphore_post(&engine.done);
-    prim_semaphore_post(&engine.turn);
+    wake_all();
+}
+
+void engine_end(void) {
+    engine_set_state(CLK_STATE_STOPPED);
+    wake_all();
 }
 
 /* ---- Turns ----------------------------------------------------------------------------------------------------------- */
@@ -99,6 +108,8 @@ void engine_leave(void) {
 /* ---- Work ------------------------------------------------------------------------------------------------------------ */
 
 bool engine_is_current(void) { return is_engine; }
+
+bool engine_is_busy(void) { return atomic_load(&engine.phase) != IDLE; }
 
 static void engine_main(void) {
     is_engine = true;
@@ -129,6 +140,6 @@ int32_t engine_run(engine_work *work, int64_t deadline) {
         }
         prim_semaphore_wait(&engine.done); /* it finished just now */
     }
-    if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken because the JVM is lost */
+    if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken because the JVM is gone */
     return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
 }

@@ -21,6 +21,9 @@ int32_t engine_check_running(void);
 /* Declares the JVM lost: the first reason counts. Wakes all who wait. Any thread, the JVM's own included. */
 __attribute__((format(printf, 1, 2))) void engine_lose(const char *format, ...);
 
+/* Declares that the JVM was stopped from a thread that does not come back. Wakes all who wait. */
+void engine_end(void);
+
 /* Takes the turn. CLK_TIMEOUT when the deadline passed first. */
 int32_t engine_enter(int64_t deadline);
 
@@ -32,6 +35,9 @@ void engine_leave(void);
  * it uses must stay as it is. Work itself returns neither of the two. */
 typedef int32_t engine_work(void);
 int32_t engine_run(engine_work *work, int64_t deadline);
+
+/* Whether the engine thread is at work, or was when it was lost. */
+bool engine_is_busy(void);
 
 /* Whether the calling thread is the engine thread. */
 bool engine_is_current(void);

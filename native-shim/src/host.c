@@ -251,7 +251,7 @@ int32_t host_bind(JNIEnv *env) {
                    {&java.calls[HOST_STEP], "step", CALL_TYPE},
                    {&java.calls[HOST_CONTROL], "control", CALL_TYPE},
                    {&java.close, "close", "(J)V"},
-                   {&java.stop, "stop", "(I)V"}};
+                   {&java.stop, "stop", "(I)Z"}};
     for (jint i = 0; i < COUNT(entries); i++) {
         *entries[i].id = (*env)->GetStaticMethodID(env, java.host, entries[i].name, entries[i].type);
         if (*entries[i].id == NULL) return does_not_fit(env, "org.collektive.host.Host lacks an entry");
@@ -264,7 +264,11 @@ int32_t host_bind(JNIEnv *env) {
 int32_t host_start(char *version, int32_t capacity) {
     JNIEnv *env = java.env;
     jstring string = (*env)->CallStaticObjectMethod(env, java.host, java.start);
-    if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_HOST, "Host.start");
+    if ((*env)->ExceptionCheck(env)) {
+        char text[2048];
+        take_exception(env, text, sizeof text);
+        return error_set(CLK_HOST, "Host.start threw %s; if that speaks of classes, files of the JVM or the host jar are damaged: reinstall them", text);
+    }
     if (string == NULL) return error_set(CLK_HOST, "Host.start gave no version");
     string_text(env, string, version, capacity);
     (*env)->DeleteLocalRef(env, string);
@@ -324,8 +328,20 @@ int32_t host_close(clk_session session) {
     return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.close") : CLK_OK;
 }
 
-int32_t host_stop(int32_t limit_ms) {
+int32_t host_stop(int32_t limit_ms, bool *idle) {
     JNIEnv *env = java.env;
-    (*env)->CallStaticVoidMethod(env, java.host, java.stop, (jint)limit_ms);
-    return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.stop") : CLK_OK;
+    jboolean ended = (*env)->CallStaticBooleanMethod(env, java.host, java.stop, (jint)limit_ms);
+    if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, "Host.stop");
+    *idle = ended == JNI_TRUE;
+    return CLK_OK;
+}
+
+bool host_run_exit_hooks(void) {
+    JNIEnv *env = java.env;
+    jclass shutdown = (*env)->FindClass(env, "java/lang/Shutdown");
+    jmethodID run = shutdown != NULL ? (*env)->GetStaticMethodID(env, shutdown, "shutdown", "()V") : NULL;
+    if (run != NULL) (*env)->CallStaticVoidMethod(env, shutdown, run);
+    (*env)->ExceptionClear(env);
+    (*env)->DeleteLocalRef(env, shutdown);
+    return run != NULL;
 }

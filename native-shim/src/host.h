@@ -6,6 +6,7 @@
 #define COLLEKTIVE_HOST_H
 
 #include <jni.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include "slots.h"
 
@@ -34,7 +35,12 @@ int32_t host_start(char *version, int32_t capacity);
 
 int32_t host_run(struct host_call *call);
 int32_t host_close(clk_session session);
-int32_t host_stop(int32_t limit_ms);
+
+/* Fills in `idle` unless it fails: whether no thread of a program is left that the end of the JVM would wait for. */
+int32_t host_stop(int32_t limit_ms, bool *idle);
+
+/* Runs what DestroyJavaVM would run at the end of the last thread. False when this JVM has no place for that. */
+bool host_run_exit_hooks(void);
 
 /* Makes System.exit and Runtime.halt throw. False when this JVM has no place for that. */
 bool host_refuse_exit(JNIEnv *environment);

@@ -15,8 +15,13 @@
 #include "session.h"
 #include "signals.h"
 
+#define OLDEST_JAVA 17
+#define FREEZE_LIMIT_MS 1000
+#define FREEZE_STACK_BYTES ((size_t)1024 * 1024)
+
 typedef jint(JNICALL create_function)(JavaVM **, void **, void *);
 typedef jint(JNICALL created_function)(JavaVM **, jsize, jsize *);
+typedef void(JNICALL halt_function)(jint);
 
 /* What a JVM is to be started with, in one piece of words. */
 struct launch {
@@ -36,6 +41,10 @@ static struct {
     int32_t stop_limit_ms;
     atomic_bool began;     /* JNI_CreateJavaVM was called */
     atomic_bool created;   /* and was successful */
+    atomic_bool stopping;  /* its end is wanted */
+    atomic_bool parked;    /* it ended itself: a thread of its own stays in a hook */
+    halt_function *halt;   /* NULL when this JVM has none */
+    prim_semaphore frozen; /* posted when it was halted */
     _Atomic(char *) description;
 } jvm;
 
@@ -126,6 +135,21 @@ static int32_t check_home_file(const char *home, const char *file) {
     }
 }
 
+/* The file `release` of a JDK or JRE names its version; one without the file is taken as it is. */
+static int32_t check_version(const char *home) {
+    char text[4096];
+    snprintf(text, sizeof text, "%s/release", home);
+    FILE *file = fopen(text, "r");
+    if (file == NULL) return CLK_OK;
+    int version = OLDEST_JAVA;
+    while (fgets(text, sizeof text, file) != NULL) {
+        if (sscanf(text, "JAVA_VERSION=\"%d", &version) == 1) break;
+    }
+    fclose(file);
+    if (version >= OLDEST_JAVA) return CLK_OK;
+    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is of Java %d; use a JRE or JDK of version %d or newer", home, version, OLDEST_JAVA);
+}
+
 /* A JVM without these files ends the process before any hook is known to it. */
 static int32_t check_home(const char *home) {
     switch (prim_file_kind(home)) {
@@ -135,7 +159,8 @@ static int32_t check_home(const char *home) {
         default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
     }
     int32_t result = check_home_file(home, PRIM_LIBJVM);
-    return result != CLK_OK ? result : check_home_file(home, "lib/modules");
+    if (result == CLK_OK) result = check_home_file(home, "lib/modules");
+    return result != CLK_OK ? result : check_version(home);
 }
 
 static int32_t check_class_path(const char *class_path) {
@@ -199,6 +224,7 @@ static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file,
  * and they would let every thread hang that only runs into a null reference of the host's own language. */
 static _Noreturn void lose(const char *what) {
     char words[1024] = "";
+    atomic_store(&jvm.parked, true);
     if (atomic_load(&jvm.created)) {
         signals_repair();
         give_text("its report is on the standard error of the process and in hs_err_pid*.log", words, sizeof words);
@@ -213,6 +239,11 @@ static _Noreturn void lose(const char *what) {
 
 static void JNICALL hook_exit(jint code) {
     char what[64];
+    if (atomic_load(&jvm.stopping)) {
+        engine_end();
+        prim_semaphore_post(&jvm.frozen);
+        prim_park();
+    }
     snprintf(what, sizeof what, "ended itself with exit code %d", code);
     lose(what);
 }
@@ -231,6 +262,7 @@ static int32_t load(create_function **create) {
     *(void **)create = prim_library_symbol(library, "JNI_CreateJavaVM");
     *(void **)&created = prim_library_symbol(library, "JNI_GetCreatedJavaVMs");
     if (*create == NULL || created == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s is no library of a JVM", path);
+    *(void **)&jvm.halt = prim_library_symbol(library, "JVM_Halt");
     /* Only asked before: after a second JNI_CreateJavaVM it would say 0. */
     JavaVM *other;
     jsize count = 0;
@@ -370,12 +402,32 @@ int32_t clk_jvm_description(char *buffer, int32_t capacity) {
 
 /* ---- Stop ------------------------------------------------------------------------------------------------------------ */
 
+/* DestroyJavaVM waits for threads of programs that are no daemons. When such do not end, the hooks that it would call are called
+ * (one saves flight recordings), and the JVM is frozen: at its exit all threads stand at a safepoint, and hook_exit keeps them there. The
+ * process can then end without Java threads that run into signal handlers that are gone. */
 static int32_t work_stop(void) {
-    if (host_stop(jvm.stop_limit_ms) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
+    bool idle = true;
+    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
     session_forget_all();
-    (*jvm.vm)->DestroyJavaVM(jvm.vm); /* waits for threads of programs that are no daemons */
+    if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
+    (*jvm.vm)->DestroyJavaVM(jvm.vm);
     engine_set_state(CLK_STATE_STOPPED);
     return CLK_OK;
+}
+
+static void freeze_main(void) {
+    JNIEnv *env;
+    JavaVMAttachArgs arguments = {.version = JNI_VERSION_10, .name = (char[]){"collektive-end"}};
+    if ((*jvm.vm)->AttachCurrentThreadAsDaemon(jvm.vm, (void **)&env, &arguments) == JNI_OK) jvm.halt(0);
+}
+
+/* Halts a JVM whose engine thread does not come back. */
+static bool freeze(void) {
+    if (jvm.halt == NULL || atomic_load(&jvm.parked)) return false;
+    prim_semaphore_init(&jvm.frozen, 0);
+    atomic_store(&jvm.stopping, true);
+    return prim_thread_start(freeze_main, "collektive-end", FREEZE_STACK_BYTES) &&
+           prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI);
 }
 
 int32_t clk_jvm_stop(int32_t limit_ms) {
@@ -385,8 +437,17 @@ int32_t clk_jvm_stop(int32_t limit_ms) {
     if (result != CLK_OK) return result;
     if (engine_state() == CLK_STATE_RUNNING) {
         jvm.stop_limit_ms = limit_ms;
+        prim_semaphore_init(&jvm.frozen, 0);
+        atomic_store(&jvm.stopping, true);
         result = engine_run(work_stop, deadline);
+        if (engine_state() == CLK_STATE_STOPPED) {
+            result = CLK_OK;
+        } else if (result == CLK_TIMEOUT) {
+            result = error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; %s", limit_ms,
+                               freeze() ? "its threads were halted, and flight recordings may be missing" : "it runs on");
+        }
     } else if (engine_state() == CLK_STATE_LOST) {
+        if (engine_is_busy()) freeze();
         result = engine_check_running();
     }
     engine_leave();

@@ -82,9 +82,11 @@ static void tidy(char *text) {
     for (char *at = text; (at = strchr(at, '\n')) != NULL;) *at = ' ';
 }
 
+#define OUTPUT_SHOWN 1000
+
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
     char java[4096];
-    char output[1024];
+    char output[16384]; /* some options make the JVM write a lot before what counts */
     int status = 0;
     static char version[] = "-version";
     static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* of a child that dies: its words are enough */
@@ -109,6 +111,8 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     free(arguments);
     /* The words of the version tell that the JVM came up, and was not ended in order by an option before that. */
     bool came_up = strstr(output, " version \"") != NULL;
+    size_t length = strlen(output);
+    if (length > OUTPUT_SHOWN) memmove(output, output + length - OUTPUT_SHOWN, OUTPUT_SHOWN + 1);
     tidy(output);
     switch (run) {
         case PRIM_NOT_STARTED:
@@ -121,5 +125,9 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     }
     if (status == 0 && came_up) return CLK_OK;
     if (status == 0) return error_set(CLK_JVM_OPTIONS, "correct the JVM options: one of them ends the JVM of %s before it is up", home);
+    if (status > 128) {
+        return error_set(CLK_JVM_OPTIONS, "the JVM of %s crashes with these options (signal %d): correct them, or reinstall it if its files are "
+                                          "damaged; it wrote: %s", home, status - 128, output[0] != '\0' ? output : "nothing");
+    }
     return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, output);
 }

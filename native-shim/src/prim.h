@@ -76,7 +76,7 @@ void *prim_library_symbol(void *library, const char *name);
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* Runs a program and collects what it writes (standard output and error, NUL-ended, the rest is dropped) into `output`.
+/* Runs a program and collects what it writes (standard output and error, NUL-ended, at least the last half of its size) into `output`.
  * Standard input is empty. PRIM_EXITED fills `status` with the exit code, or 128 + signal. A program that is not done by
  * the deadline is killed. */
 enum prim_run { PRIM_EXITED, PRIM_NOT_STARTED, PRIM_TIMED_OUT };

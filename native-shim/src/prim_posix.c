@@ -165,24 +165,24 @@ static int poll_limit(int64_t deadline) {
     return left < 0 ? 0 : left > INT32_MAX ? INT32_MAX : (int)left;
 }
 
-/* Reads until the writers close the pipe. False when the deadline passed first. */
+/* Reads until the writers close the pipe, and keeps the end. False when the deadline passed first. */
 static bool read_all(int descriptor, int64_t deadline, char *output, size_t output_size) {
     size_t used = 0;
-    char rest[512];
     output[0] = '\0';
     for (;;) {
         struct pollfd wait = {.fd = descriptor, .events = POLLIN};
         int ready = poll(&wait, 1, poll_limit(deadline));
         if (ready < 0 && errno == EINTR) continue;
         if (ready <= 0) return false;
-        bool full = used + 1 >= output_size;
-        ssize_t count = full ? read(descriptor, rest, sizeof rest) : read(descriptor, output + used, output_size - 1 - used);
+        if (used + 1 == output_size) {
+            used = output_size / 2;
+            memmove(output, output + output_size - 1 - used, used);
+        }
+        ssize_t count = read(descriptor, output + used, output_size - 1 - used);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) return true;
-        if (!full) {
-            used += (size_t)count;
-            output[used] = '\0';
-        }
+        used += (size_t)count;
+        output[used] = '\0';
     }
 }
 

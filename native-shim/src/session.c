@@ -130,6 +130,14 @@ static void unpin_all(struct host_call *call) {
     }
 }
 
+/* Four system calls that only ask: less than a microsecond. Java code that runs without these handlers ends the process. */
+static void repair_signals(void) {
+    int32_t repaired = signals_repair();
+    if (repaired == 0) return;
+    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
+    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
+}
+
 /* Under the turn. */
 static int32_t call_host(enum host_entry entry, const struct session *session, clk_slot slot, int32_t offset, int32_t length,
                          int64_t deadline, clk_answer *answer) {
@@ -147,6 +155,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
         slots_unpin(request);
         return CLK_HANDLE;
     }
+    repair_signals();
     int64_t left_ms = (deadline - prim_now()) / PRIM_MILLI;
     *call = (struct host_call){.entry = entry,
                                .session = session_handle(session),
@@ -171,13 +180,6 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
 
 /* ---- The header's functions ------------------------------------------------------------------------------------------ */
 
-static void repair_signals(void) {
-    int32_t repaired = signals_repair();
-    if (repaired == 0) return;
-    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
-    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
-}
-
 int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
                          clk_answer *answer) {
     if (session == NULL) return error_set(CLK_ARGUMENT, "session is NULL");
@@ -185,7 +187,6 @@ int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t 
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = enter(deadline);
     if (result != CLK_OK) return result;
-    repair_signals();
     struct session *taken = NULL;
     result = session_take(&taken);
     if (result == CLK_OK) {

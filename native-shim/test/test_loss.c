@@ -118,6 +118,9 @@ void signal_handlers_are_repaired(void) {
     CHECK(stats().signal_repairs == 1 && log_mentions("put back"));
     CHECK_OK(open_session(&other));
     CHECK(stats().signal_repairs == 1);
+    catch_faults();
+    CHECK_OK(step(session, IMPLICIT_NULL, 1000000, 60000));
+    CHECK(stats().signal_repairs == 2);
 }
 
 void fork_loses_the_jvm(void) {
@@ -155,13 +158,31 @@ void stop_without_start(void) {
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
 }
 
-void stop_times_out(void) {
+void stop_halts_threads_that_stay(void) {
     start_with_session();
     CHECK_OK(step(session, STAY, 0, 60000));
+    CHECK_OK(step(session, WRITE_AT_EXIT, 0, 60000));
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK(clk_jvm_state() == CLK_STATE_STOPPED);
+    CHECK(log_mentions("the exit hook ran"));
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 1000));
+    CHECK_OK(clk_jvm_stop(1000));
+}
+
+void stop_times_out(void) {
+    start_with_session();
+    CHECK_OK(step(session, HANG_AT_STOP, 0, 60000));
     int64_t begin = now_ns();
-    CHECK_CODE(CLK_TIMEOUT, NULL, clk_jvm_stop(400));
+    CHECK_CODE(CLK_TIMEOUT, "halted", clk_jvm_stop(400));
     CHECK(now_ns() - begin < 10000000000);
-    CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
-    CHECK_CODE(CLK_TIMEOUT, NULL, step(session, EMPTY, 0, 200));
-    CHECK_CODE(CLK_TIMEOUT, NULL, clk_jvm_stop(200));
+    CHECK(clk_jvm_state() == CLK_STATE_STOPPED);
+    CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 200));
+}
+
+void stop_after_a_hang(void) {
+    start_with_session();
+    CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, HANG, 0, 100));
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
+    CHECK(now_ns() - begin < 900000000); /* halted, not given up */
 }

@@ -76,6 +76,14 @@ void home_without_modules(void) {
     check_start_still_works();
 }
 
+void home_of_an_old_version(void) {
+    const char *home = make_broken_home();
+    write_file(home, "lib/modules", "x", 0644);
+    write_file(home, "release", "IMPLEMENTOR=\"x\"\nJAVA_VERSION=\"11.0.2\"\n", 0644);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "Java 11", start_home(home));
+    check_start_still_works();
+}
+
 void home_with_a_broken_libjvm(void) {
     const char *home = make_broken_home();
     write_file(home, "lib/modules", "", 0644);
@@ -162,6 +170,8 @@ void options_refused_by_child(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "no_such_agent", start(OPTIONS("-agentlib:no_such_agent")));
     check_start_still_works();
 }
+
+void options_that_make_the_jvm_talk(void) { CHECK_OK(start(OPTIONS("-verbose:class"))); }
 
 void option_that_ends_the_jvm(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "before it is up", start(OPTIONS("-Xlog:help")));

@@ -11,8 +11,15 @@ namespace Collektive.Headless
 
         private static int Main(string[] arguments)
         {
-            var code = Run(arguments);
-            // The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.
+            // Of threads that a script started; the runtime prints it and ends the process afterwards.
+            AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
+            return StopJvm(Run(arguments));
+        }
+
+        /// <summary>The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.</summary>
+        /// <returns>The exit code.</returns>
+        private static int StopJvm(int code)
+        {
             try
             {
                 Jvm.Stop(JvmStopLimitMs);
@@ -20,7 +27,7 @@ namespace Collektive.Headless
             catch (BridgeException error)
             {
                 Console.Error.WriteLine("collektive: the JVM did not end: " + error.Message);
-                code = Math.Max(code, 1);
+                return Math.Max(code, 1);
             }
             catch (DllNotFoundException)
             {
@@ -40,11 +47,16 @@ namespace Collektive.Headless
                     Plan(scenario);
                     return 0;
                 }
-                return new ScenarioRun(scenario, options).Run();
+                using (var run = new ScenarioRun(scenario, options)) return run.Run();
             }
             catch (ScenarioException error)
             {
                 Console.Error.WriteLine("collektive: " + error.Message);
+                return 1;
+            }
+            catch (Exception error)
+            {
+                Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
                 return 1;
             }
         }

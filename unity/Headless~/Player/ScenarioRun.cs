@@ -13,13 +13,14 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless
 {
     /// <summary>One run of a scenario: builds its scene, plays it for its time, writes its outputs.</summary>
-    internal sealed class ScenarioRun
+    internal sealed class ScenarioRun : IDisposable
     {
         /// <summary>Replay frames per simulated second; ticks in between are left out.</summary>
         private const double ReplayRate = 10;
 
         private readonly Scenario scenario;
         private readonly Options options;
+        private readonly Interrupt interrupt = new Interrupt();
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
         private readonly List<double> roundTimes = new List<double>();
@@ -33,7 +34,10 @@ namespace Collektive.Headless
             scenario.Seconds = options.Seconds ?? scenario.Seconds;
         }
 
-        /// <returns>The exit code: 0, or 1 when the simulation stopped early or rounds, sensors or actuators failed.</returns>
+        /// <returns>
+        /// The exit code: that of a script's <c>Application.Quit</c>, 130 after Ctrl-C, else 0, or 1 when the simulation stopped early or rounds,
+        /// sensors or actuators failed.
+        /// </returns>
         internal int Run()
         {
             Directory.CreateDirectory(options.Out);
@@ -51,6 +55,8 @@ namespace Collektive.Headless
                 Loop.Quit();
             }
         }
+
+        public void Dispose() => interrupt.Dispose();
 
         private SimulationManager MakeManager()
         {
@@ -104,7 +110,7 @@ namespace Collektive.Headless
                 replay?.Add(0);
                 var replayed = 0.0;
                 var second = 0;
-                for (var tick = 1; tick <= ticks; tick++)
+                for (var tick = 1; tick <= ticks && !interrupt.Requested && !Loop.QuitRequested; tick++)
                 {
                     Loop.Frame(scenario.DeltaTime);
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + tick + ": " + manager.Failure);
@@ -129,6 +135,12 @@ namespace Collektive.Headless
                 manifest.AddFirstTick(firstTick);
                 manifest.Write(Path.Combine(options.Out, "manifest.json"));
             }
+            if (interrupt.Requested)
+            {
+                Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end there");
+                return interrupt.ExitCode;
+            }
+            if (Loop.QuitRequested) return Loop.ExitCode;
             if (manager.ErrorCount == 0) return 0;
             Console.Error.WriteLine("collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors or actuators failed; the messages are above");
             return 1;

@@ -51,11 +51,13 @@ namespace Collektive.Unity
         private readonly GrowingArray<int> dueIds = new GrowingArray<int>();
         private readonly ErrorTally errors = new ErrorTally();
         private readonly SceneGlobals globals = new SceneGlobals();
+        private readonly RepeatedErrors roundErrors = new RepeatedErrors();
         // By node id: whether the JVM knows the node, and whether it left since the last tick.
         private bool[] isKnown = new bool[64];
         private bool[] isGone = new bool[64];
         private bool anyGone;
         private Session session;
+        private HostLog hostLog;
         private SimulationMode modeBefore;
         private double accumulated;
         private int nextId;
@@ -332,7 +334,9 @@ namespace Collektive.Unity
             Current = null;
             Physics.simulationMode = modeBefore;
             CloseSession();
+            roundErrors.TellCounts();
             DrainLog();
+            if (hostLog != null && hostLog.TryCount(out var level, out var line)) Show(level, line);
         }
 
         private void Update()
@@ -354,6 +358,7 @@ namespace Collektive.Unity
             {
                 var problem = settings.FindProblem();
                 if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
+                hostLog = hostLog ?? new HostLog();
                 var schema = Schemas.Find(settings.schema);
                 StartJvm();
                 session = Session.Open(SettingsOfSession(), schema);
@@ -622,11 +627,11 @@ namespace Collektive.Unity
                 var node = Find(id);
                 if (node != null) node.LastError = message;
                 errors.Add(program, id, answer.Tick, message);
-                Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + answer.Tick + ": " + message, node);
+                roundErrors.Report(id, program, answer.Tick, message, node);
             }
             // Answers and due nodes are both ascending; due nodes without an answer failed.
             var place = 0;
-            for (var i = 0; i < answer.NodeCount && session != null; i++)
+            for (var i = 0; session != null && i < answer.NodeCount; i++)
             {
                 var id = answer.Node(i);
                 while (dueIds.Items[place] != id) place++;
@@ -679,13 +684,15 @@ namespace Collektive.Unity
 
         private void DrainLog()
         {
-            while (HostLog.TryRead(out var level, out var line))
-            {
-                if (level == HostLogLevel.Error) Debug.LogError(line, this);
-                else if (level == HostLogLevel.Warning) Debug.LogWarning(line, this);
-                else Debug.Log(line, this);
-                Logged?.Invoke(level, line);
-            }
+            while (hostLog != null && hostLog.TryRead(out var level, out var line)) Show(level, line);
+        }
+
+        private void Show(HostLogLevel level, string line)
+        {
+            if (level == HostLogLevel.Error) Debug.LogError(line, this);
+            else if (level == HostLogLevel.Warning) Debug.LogWarning(line, this);
+            else Debug.Log(line, this);
+            Logged?.Invoke(level, line);
         }
 
         private bool CheckEnds(string verb, int a, int b)

@@ -77,15 +77,6 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void What_a_program_prints_reaches_the_console()
-        {
-            Configure("trouble");
-            MakeNode(20);
-            Play(3);
-            Assert.That(string.Join("\n", Log), Is.StringContaining("a line from the program"));
-        }
-
-        [Test]
         public void A_number_that_is_not_finite_stops_the_simulation_and_names_node_and_field()
         {
             MakeNode(1);

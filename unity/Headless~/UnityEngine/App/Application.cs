@@ -25,7 +25,7 @@ namespace UnityEngine
         }
 
         public static bool isPlaying => true;
-        public static bool isEditor => false;
+        public static bool isEditor => Headless.Loop.IsEditor;
         public static bool isBatchMode => true;
         public static bool runInBackground { get; set; }
         public static int targetFrameRate { get; set; }

@@ -15,6 +15,9 @@ namespace UnityEngine.Headless
 
         static bool started;
 
+        /// What `Application.isEditor` says: whether the process goes on after `Quit`, as the editor does when play mode is left.
+        public static bool IsEditor { get; set; }
+
         /// Set by `Application.Quit`: the caller leaves its frame loop and calls `Quit`.
         public static bool QuitRequested { get; private set; }
         public static int ExitCode { get; private set; }

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System.Text;
 
 namespace Collektive.Bridge
@@ -15,20 +16,65 @@ namespace Collektive.Bridge
         Error = 3,
     }
 
-    /// <summary>Log lines of the shim, the JVM and the programs. Polled; lines that nobody polls for are dropped and counted.</summary>
-    public static unsafe class HostLog
+    /// <summary>
+    /// Log lines of the shim, the JVM and the programs, polled. Of each severity it gives at most <see cref="LinesPerSecond"/>: a
+    /// console takes no more. What is left out is counted, and the count is a line of its own. Used from one thread at a time.
+    /// </summary>
+    public sealed unsafe class HostLog
     {
+        /// <summary>Lines of one severity that <see cref="TryRead"/> gives in a second.</summary>
+        public const int LinesPerSecond = 100;
+
         private const int LineCapacity = 16 * 1024;
 
-        /// <summary>Takes the oldest line, if there is one. Allocates only when there is one.</summary>
-        public static bool TryRead(out HostLogLevel level, out string line)
+        private readonly int[] given = new int[4];
+        private long secondBegan = Stopwatch.GetTimestamp();
+        private long leftOut;
+        private ulong lost = Lost();
+
+        /// <summary>Takes the oldest line, if there is one. Allocates only when there is one that is given.</summary>
+        public bool TryRead(out HostLogLevel level, out string line)
         {
+            if (Stopwatch.GetTimestamp() - secondBegan >= Stopwatch.Frequency && TryCount(out level, out line)) return true;
             var buffer = stackalloc byte[LineCapacity];
             int number;
-            var length = Shim.clk_log_read(&number, buffer, LineCapacity);
-            level = (HostLogLevel)number;
-            line = length < 0 ? null : Encoding.UTF8.GetString(buffer, length);
-            return length >= 0;
+            int length;
+            while ((length = Shim.clk_log_read(&number, buffer, LineCapacity)) >= 0)
+            {
+                level = (HostLogLevel)number;
+                if (given[number]++ < LinesPerSecond)
+                {
+                    line = Encoding.UTF8.GetString(buffer, length);
+                    return true;
+                }
+                leftOut++;
+            }
+            level = HostLogLevel.Info;
+            line = null;
+            return false;
+        }
+
+        /// <summary>Begins a new second. True when lines were left out before; <paramref name="line"/> then tells how many.</summary>
+        public bool TryCount(out HostLogLevel level, out string line)
+        {
+            secondBegan = Stopwatch.GetTimestamp();
+            System.Array.Clear(given, 0, given.Length);
+            var overflown = Lost() - lost;
+            level = HostLogLevel.Warning;
+            line = null;
+            if (leftOut == 0 && overflown == 0) return false;
+            line = (leftOut + (long)overflown) + " lines of the JVM and its programs were left out: the console takes " + LinesPerSecond +
+                " a second of each severity" + (overflown > 0 ? "; " + overflown + " of them came faster than they could be read" : "");
+            lost += overflown;
+            leftOut = 0;
+            return true;
+        }
+
+        private static ulong Lost()
+        {
+            var stats = new Shim.Stats { Size = (uint)sizeof(Shim.Stats) };
+            Shim.Check(Shim.clk_get_stats(&stats));
+            return stats.LogsDropped;
         }
     }
 }

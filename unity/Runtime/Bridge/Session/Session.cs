@@ -12,6 +12,7 @@ namespace Collektive.Bridge
     public sealed unsafe class Session : IDisposable
     {
         private const int FirstCapacity = 64 * 1024;
+        private const int ForgottenLimitMs = 1000;
 
         private readonly SlotAllocator slot;
         private readonly FlatBufferBuilder builder;
@@ -83,9 +84,18 @@ namespace Collektive.Bridge
             Answer.Read(answerBuffer);
         }
 
+        /// <summary>Closes a session that nobody closed, for instance one whose C# domain is unloaded.</summary>
+        ~Session()
+        {
+            if (handle == 0) return;
+            Shim.clk_session_close(handle, ForgottenLimitMs);
+            Shim.clk_slot_release(slot.Slot);
+        }
+
         /// <summary>Closes the session and gives its memory back. A second call does nothing.</summary>
         public void Dispose()
         {
+            GC.SuppressFinalize(this);
             if (handle == 0) return;
             var closing = handle;
             handle = 0;

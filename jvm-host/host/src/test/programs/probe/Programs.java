@@ -9,6 +9,7 @@ import java.util.List;
 import java.util.logging.Logger;
 import org.collektive.api.Device;
 import org.collektive.api.Program;
+import org.slf4j.LoggerFactory;
 
 /** Programs that do well, or as badly as their sensors say. */
 public final class Programs {
@@ -43,6 +44,8 @@ public final class Programs {
       case "share-view": aggregate.neighboring(sensors, InMemory.INSTANCE); break;
       case "keep-view": aggregate.evolve(sensors, old -> sensors); break;
       case "print": System.out.println("hello"); System.err.print("care"); System.err.println("ful"); break;
+      case "slf4j": LoggerFactory.getLogger("probe").error("it {}", "broke"); break;
+      case "thread": runThread(() -> System.out.println("from afar")); break;
       case "log": Logger.getLogger("probe").warning("watch out"); break;
       case "exit": throw new SecurityException("System.exit is refused");
       case "loop": while (true) { Thread.onSpinWait(); }
@@ -53,6 +56,16 @@ public final class Programs {
 
   private static ActuatorDataT recurse(Aggregate<Integer> aggregate, SensorData sensors) {
     return aggregate.alignedOn("deeper", () -> recurse(aggregate, sensors));
+  }
+
+  private static void runThread(Runnable work) {
+    Thread thread = new Thread(work, "of-probe");
+    thread.start();
+    try {
+      thread.join();
+    } catch (InterruptedException interrupted) {
+      throw new IllegalStateException(interrupted);
+    }
   }
 
   private static ActuatorDataT exhaust() {

@@ -30,6 +30,11 @@ final class Host {
     private static final int EXIT_ELSEWHERE = 17;
     private static final int IMPLICIT_NULL = 18;
     private static final int GROW_TOO_LARGE = 19;
+    private static final int HANG_AT_STOP = 20;
+    private static final int WRITE_AT_EXIT = 21;
+
+    private static boolean stays;
+    private static volatile boolean hangs;
 
     static long control(long session, ByteBuffer request, int offset, int length, long slot, ByteBuffer answer, int limitMillis)
             throws Exception {
@@ -114,7 +119,14 @@ final class Host {
             case GROW_TOO_LARGE:
                 Shim.grow(slot, Integer.MAX_VALUE);
                 return 0;
+            case HANG_AT_STOP:
+                hangs = true;
+                return 0;
+            case WRITE_AT_EXIT:
+                Runtime.getRuntime().addShutdownHook(new Thread(() -> Shim.log(1, "the exit hook ran".getBytes(UTF_8))));
+                return 0;
             case STAY:
+                stays = true;
                 new Thread(() -> {
                     for (;;) Thread.onSpinWait();
                 }).start();
@@ -193,5 +205,8 @@ final class Host {
 
     static void close(long session) {}
 
-    static void stop(int limitMillis) {}
+    static boolean stop(int limitMillis) {
+        while (hangs) Thread.onSpinWait();
+        return !stays;
+    }
 }

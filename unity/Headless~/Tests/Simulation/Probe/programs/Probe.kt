@@ -94,6 +94,7 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         25 -> share(sensors.value() to sensors) { it.local.value }
         26 -> share(listOf(Reading("now", sensors))) { it.local.value }
         27 -> neighboring(1)[99]
+        28 -> repeat(1000) { println("line $it") }
     }
     return answer(rounds.toFloat())
 }

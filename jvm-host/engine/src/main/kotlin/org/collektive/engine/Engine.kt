@@ -193,6 +193,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             if (pool.isClosed) return
             val index = indexOf(turn)
             val node = result.node(index)
+            thread.program = node.program.name
             thread.node = node.id
             thread.rounds++
             try {

@@ -15,7 +15,29 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
     public var rounds: Long = 0
         internal set
 
-    private companion object {
-        const val STACK_BYTES = 4L shl 20
+    /** Name of the program of that round. */
+    @Volatile
+    public var program: String = ""
+        internal set
+
+    override fun run() {
+        MakerOfThread.set("")
+        super.run()
+    }
+
+    public companion object {
+        private const val STACK_BYTES = 4L shl 20
+
+        /** Whose code runs on the calling thread, for the log: a round's, or that of a thread which a round made; else `null`. */
+        public fun origin(): String? {
+            val thread = Thread.currentThread()
+            if (thread is RoundThread) return if (thread.node < 0) null else "node ${thread.node}, program ${thread.program}"
+            return MakerOfThread.get()?.takeIf(String::isNotEmpty)?.let { "thread ${thread.name} of $it" }
+        }
+    }
+
+    /** Passed on from thread to thread: the round in which the first of them was made. */
+    private object MakerOfThread : InheritableThreadLocal<String?>() {
+        override fun childValue(parentValue: String?): String? = if (Thread.currentThread() is RoundThread) origin() else parentValue
     }
 }

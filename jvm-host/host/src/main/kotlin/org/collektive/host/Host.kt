@@ -17,11 +17,12 @@ public object Host {
     public var shim: ShimCalls = NativeShim
     private val sessions = HashMap<Long, Session>()
     private val control by lazy { Control(shim) }
+    private var log: HostLog? = null
 
-    /** Takes over standard output and `java.util.logging`. Once; returns one line about this host and its JVM. */
+    /** Takes over standard output, `java.util.logging` and uncaught exceptions. Once; returns one line about this host and its JVM. */
     @JvmStatic
     public fun start(): String {
-        HostLog.install(shim)
+        log = HostLog(shim).also(HostLog::install)
         return "Collektive host, protocol $PROTOCOL, Java ${Runtime.version()} (${System.getProperty("java.vm.name")}, " +
             "${System.getProperty("java.vendor")})"
     }
@@ -39,6 +40,7 @@ public object Host {
     ): Long = answering {
         requireLimit(limitMillis)
         if (session in sessions) throw HostException(HostError.ARGUMENT, "session $session is open already")
+        log?.install()
         val frame = FrameVerifier.frame(request, offset, length)
         val opened = Session.open(frame, shim)
         try {
@@ -86,22 +88,28 @@ public object Host {
     @JvmStatic
     public fun close(session: Long) {
         sessions.remove(session)?.close()
+        log?.tellCounts()
     }
 
-    /** Closes all sessions and asks the programs' own threads to end, since the JVM waits for them. */
+    /**
+     * Closes all sessions and asks the programs' own threads to end, since the JVM would wait for them.
+     *
+     * @return whether none is left after [limitMillis].
+     */
     @JvmStatic
-    public fun stop(limitMillis: Int) {
+    public fun stop(limitMillis: Int): Boolean {
         sessions.values.forEach(Session::close)
         sessions.clear()
-        control.close(limitMillis)
         val deadline = System.nanoTime() + millis(limitMillis)
+        control.close(limitMillis)
         val left = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
         left.forEach(Thread::interrupt)
         for (thread in left) {
             val wait = TimeUnit.NANOSECONDS.toMillis(deadline - System.nanoTime())
             if (wait > 0) thread.join(wait)
-            if (thread.isAlive) shim.log(LogLevel.WARNING, "thread \"${thread.name}\" of a program does not end; the JVM may wait for it")
+            if (thread.isAlive) shim.log(LogLevel.WARNING, "thread \"${thread.name}\" of a program does not end, and is halted with the JVM")
         }
+        return left.none(Thread::isAlive)
     }
 
     private fun millis(limit: Int) = TimeUnit.MILLISECONDS.toNanos(limit.toLong())

@@ -10,32 +10,53 @@ import java.util.logging.Level
 import java.util.logging.LogManager
 import java.util.logging.LogRecord
 
-/** Leads what programs print or log to the shim: line by line, with the node in whose round it happened. */
-internal object HostLog {
-    fun install(shim: ShimCalls) {
-        System.setOut(printStream(shim, LogLevel.INFO))
-        System.setErr(printStream(shim, LogLevel.WARNING))
+/**
+ * Leads what programs print or log to the shim, with the node and the program whose code it came from.
+ *
+ * slf4j is here too: its binding to `java.util.logging` is on the host's class path.
+ */
+internal class HostLog(private val shim: ShimCalls) {
+    private val out = ShimStream(LogLevel.INFO)
+    private val err = ShimStream(LogLevel.WARNING)
+    private val handler = ShimHandler()
+    private val failures = ThreadFailures(shim)
+
+    /** Takes over standard output, `java.util.logging` and uncaught exceptions; again, should a program have taken them away. */
+    fun install() {
+        System.setOut(out)
+        System.setErr(err)
         val root = LogManager.getLogManager().getLogger("")
         root.handlers.forEach(root::removeHandler)
-        root.addHandler(ShimHandler(shim))
+        root.addHandler(handler)
+        if (root.level == null) root.level = Level.INFO
+        Thread.setDefaultUncaughtExceptionHandler(failures)
     }
 
-    fun printStream(shim: ShimCalls, level: LogLevel) = PrintStream(LineStream(shim, level), false, Charsets.UTF_8)
-
-    /** [line] with the node in whose round this thread is. */
-    fun inRound(line: String): String {
-        val node = (Thread.currentThread() as? RoundThread)?.node ?: -1
-        return if (node < 0) line else "[node $node] $line"
+    /** Tells how often exceptions came again. */
+    fun tellCounts() {
+        failures.tellCounts()
     }
 
-    /** Logs each line of [text]. */
-    fun lines(shim: ShimCalls, level: LogLevel, text: String) {
-        text.lineSequence().filter(String::isNotEmpty).forEach { shim.log(level, inRound(it)) }
+    /** A program that closes it must not close it for others. */
+    private inner class ShimStream(level: LogLevel) : PrintStream(LineStream(level), false, Charsets.UTF_8) {
+        override fun close() = flush()
     }
 
     /** Each thread fills a line of its own, so that lines of parallel rounds do not mix. */
-    private class LineStream(private val shim: ShimCalls, private val level: LogLevel) : OutputStream() {
+    private inner class LineStream(private val level: LogLevel) : OutputStream() {
         private val lines = ThreadLocal.withInitial { ByteArrayOutputStream() }
+
+        override fun write(bytes: ByteArray, offset: Int, length: Int) {
+            val line = lines.get()
+            var begin = offset
+            for (at in offset until offset + length) {
+                if (bytes[at].toInt() != '\n'.code && bytes[at].toInt() != '\r'.code && line.size() + at - begin + 1 < MAX_LINE) continue
+                line.write(bytes, begin, at - begin)
+                begin = at
+                write(bytes[begin++].toInt())
+            }
+            line.write(bytes, begin, offset + length - begin)
+        }
 
         override fun write(byte: Int) {
             val line = lines.get()
@@ -49,13 +70,18 @@ internal object HostLog {
             }
         }
 
+        override fun flush() {
+            val line = lines.get()
+            if (line.size() > 0) end(line)
+        }
+
         private fun end(line: ByteArrayOutputStream) {
-            shim.log(level, inRound(line.toString(Charsets.UTF_8)))
+            shim.log(level, attributed(line.toString(Charsets.UTF_8)))
             line.reset()
         }
     }
 
-    private class ShimHandler(private val shim: ShimCalls) : Handler() {
+    private inner class ShimHandler : Handler() {
         init {
             formatter = MessageFormatter
         }
@@ -68,7 +94,7 @@ internal object HostLog {
                 record.level.intValue() >= Level.INFO.intValue() -> LogLevel.INFO
                 else -> LogLevel.DEBUG
             }
-            lines(shim, level, formatter.format(record))
+            shim.log(level, attributed(formatter.format(record)))
         }
 
         override fun flush() {}
@@ -80,9 +106,14 @@ internal object HostLog {
         override fun format(record: LogRecord): String {
             val message = formatMessage(record)
             val thrown = record.thrown ?: return "${record.loggerName}: $message"
-            return "${record.loggerName}: $message\n${thrown.stackTraceToString()}"
+            return "${record.loggerName}: $message\n${thrown.stackTraceToString().trimEnd()}"
         }
     }
 
-    private const val MAX_LINE = 4096
+    companion object {
+        private const val MAX_LINE = 4096
+
+        /** [text] with the node and the program whose code runs on this thread. */
+        fun attributed(text: String): String = RoundThread.origin()?.let { "[$it] $text" } ?: text
+    }
 }

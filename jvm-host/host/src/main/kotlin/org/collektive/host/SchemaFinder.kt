@@ -9,8 +9,10 @@ internal object SchemaFinder {
     /** All schemas of [loader]. */
     fun all(loader: ClassLoader, jars: List<ProgramJar>): List<DataSchema> = try {
         ServiceLoader.load(DataSchema::class.java, loader).toList()
+    } catch (e: LinkageError) {
+        throw cannotLoad(jars, e)
     } catch (e: ServiceConfigurationError) {
-        throw HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
+        throw cannotLoad(jars, e)
     }
 
     /** The schema [name] of [all], whose types are those of [types]. */
@@ -30,6 +32,9 @@ internal object SchemaFinder {
         }
         return schema
     }
+
+    private fun cannotLoad(jars: List<ProgramJar>, e: Throwable) =
+        HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
 
     private fun paths(jars: List<ProgramJar>) = jars.joinToString { it.path }
 

@@ -102,7 +102,8 @@ internal class Session private constructor(
         } catch (e: TickRefused) {
             throw HostException(HostError.FRAME, e.message.orEmpty(), e)
         } catch (e: RoundsNotFinished) {
-            HostLog.lines(shim, LogLevel.ERROR, "${e.message}; the threads:\n${e.threads}")
+            shim.log(LogLevel.ERROR, "${e.message}; the threads:")
+            e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
             throw fail("${e.message}; the log shows what each thread was doing. Mend the program, then open a new session", e)
         } catch (e: Throwable) {
             throw fail("tick ${frame.tick.number} failed inside the engine: $e", e)

@@ -222,28 +222,4 @@ class StepTest {
         }))
         assertEquals(listOf(true, false), listOf(1, 2).map { answers.getValue(it).second != null })
     }
-
-    @Test
-    fun `what programs print or log carries the node`() {
-        val out = System.out
-        val err = System.err
-        try {
-            HostLog.install(shim)
-            val session = session(program = "probe")
-            session.ok(Step(1).apply {
-                added = nodes(4, 5)
-                due = listOf(4, 5)
-                sensors = listOf(Step.Sensor(0, "print"), Step.Sensor(0, "log"))
-            })
-            println("outside")
-        } finally {
-            System.setOut(out)
-            System.setErr(err)
-        }
-        val logs = shim.logs.toList()
-        assertContains(logs, LogLevel.INFO to "[node 4] hello")
-        assertContains(logs, LogLevel.WARNING to "[node 4] careful")
-        assertContains(logs, LogLevel.WARNING to "[node 5] probe: watch out")
-        assertContains(logs, LogLevel.INFO to "outside")
-    }
 }

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
+
+exits.py PLACES.json RUNS; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+# How a run ends, and its exit code.
+KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
+SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
+LIMIT_S = 180
+
+
+def scenario(places, folder, seconds):
+    return {"version": 1, "scene": "Collektive.Headless.Faults.Ending", "scripts": folder, "schema": places["schema"],
+            "programs": places["jar"], "program": "fault", "seconds": seconds, "threads": 2,
+            "jvm": {"maximumHeapMb": 128, "collector": "Serial", "flags": ["-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")]},
+            "outputs": {"metrics": True}}
+
+
+def recording_problem(path):
+    """A recording is a row of chunks, each with its length in its head; one that was not finished has none."""
+    if not os.path.exists(path):
+        return "there is no flight recording"
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 0
+    while at < len(data):
+        if data[at:at + 4] != b"FLR\0" or at + 16 > len(data):
+            return f"the flight recording is damaged at byte {at}"
+        length, = struct.unpack_from(">q", data, at + 8)
+        if length <= 0 or at + length > len(data):
+            return f"the flight recording's chunk at byte {at} has no end"
+        at += length
+    return "" if data else "the flight recording is empty"
+
+
+def run(places, kind, index):
+    """Returns what is wrong, "" for nothing."""
+    runtime = places["runtimes"][index % len(places["runtimes"])]
+    jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
+    folder = tempfile.mkdtemp(prefix="collektive-exit-")
+    try:
+        path = os.path.join(folder, "exits.json")
+        with open(path, "w") as file:
+            json.dump(scenario(places, folder, 1000 if kind in SIGNALS else 2), file)
+        command = [runtime, "--debug", places["player"], "run", path, "--scripts", places["program"], "--jar", places["jar"], "--host-jar",
+                   places["host"], "--java-home", jdk, "--out", os.path.join(folder, "out"), "--set", "how=" + kind]
+        environment = dict(os.environ, LD_LIBRARY_PATH=places["shim"])
+        # Jobs of scripts ignore SIGINT, and hand that down.
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        watchdog = threading.Timer(LIMIT_S, process.kill)
+        watchdog.start()
+        text = b""
+        for line in process.stdout:
+            text += line
+            if kind in SIGNALS and b"ten ticks done" in line:
+                time.sleep(random.random() * 0.2)
+                process.send_signal(SIGNALS[kind])
+        code = process.wait()
+        watchdog.cancel()
+        wrong = []
+        if code != KINDS[kind]:
+            wrong.append(f"exit code {code} instead of {KINDS[kind]}")
+        if b"did not end" in text:
+            wrong.append("the JVM did not go down in order")
+        problem = recording_problem(os.path.join(folder, "record.jfr"))
+        if problem:
+            wrong.append(problem)
+        if index < 2 and not problem:
+            summary = subprocess.run([os.path.join(jdk, "bin/jfr"), "summary", os.path.join(folder, "record.jfr")], capture_output=True, text=True)
+            if summary.returncode != 0 or "jdk.JVMInformation" not in summary.stdout:
+                wrong.append("jfr summary does not read the flight recording")
+        if not wrong:
+            return ""
+        return f"{kind} on {runtime}, {os.path.basename(jdk)}: {'; '.join(wrong)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def main():
+    with open(sys.argv[1]) as file:
+        places = json.load(file)
+    runs = int(sys.argv[2])
+    passed = failed = 0
+    with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
+        rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in KINDS}
+        for kind, futures in rows.items():
+            problems = [problem for problem in (future.result() for future in futures) if problem]
+            print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)
+            for problem, count in collections.Counter(problems).most_common(5):
+                print(f"  {count} times: {problem}")
+            passed, failed = passed + runs - len(problems), failed + len(problems)
+    print(f"{passed} passed, {failed} failed")
+    sys.exit(failed > 0)
+
+
+if __name__ == "__main__":
+    main()

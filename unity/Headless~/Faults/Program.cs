@@ -1,0 +1,87 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Faults
+{
+    /// <summary>
+    /// One fault in a process of its own: plays a scene, has the fault happen in its fourth tick or at its start, and tells what still
+    /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, limit (of a tick, in milliseconds), fault (of
+    /// the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0.
+    /// </summary>
+    internal static class Program
+    {
+        private const int StopLimitMs = 4000;
+
+        private static readonly List<string> said = new List<string>();
+        private static int limitMs;
+
+        private static int Main(string[] arguments)
+        {
+            Loop.IsEditor = true;
+            var options = new List<string>();
+            var values = new Dictionary<string, string>();
+            foreach (var argument in arguments)
+            {
+                var parts = argument.Split(new[] { '=' }, 2);
+                if (parts[0] == "option") options.Add(parts[1]);
+                else values[parts[0]] = parts[1];
+            }
+            string Value(string key, string other) => values.TryGetValue(key, out var value) ? value : other;
+            var act = Value("act", "none");
+            limitMs = int.Parse(values["limit"]);
+            var good = new Setting(values["home"], values["host"], values["jar"], new[] { "-Xmx128m", "-XX:+UseSerialGC" });
+            var faulty = new Setting(Value("bad-home", good.Home), Value("bad-host", good.Host), Value("bad-jar", good.Jar),
+                options.Count > 0 ? options.ToArray() : good.Options);
+            if (act == "play") return Play(good, "none", "none") ? 0 : 1;
+            if (act == "play-on")
+            {
+                Loop.Start(1);
+                return new Scene(good, "none", limitMs).Play("none") ? 0 : 1;
+            }
+            Console.WriteLine("still works: " + Try(good, faulty, Value("fault", "none"), act) + ", JVM " + Jvm.State);
+            return 0;
+        }
+
+        private static string Try(Setting good, Setting faulty, string fault, string act)
+        {
+            var works = act == "domains" ? Domains.Play() : Play(faulty, fault, act);
+            // A JVM that runs keeps its options.
+            if (!works) works = Jvm.State == JvmState.Running ? Said("next session", Play(faulty.With(good), "none", "none")) : Said("next start", Play(good, "none", "none"));
+            else works = Said("next tick", true) && Said("next play", Play(faulty, "none", "none"));
+            var csharp = Acts.CSharpWorks();
+            try
+            {
+                Jvm.Stop(StopLimitMs);
+            }
+            catch (BridgeException error)
+            {
+                Console.WriteLine("stop: " + error.Message);
+            }
+            for (var log = new HostLog(); log.TryRead(out _, out var line);) Console.WriteLine(line);
+            said.Add(csharp ? "C#" : "C# does not");
+            return string.Join(", ", said);
+        }
+
+        private static bool Said(string what, bool works)
+        {
+            if (works) said.Add(what);
+            return works;
+        }
+
+        private static bool Play(Setting setting, string fault, string act)
+        {
+            Loop.Reset();
+            Loop.Start(1);
+            try
+            {
+                return new Scene(setting, fault, limitMs).Play(act);
+            }
+            finally
+            {
+                Loop.Quit();
+            }
+        }
+    }
+}

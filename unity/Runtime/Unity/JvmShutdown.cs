@@ -1,0 +1,47 @@
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Stops the JVM when the process quits, before the managed runtime goes: that saves flight recordings, and Java threads must not outlive the
+    /// runtime's signal handlers. Leaving play mode in the editor is no quit.
+    /// </summary>
+    internal static class JvmShutdown
+    {
+        private const int LimitMs = 5000;
+
+#if UNITY_EDITOR
+        [UnityEditor.InitializeOnLoadMethod]
+        private static void RegisterInEditor()
+        {
+            UnityEditor.EditorApplication.quitting -= Stop;
+            UnityEditor.EditorApplication.quitting += Stop;
+        }
+#endif
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Register()
+        {
+            if (Application.isEditor) return;
+            Application.quitting -= Stop;
+            Application.quitting += Stop;
+        }
+
+        private static void Stop()
+        {
+            try
+            {
+                Jvm.Stop(LimitMs);
+            }
+            catch (BridgeException error)
+            {
+                Debug.LogError("the JVM did not end in order: " + error.Message);
+            }
+            for (var log = new HostLog(); log.TryRead(out var level, out var line);)
+            {
+                if (level >= HostLogLevel.Warning) Debug.LogWarning(line);
+            }
+        }
+    }
+}
