@@ -7,6 +7,9 @@ namespace Collektive.Headless.Tests
     /// <summary>The one JVM of the tests' process.</summary>
     internal static class TestJvm
     {
+        /// It outlives plays, as in an editor; a player that quits stops it.
+        static TestJvm() => UnityEngine.Headless.Loop.IsEditor = true;
+
         internal static string Home => Variable("COLLEKTIVE_TEST_JAVA_HOME");
 
         internal static string HostJar => Variable("COLLEKTIVE_HOST_JAR");

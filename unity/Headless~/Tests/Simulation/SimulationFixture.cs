@@ -29,7 +29,6 @@ namespace Collektive.Headless.Tests.Simulation
             Application.logMessageReceived += Keep;
             Installation.HostJar = TestJvm.HostJar;
             Installation.JavaHome = TestJvm.Home;
-            Loop.IsEditor = true;
             Loop.Start(1);
             Manager = MakeManager("double");
         }
