@@ -23,7 +23,7 @@ compiled Collektive.Unity.dll "Collektive.FlatBuffers.dll Collektive.Bridge.dll 
 compiled UnityEditor.dll "UnityEngine.dll" $(sources "$ROOT/unity/Headless~/UnityEditor")
 compiled Collektive.Unity.Editor.dll "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll UnityEditor.dll" $(sources "$package/Editor")
 compiled Collektive.Player.exe "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll $(basename "$NEWTONSOFT")" \
-  -target:exe $(sources "$ROOT/unity/Headless~/Player" "$ROOT/unity/Headless~/Replay")
+  -target:exe -r:"$MONO_POSIX" $(sources "$ROOT/unity/Headless~/Player" "$ROOT/unity/Headless~/Replay")
 for sample in "$package/Samples~"/*/; do
   compiled "$(basename "$sample").dll" "Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll" $(sources "$sample")
 done

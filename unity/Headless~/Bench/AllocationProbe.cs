@@ -11,6 +11,7 @@ namespace Collektive.Headless.Bench
     {
         private const string Mark = "allocated-bytes ";
         private readonly Session session;
+        private readonly HostLog log = new HostLog();
 
         internal AllocationProbe(IReadOnlyList<string> jars)
         {
@@ -24,7 +25,7 @@ namespace Collektive.Headless.Bench
             session.Request.Sensors.EnsureCapacity(1);
             session.Request.AddDue(0);
             session.Step(Measurement.DeltaTime, Measurement.LimitMs);
-            while (HostLog.TryRead(out _, out var line))
+            while (log.TryRead(out _, out var line))
             {
                 var at = line.IndexOf(Mark, StringComparison.Ordinal);
                 if (at >= 0) return long.Parse(line.Substring(at + Mark.Length), CultureInfo.InvariantCulture);

@@ -18,6 +18,12 @@ namespace Collektive.Headless.Tests.Simulation
     {
         private const int Times = 50;
 
+        // The JVM's own answers keep one from the first question on.
+        private int slotsBefore;
+
+        [SetUp]
+        public void CountSlots() => slotsBefore = ShimCounts.Slots;
+
         [Test]
         public void Fifty_plays_leave_no_session_slot_thread_or_object_behind()
         {
@@ -27,7 +33,7 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 PlayOnce(managers);
                 Assert.That(ShimCounts.Sessions, Is.EqualTo(0), "play " + i);
-                Assert.That(ShimCounts.Slots, Is.EqualTo(0), "play " + i);
+                Assert.That(ShimCounts.Slots, Is.EqualTo(slotsBefore), "play " + i);
                 if (i == 10) threads = Settled();
             }
             Assert.That(Settled(), Is.LessThanOrEqualTo(threads + 2));
@@ -76,7 +82,7 @@ namespace Collektive.Headless.Tests.Simulation
                 Assert.That(Errors, Is.Empty, place);
                 StopPlaying();
                 Assert.That(ShimCounts.Sessions, Is.EqualTo(0), place);
-                Assert.That(ShimCounts.Slots, Is.EqualTo(0), place);
+                Assert.That(ShimCounts.Slots, Is.EqualTo(slotsBefore), place);
             }
             StartPlaying();
         }
@@ -107,22 +113,25 @@ namespace Collektive.Headless.Tests.Simulation
                 }
                 Assert.That(Errors, Is.Empty, "round " + round);
                 Assert.That(ShimCounts.Sessions, Is.EqualTo(0), "round " + round);
-                Assert.That(ShimCounts.Slots, Is.EqualTo(0), "round " + round);
+                Assert.That(ShimCounts.Slots, Is.EqualTo(slotsBefore), "round " + round);
             }
         }
 
         [Test]
         public void A_session_that_nobody_closed_is_closed_by_the_collector()
         {
-            ForgetSessions();
+            var forgotten = new List<WeakReference>();
+            ForgetSessions(forgotten);
             for (var i = 0; i < 50 && ShimCounts.Sessions > 1; i++)
             {
                 GC.Collect();
                 GC.WaitForPendingFinalizers();
                 Thread.Sleep(10);
             }
+            var left = ShimCounts.Sessions;
+            foreach (var session in forgotten) (session.Target as Session)?.Dispose();
             // The collectors read stacks conservatively.
-            Assert.That(ShimCounts.Sessions, Is.LessThanOrEqualTo(1));
+            Assert.That(left, Is.LessThanOrEqualTo(1));
         }
 
         [Test]
@@ -146,9 +155,14 @@ namespace Collektive.Headless.Tests.Simulation
             StopPlaying();
         }
 
-        private static void ForgetSessions()
+        private static void ForgetSessions(List<WeakReference> forgotten)
         {
-            for (var i = 0; i < 10; i++) TestJvm.Tick(TestJvm.Open("double"));
+            for (var i = 0; i < 10; i++)
+            {
+                var session = TestJvm.Open("double");
+                forgotten.Add(new WeakReference(session));
+                TestJvm.Tick(session);
+            }
         }
 
         /// <summary>Threads of rounds end a moment after their session.</summary>
