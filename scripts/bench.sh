@@ -56,8 +56,11 @@ bench_rounds() {
   setup_system
   build_jvm
   mkdir -p "$BUILD/bench"
+  local java quiet=
+  java="$(find_jdk)/bin/java"
   # JMH uses what newer JVMs warn of, in each process that it starts.
-  "$(find_jdk)/bin/java" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
-    "$BUILD/bench/rounds.json" "$@" 2> >(grep -v '^WARNING: .*\(sun.misc.Unsafe\|Please consider\)' >&2) || exit 1
+  "$java" --sun-misc-unsafe-memory-access=allow -version >/dev/null 2>&1 && quiet=--sun-misc-unsafe-memory-access=allow
+  "$java" $quiet -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
+    "$BUILD/bench/rounds.json" "$@" || exit 1
   say "wrote build/bench/rounds.json"
 }

@@ -66,7 +66,7 @@ private class Measurement(private val isQuick: Boolean) {
         .warmupIterations(if (isQuick) 3 else 5).warmupTime(TimeValue.milliseconds(if (isQuick) 500 else 1000))
         .measurementIterations(5).measurementTime(TimeValue.milliseconds(if (isQuick) 300 else 1000))
         // Huge pages where the system has them: with small ones a large network measures the processor's page tables.
-        .jvmArgs("-XX:+UseSerialGC", "-Xms2g", "-Xmx2g", "-XX:+AlwaysPreTouch", "-XX:+UseTransparentHugePages")
+        .jvmArgsAppend("-XX:+UseSerialGC", "-Xms2g", "-Xmx2g", "-XX:+AlwaysPreTouch", "-XX:+UseTransparentHugePages")
         .addProfiler(GCProfiler::class.java)
         .shouldFailOnError(true)
         .verbosity(VerboseMode.SILENT)
