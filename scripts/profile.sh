@@ -22,6 +22,13 @@ cmd_profile() {
   done
   [ -n "$scenario" ] || fail "profile: name a scenario file (see ./collektive profile --help)"
   [ -n "$out" ] || out="out/$(basename "$scenario" .json)-profile"
-  cmd_run "$scenario" --out "$out" --recording "$out/profile.jfr" "${arguments[@]}"
-  "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$HOST_JAR" org.collektive.host.jfr.ProfileReport "$out/profile.jfr"
+  local recording="$out/profile.jfr" code=0
+  rm -f "$recording"
+  # A run whose rounds failed has a recording too, and that one is wanted most. Behind "||" nothing would end at an error any more.
+  set +e
+  (set -e; cmd_run "$scenario" --out "$out" --recording "$recording" "${arguments[@]}")
+  code=$?
+  set -e
+  [ ! -f "$recording" ] || "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$HOST_JAR" org.collektive.host.jfr.ProfileReport "$recording"
+  return "$code"
 }

@@ -41,14 +41,17 @@ find_jdk() {
   fi
   for candidate in /usr/lib/jvm/* ${JAVA_HOME:-}; do
     is_jdk "$candidate" || continue
-    version=$(sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$candidate/release")
-    if [ "${version:-0}" -gt "$best_version" ]; then best=$candidate best_version=$version; fi
+    version=$(jdk_version "$candidate")
+    if [ "$version" -gt "$best_version" ]; then best=$candidate best_version=$version; fi
   done
   [ "$best_version" -ge 17 ] || fail "no JDK 17 or newer found: install one (Debian: openjdk-17-jdk-headless) or set COLLEKTIVE_JAVA_HOME"
   readlink -f "$best"
 }
 
 is_jdk() { [ -e "$1/lib/server/libjvm.so" ] && [ -x "$1/bin/javac" ] && [ -e "$1/release" ]; }
+
+# jdk_version JDK: prints its feature version, 0 when it does not tell.
+jdk_version() { sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$1/release" | grep . || echo 0; }
 
 setup_flatbuffers() {
   once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers/Cargo.toml") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers

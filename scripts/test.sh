@@ -25,7 +25,7 @@ suite() {
   mkdir -p "$BUILD/log"
   say "test $name ..."
   "$@" >"$log" 2>&1 || code=$?
-  result=$(grep -aoE '[0-9]+ passed, [0-9]+ failed' "$log" | tail -n 1)
+  result=$(grep -aoE '[0-9]+ passed, [0-9]+ failed' "$log" | tail -n 1) || true
   passed=${result%% passed*}
   failed=${result##*, }
   failed=${failed%% failed*}
@@ -40,9 +40,10 @@ suite() {
   say "test $name: $passed passed, $failed failed"
 }
 
-# All JDKs on this machine that the tests run on: the oldest supported and the newest.
+# The JDKs that the tests run on: all of this machine that are of version 17 or newer.
 test_jdks() {
-  { for jdk in /usr/lib/jvm/*; do if is_jdk "$jdk"; then readlink -f "$jdk"; fi; done; find_jdk; } | sort -u
+  local jdk
+  { for jdk in /usr/lib/jvm/*; do if is_jdk "$jdk" && [ "$(jdk_version "$jdk")" -ge 17 ]; then readlink -f "$jdk"; fi; done; find_jdk; } | sort -u
 }
 
 test_shim() {
@@ -54,15 +55,17 @@ test_sanitized_shim() {
     -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)" && cmake --build "$BUILD/sanitized" -j 2 && shim_cases "$BUILD/sanitized"
 }
 
-# shim_cases BUILD: the shim's tests of a CMake build, on every JVM.
+# shim_cases BUILD: the shim's tests of a CMake build, on every JVM. A run that tells no sum counts as one failure.
 shim_cases() {
-  local jdk passed=0 failed=0 log
+  local jdk passed=0 failed=0 log sum
   for jdk in $(test_jdks); do
     echo "== $jdk"
     log=$(CLK_TEST_JAVA_HOME="$jdk" ctest --test-dir "$1" --output-on-failure -j 2) || true
     printf '%s\n' "$log"
-    failed=$((failed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of [0-9]*.*/\1/p' | tail -n 1)))
-    passed=$((passed + $(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of \([0-9]*\).*/\2 - \1/p' | tail -n 1)))
+    sum=$(printf '%s\n' "$log" | sed -n 's/.*, \([0-9]*\) tests failed out of \([0-9]*\).*/\1 \2/p' | tail -n 1)
+    sum=${sum:-1 1}
+    failed=$((failed + ${sum% *}))
+    passed=$((passed + ${sum#* } - ${sum% *}))
   done
   echo "$passed passed, $failed failed"
   [ "$failed" = 0 ]
@@ -122,19 +125,25 @@ csharp_tests() {
     managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll" ${3:+"$3"}
 }
 
-# unity_tests RUNTIME: the package's own tests, which Unity's test framework runs in the editor.
+# unity_tests RUNTIME: the package's own tests, which Unity's test framework runs in the editor. One that ends badly after its sum counts as a failure more.
 unity_tests() {
-  local tests passed=0 failed=0 log sum
+  local tests passed=0 failed=0 log sum code
   cp -u "$NUNIT" "$CSHARP/"
   for tests in Collektive.Unity.Tests Collektive.Unity.PublicApi.Tests Collektive.Unity.Editor.Tests; do
-    log=$(COLLEKTIVE_ROOT="$ROOT" managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/$tests.dll") || true
+    code=0
+    log=$(COLLEKTIVE_ROOT="$ROOT" managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/$tests.dll") || code=$?
     printf '%s\n' "$log"
-    sum=$(printf '%s\n' "$log" | grep -xE '[0-9]+ passed, [0-9]+ failed') || sum="0 passed, 1 failed"
+    sum=$(printf '%s\n' "$log" | grep -xE '[0-9]+ passed, [0-9]+ failed' | tail -n 1) || sum="0 passed, 0 failed"
     sum=${sum% failed}
     passed=$((passed + ${sum%% passed*}))
     failed=$((failed + ${sum##*, }))
+    if [ "$code" != 0 ] && [ "${sum##*, }" = 0 ]; then
+      echo "$tests ended with code $code"
+      failed=$((failed + 1))
+    fi
   done
   echo "$passed passed, $failed failed"
+  [ "$failed" = 0 ]
 }
 
 test_assets() {
@@ -151,7 +160,8 @@ wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
 cmd_test() {
   local known="shim jvm csharp assets roundtrip page acceptance bench faults exits" name jdk
   case ${1:-} in
-    --faults | --exits | --sanitize) test_at_length "$@"; return ;;
+    --faults) test_at_length --faults "${*:2}"; return ;;
+    --exits | --sanitize) [ $# = 1 ] || fail "test: $1 takes no arguments"; test_at_length "$1"; return ;;
   esac
   SUITES=("$@")
   for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
@@ -195,7 +205,7 @@ test_at_length() {
   build_jvm
   build_csharp
   build_faults "$BUILD/faults.json" "mono-sgen mono-boehm" "$(test_jdks | xargs)"
-  if [ "$1" = --faults ]; then faults "$BUILD/faults.json" "${@:2}"; else exits "$BUILD/faults.json" 200; fi
+  if [ "$1" = --faults ]; then faults "$BUILD/faults.json" "$2"; else exits "$BUILD/faults.json" 200; fi
 }
 
 test_page() {

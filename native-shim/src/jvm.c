@@ -283,6 +283,7 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     for (int32_t i = 0; i < jvm.launch.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.launch.options[i], NULL};
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
     signals_save_host();
+    prim_semaphore_init(&jvm.frozen, 0);
     atomic_store(&jvm.began, true);
     jint result = create_vm(&jvm.vm, (void **)env, &arguments);
     free(options);
@@ -421,10 +422,9 @@ static void freeze_main(void) {
     if ((*jvm.vm)->AttachCurrentThreadAsDaemon(jvm.vm, (void **)&env, &arguments) == JNI_OK) jvm.halt(0);
 }
 
-/* Halts a JVM whose engine thread does not come back. */
+/* Halts a JVM whose engine thread does not come back. One that is still being made can be reached by nobody. */
 static bool freeze(void) {
-    if (jvm.halt == NULL || atomic_load(&jvm.parked)) return false;
-    prim_semaphore_init(&jvm.frozen, 0);
+    if (jvm.halt == NULL || !atomic_load(&jvm.created) || atomic_load(&jvm.parked)) return false;
     atomic_store(&jvm.stopping, true);
     return prim_thread_start(freeze_main, "collektive-end", FREEZE_STACK_BYTES) &&
            prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI);
@@ -437,7 +437,6 @@ int32_t clk_jvm_stop(int32_t limit_ms) {
     if (result != CLK_OK) return result;
     if (engine_state() == CLK_STATE_RUNNING) {
         jvm.stop_limit_ms = limit_ms;
-        prim_semaphore_init(&jvm.frozen, 0);
         atomic_store(&jvm.stopping, true);
         result = engine_run(work_stop, deadline);
         if (engine_state() == CLK_STATE_STOPPED) {

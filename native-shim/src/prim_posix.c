@@ -177,6 +177,7 @@ static bool read_all(int descriptor, int64_t deadline, char *output, size_t outp
         if (used + 1 == output_size) {
             used = output_size / 2;
             memmove(output, output + output_size - 1 - used, used);
+            output[used] = '\0';
         }
         ssize_t count = read(descriptor, output + used, output_size - 1 - used);
         if (count < 0 && errno == EINTR) continue;

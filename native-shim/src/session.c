@@ -108,8 +108,17 @@ static int32_t enter(int64_t deadline) {
     return running != CLK_OK ? running : result;
 }
 
+/* Four system calls that only ask: less than a microsecond. Java code that runs without these handlers ends the process. */
+static void repair_signals(void) {
+    int32_t repaired = signals_repair();
+    if (repaired == 0) return;
+    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
+    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
+}
+
 /* Runs work that the host should end by the deadline. When even the engine thread does not come back, the JVM is lost. */
 static int32_t run(engine_work *work, int64_t deadline) {
+    repair_signals();
     int32_t result = engine_run(work, deadline + SESSION_GRACE_MS * PRIM_MILLI);
     if (result != CLK_TIMEOUT) return result;
     engine_lose("the engine thread did not answer within the time limit and %d ms more", SESSION_GRACE_MS);
@@ -130,14 +139,6 @@ static void unpin_all(struct host_call *call) {
     }
 }
 
-/* Four system calls that only ask: less than a microsecond. Java code that runs without these handlers ends the process. */
-static void repair_signals(void) {
-    int32_t repaired = signals_repair();
-    if (repaired == 0) return;
-    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
-    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
-}
-
 /* Under the turn. */
 static int32_t call_host(enum host_entry entry, const struct session *session, clk_slot slot, int32_t offset, int32_t length,
                          int64_t deadline, clk_answer *answer) {
@@ -155,7 +156,6 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
         slots_unpin(request);
         return CLK_HANDLE;
     }
-    repair_signals();
     int64_t left_ms = (deadline - prim_now()) / PRIM_MILLI;
     *call = (struct host_call){.entry = entry,
                                .session = session_handle(session),

@@ -2,8 +2,10 @@
 #include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -121,6 +123,9 @@ void signal_handlers_are_repaired(void) {
     catch_faults();
     CHECK_OK(step(session, IMPLICIT_NULL, 1000000, 60000));
     CHECK(stats().signal_repairs == 2);
+    catch_faults();
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK(stats().signal_repairs == 3);
 }
 
 void fork_loses_the_jvm(void) {
@@ -177,6 +182,16 @@ void stop_times_out(void) {
     CHECK(now_ns() - begin < 10000000000);
     CHECK(clk_jvm_state() == CLK_STATE_STOPPED);
     CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 200));
+}
+
+/* The JVM hangs while it is made: it opens a log that nobody reads. */
+void stop_while_the_start_hangs(void) {
+    char pipe[128], log[192];
+    snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());
+    snprintf(log, sizeof log, "-Xlog:gc:file=%s", pipe);
+    CHECK(mkfifo(pipe, 0600) == 0);
+    CHECK_CODE(CLK_TIMEOUT, NULL, start_at(java_home(), host_classes, (const char *const[]){log, NULL}, false, 1000));
+    CHECK_CODE(CLK_JVM_LOST, "did not come up within 1000 ms", clk_jvm_stop(1000));
 }
 
 void stop_after_a_hang(void) {

@@ -65,6 +65,45 @@ class TheCommand(unittest.TestCase):
         self.assertIn("--nonesuch", last_error(result))
 
 
+class TheTestsOfTheProject(Folder):
+    """What ./collektive test makes of suites that end in all ways."""
+
+    def counted(self, script):
+        """Runs shell code among the parts of ./collektive test; returns the last line and all."""
+        head = f'set -euo pipefail; ROOT={ROOT}; for part in lib setup build test; do . "$ROOT/scripts/$part.sh"; done; BUILD={self.folder}; CSHARP={self.folder}\n'
+        result = subprocess.run(["bash", "-c", head + script], capture_output=True, text=True)
+        return (result.stdout.splitlines() or [""])[-1], result.stdout + result.stderr
+
+    def test_a_suite_counts_by_its_sum_and_its_end(self):
+        for body, sum in [("echo 3 passed, 1 failed; return 1", "3 1"), ("echo 3 passed, 0 failed", "3 0"), ("echo 3 passed, 0 failed; return 134", "3 1"),
+                          ("return 1", "0 1"), ("true", "0 1")]:
+            last, whole = self.counted("try() { %s; }\nsuite try try; echo $TOTAL_PASSED $TOTAL_FAILED" % body)
+            self.assertEqual(last, sum, f"{body}: {whole}")
+
+    def test_cases_of_the_shim_without_a_sum_are_a_failure(self):
+        for told, sum in [("100% tests passed, 0 tests failed out of 70", "70 passed, 0 failed"), ("97% tests passed, 2 tests failed out of 70", "68 passed, 2 failed"),
+                          ("No tests were found!!!", "0 passed, 1 failed")]:
+            last, whole = self.counted(f"test_jdks() {{ echo jdk; }}\nctest() {{ echo '{told}'; }}\nshim_cases here || true")
+            self.assertEqual(last, sum, whole)
+
+    def test_a_crash_after_the_sum_of_the_packages_tests_is_a_failure(self):
+        for body, sum in [("echo 5 passed, 0 failed", "15 passed, 0 failed"), ("echo 5 passed, 0 failed; return 134", "15 passed, 3 failed"),
+                          ("echo 4 passed, 1 failed; return 1", "12 passed, 3 failed"), ("return 134", "0 passed, 3 failed")]:
+            last, whole = self.counted("NUNIT=$ROOT/collektive; managed() { %s; }\nunity_tests mono || true" % body)
+            self.assertEqual(last, sum, f"{body}: {whole}")
+
+    def test_a_fault_that_nobody_knows_is_named(self):
+        result = collektive("test", "--faults", "no", "such fault")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'no such fault'", last_error(result))
+
+    def test_arguments_too_many_are_refused(self):
+        for option in ["--exits", "--sanitize"]:
+            result = collektive("test", option, "x")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(option, last_error(result))
+
+
 class TheDemo(Folder):
     """One whole demo, looked at from all sides: it takes a while."""
 
@@ -265,6 +304,12 @@ class AForeignProject(Project):
         self.assertIn("allocated, estimated from samples", result.stdout)
         recorded = subprocess.run([os.path.join(jdk(), "bin/jfr"), "summary", self.path("out", "profile.jfr")], capture_output=True, text=True).stdout
         self.assertRegex(recorded, r"(?m)^ collektive\.Tick +10 ")
+
+    def test_its_profile_is_printed_when_rounds_failed_too(self):
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", 'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
 
     def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")

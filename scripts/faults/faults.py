@@ -145,8 +145,11 @@ def main():
         places = json.load(file)
     with open(os.path.join(HERE, "faults.json")) as file:
         faults = json.load(file)
-    if len(sys.argv) > 2:
-        faults = [fault for fault in faults if sys.argv[2] in fault["fault"]]
+    words = sys.argv[2] if len(sys.argv) > 2 else ""
+    faults = [fault for fault in faults if words in fault["fault"]]
+    if not faults:
+        sys.stderr.write(f"collektive: no fault of faults.json has '{words}' in its name\n")
+        sys.exit(2)
     kinds = [(runtime, jdk) for jdk in places["jdks"] for runtime in places["runtimes"]]
     print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}" for index, (runtime, jdk) in enumerate(kinds)) +
           '. "ok": the process survived, and what is said here came true.\n')
