@@ -16,8 +16,9 @@
 #include "signals.h"
 
 #define OLDEST_JAVA 17
-#define FREEZE_LIMIT_MS 1000
-#define FREEZE_STACK_BYTES ((size_t)1024 * 1024)
+#define FREEZE_LIMIT_MS 10000 /* a collection of a large heap on a busy machine may have to end first */
+#define KEEPER_STACK_BYTES ((size_t)1024 * 1024)
+#define KEEPER_LIMIT_MS 1000
 
 typedef jint(JNICALL create_function)(JavaVM **, void **, void *);
 typedef jint(JNICALL created_function)(JavaVM **, jsize, jsize *);
@@ -44,7 +45,11 @@ static struct {
     atomic_bool stopping;  /* its end is wanted */
     atomic_bool parked;    /* it ended itself: a thread of its own stays in a hook */
     halt_function *halt;   /* NULL when this JVM has none */
-    prim_semaphore frozen; /* posted when it was halted */
+    atomic_bool keeper;    /* the keeper is there */
+    atomic_bool halting;   /* and is to halt the JVM */
+    prim_semaphore wanted; /* posted to wake it */
+    prim_semaphore left;   /* posted when it left the JVM */
+    prim_semaphore frozen; /* posted when it halted the JVM */
     _Atomic(char *) description;
 } jvm;
 
@@ -283,6 +288,8 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     for (int32_t i = 0; i < jvm.launch.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.launch.options[i], NULL};
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
     signals_save_host();
+    prim_semaphore_init(&jvm.wanted, 0);
+    prim_semaphore_init(&jvm.left, 0);
     prim_semaphore_init(&jvm.frozen, 0);
     atomic_store(&jvm.began, true);
     jint result = create_vm(&jvm.vm, (void **)env, &arguments);
@@ -299,12 +306,29 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     return CLK_OK;
 }
 
+/* The keeper waits for the end of a JVM that can no longer be ended in order. It is attached while that is still possible: a full heap has no
+ * room for one thread more. */
+static void keeper_main(void) {
+    JNIEnv *env;
+    JavaVMAttachArgs arguments = {.version = JNI_VERSION_10, .name = (char[]){"collektive-keeper"}};
+    if ((*jvm.vm)->AttachCurrentThreadAsDaemon(jvm.vm, (void **)&env, &arguments) != JNI_OK) return;
+    prim_semaphore_wait(&jvm.wanted);
+    if (atomic_load(&jvm.halting)) jvm.halt(0);
+    (*jvm.vm)->DetachCurrentThread(jvm.vm);
+    prim_semaphore_post(&jvm.left);
+}
+
+static void start_keeper(void) {
+    if (jvm.halt != NULL) atomic_store(&jvm.keeper, prim_thread_start(keeper_main, "collektive-keep", KEEPER_STACK_BYTES));
+}
+
 static int32_t work_start(void) {
     create_function *create_vm;
     JNIEnv *env;
     int32_t result = load(&create_vm);
     if (result == CLK_OK) result = create(create_vm, &env);
     if (result != CLK_OK) return result;
+    start_keeper();
     if (!host_refuse_exit(env)) {
         log_format(CLK_LOG_WARNING, "this JVM cannot refuse System.exit: a program that calls it will cost the JVM");
     }
@@ -403,6 +427,13 @@ int32_t clk_jvm_description(char *buffer, int32_t capacity) {
 
 /* ---- Stop ------------------------------------------------------------------------------------------------------------ */
 
+/* The end of the JVM would wait 300 ms for a thread outside of Java. */
+static void dismiss_keeper(void) {
+    if (!atomic_exchange(&jvm.keeper, false)) return;
+    prim_semaphore_post(&jvm.wanted);
+    prim_semaphore_wait_until(&jvm.left, prim_now() + KEEPER_LIMIT_MS * PRIM_MILLI);
+}
+
 /* DestroyJavaVM waits for threads of programs that are no daemons. When such do not end, the hooks that it would call are called
  * (one saves flight recordings), and the JVM is frozen: at its exit all threads stand at a safepoint, and hook_exit keeps them there. The
  * process can then end without Java threads that run into signal handlers that are gone. */
@@ -411,23 +442,20 @@ static int32_t work_stop(void) {
     if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
     session_forget_all();
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
+    dismiss_keeper();
     (*jvm.vm)->DestroyJavaVM(jvm.vm);
     engine_set_state(CLK_STATE_STOPPED);
     return CLK_OK;
-}
-
-static void freeze_main(void) {
-    JNIEnv *env;
-    JavaVMAttachArgs arguments = {.version = JNI_VERSION_10, .name = (char[]){"collektive-end"}};
-    if ((*jvm.vm)->AttachCurrentThreadAsDaemon(jvm.vm, (void **)&env, &arguments) == JNI_OK) jvm.halt(0);
 }
 
 /* Halts a JVM whose engine thread does not come back. One that is still being made can be reached by nobody. */
 static bool freeze(void) {
     if (jvm.halt == NULL || !atomic_load(&jvm.created) || atomic_load(&jvm.parked)) return false;
     atomic_store(&jvm.stopping, true);
-    return prim_thread_start(freeze_main, "collektive-end", FREEZE_STACK_BYTES) &&
-           prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI);
+    atomic_store(&jvm.halting, true);
+    if (!atomic_load(&jvm.keeper)) start_keeper();
+    prim_semaphore_post(&jvm.wanted);
+    return prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI);
 }
 
 int32_t clk_jvm_stop(int32_t limit_ms) {

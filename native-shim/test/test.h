@@ -36,7 +36,7 @@ void start_plain(void);
 /* Commands of the test host. */
 enum command {
     EMPTY, ECHO, GROW, THROW, FAIL, FAIL_SILENTLY, EXIT, HALT, SLEEP, OVERFLOW, EXHAUST, LOG, HANG, CRASH, OUTSIDE, GROW_FOREIGN,
-    STAY, EXIT_ELSEWHERE, IMPLICIT_NULL, GROW_TOO_LARGE, HANG_AT_STOP, WRITE_AT_EXIT
+    STAY, EXIT_ELSEWHERE, IMPLICIT_NULL, GROW_TOO_LARGE, HANG_AT_STOP, WRITE_AT_EXIT, THRASH
 };
 
 /* A request slot of this process, and the calls with it. */
@@ -66,7 +66,7 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
     X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
-    X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) \
+    X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
     X(logs_are_bounded) X(signal_handlers_are_repaired) \
     X(implicit_null_checks_and_host_faults)
 

@@ -201,3 +201,13 @@ void stop_after_a_hang(void) {
     CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
     CHECK(now_ns() - begin < 900000000); /* halted, not given up */
 }
+
+/* Not even a thread can be attached then, and the collector never rests. */
+void stop_while_the_heap_is_full(void) {
+    start_with_session();
+    CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, THRASH, 0, 5000));
+    CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
+    clock_t begin = clock();
+    nanosleep(&(struct timespec){.tv_nsec = 500000000}, NULL);
+    CHECK(clock() - begin < CLOCKS_PER_SEC / 10); /* nothing runs any more */
+}

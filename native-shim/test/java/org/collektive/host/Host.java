@@ -32,6 +32,7 @@ final class Host {
     private static final int GROW_TOO_LARGE = 19;
     private static final int HANG_AT_STOP = 20;
     private static final int WRITE_AT_EXIT = 21;
+    private static final int THRASH = 22;
 
     private static boolean stays;
     private static volatile boolean hangs;
@@ -125,6 +126,14 @@ final class Host {
             case WRITE_AT_EXIT:
                 Runtime.getRuntime().addShutdownHook(new Thread(() -> Shim.log(1, "the exit hook ran".getBytes(UTF_8))));
                 return 0;
+            case THRASH:
+                for (;;) {
+                    try {
+                        for (int size = 1 << 20; size > 8; size /= 2) fill(size);
+                    } catch (OutOfMemoryError elsewhere) {
+                        // where the JVM needs memory of its own
+                    }
+                }
             case STAY:
                 stays = true;
                 new Thread(() -> {
