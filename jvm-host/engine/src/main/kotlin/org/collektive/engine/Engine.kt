@@ -182,8 +182,12 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun runOnPool(task: RoundPool.Task, count: Int, deadline: Long) {
         val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
         if (pool.run(task, count, range, deadline)) return
-        val dump = pool.dump()
-        pool.abandon()
+        // Even when there is no memory for the dump.
+        val dump = try {
+            pool.dump()
+        } finally {
+            pool.abandon()
+        }
         throw RoundsNotFinished(clock.tick, dump)
     }
 

@@ -15,7 +15,9 @@ public object Host {
 
     /** What stands behind the host: the native library, unless another is set before [start]. */
     public var shim: ShimCalls = NativeShim
-    private val sessions = HashMap<Long, Session>()
+
+    // Found and removed without allocating, or loading a class: that must work with the heap exhausted.
+    private val sessions = ArrayList<OpenSession>()
     private val control by lazy { Control(shim) }
     private var log: HostLog? = null
 
@@ -39,12 +41,12 @@ public object Host {
         limitMillis: Int,
     ): Long = answering {
         requireLimit(limitMillis)
-        if (session in sessions) throw HostException(HostError.ARGUMENT, "session $session is open already")
+        if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
         log?.install()
         val frame = FrameVerifier.frame(request, offset, length)
         val opened = Session.open(frame, shim)
         try {
-            opened.answerOpen(slot, answer).also { sessions[session] = opened }
+            opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
         } catch (e: Throwable) {
             opened.close()
             throw e
@@ -64,8 +66,9 @@ public object Host {
     ): Long = answering {
         val begin = System.nanoTime()
         requireLimit(limitMillis)
-        val running = sessions[session] ?: throw HostException(HostError.HANDLE, "there is no session $session")
-        running.step(FrameVerifier.frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
+        val index = indexOf(session)
+        if (index < 0) throw HostException(HostError.HANDLE, "there is no session $session")
+        sessions[index].session.step(FrameVerifier.frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
     }
 
     /** Answers the `ControlRequest` in [request]; it belongs to no session, so [session] is 0. */
@@ -87,7 +90,8 @@ public object Host {
     /** Closes [session]; an unknown one is ignored. */
     @JvmStatic
     public fun close(session: Long) {
-        sessions.remove(session)?.close()
+        val index = indexOf(session)
+        if (index >= 0) sessions.removeAt(index).session.close()
         log?.tellCounts()
     }
 
@@ -98,7 +102,7 @@ public object Host {
      */
     @JvmStatic
     public fun stop(limitMillis: Int): Boolean {
-        sessions.values.forEach(Session::close)
+        sessions.forEach { it.session.close() }
         sessions.clear()
         val deadline = System.nanoTime() + millis(limitMillis)
         control.close(limitMillis)
@@ -111,6 +115,13 @@ public object Host {
         }
         return left.none(Thread::isAlive)
     }
+
+    private fun indexOf(id: Long): Int {
+        for (index in sessions.indices) if (sessions[index].id == id) return index
+        return -1
+    }
+
+    private class OpenSession(val id: Long, val session: Session)
 
     private fun millis(limit: Int) = TimeUnit.MILLISECONDS.toNanos(limit.toLong())
 

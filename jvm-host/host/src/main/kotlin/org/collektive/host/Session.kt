@@ -46,6 +46,7 @@ internal class Session private constructor(
     private val engine = Engine(settings, AggregateRuntimes(ViewRule))
     private val tickEvent = TickEvent()
     private val networkEvent = NetworkStatsEvent()
+    private val endEvent = SessionEndEvent() // made here, as there may be no memory at the end
     private var lastEnd = 0L
     private var failure: String? = null
 
@@ -104,16 +105,16 @@ internal class Session private constructor(
         } catch (e: RoundsNotFinished) {
             shim.log(LogLevel.ERROR, "${e.message}; the threads:")
             e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
-            throw fail("${e.message}; the log shows what each thread was doing. Mend the program, then open a new session", e)
+            throw fail(e) { "${e.message}; the log shows what each thread was doing. Mend the program, then open a new session" }
         } catch (e: Throwable) {
-            throw fail("tick ${frame.tick.number} failed inside the engine: $e", e)
+            throw fail(e) { "tick ${frame.tick.number} failed inside the engine: $e" }
         }
         if (frame.globals != 0) globals?.accept()
         val writeBegin = System.nanoTime()
         val place = try {
             write(result, slot, answer, begin)
         } catch (e: Throwable) {
-            throw fail("the answer of tick ${frame.tick.number} could not be written: $e", e)
+            throw fail(e) { "the answer of tick ${frame.tick.number} could not be written: $e" }
         }
         val end = System.nanoTime()
         record(result, request.remaining(), place.toInt(), if (lastEnd == 0L) 0 else begin - lastEnd, end - writeBegin)
@@ -124,10 +125,9 @@ internal class Session private constructor(
 
     override fun close() {
         engine.close()
-        val event = SessionEndEvent()
-        event.ticks = engine.lastTick
-        event.failure = failure
-        event.commit()
+        endEvent.ticks = engine.lastTick
+        endEvent.failure = failure
+        endEvent.commit()
         recorder?.use {
             try {
                 it.end()
@@ -142,7 +142,7 @@ internal class Session private constructor(
         try {
             recorder.write()
         } catch (e: IOException) {
-            throw fail(recorder.failure(e), e)
+            throw fail(e) { recorder.failure(e) }
         }
     }
 
@@ -163,9 +163,12 @@ internal class Session private constructor(
         event.commit()
     }
 
-    private fun fail(why: String, cause: Throwable): HostException {
-        failure = why
+    /** The session has failed before there are words: with the heap exhausted they cannot be made. */
+    private inline fun fail(cause: Throwable, words: () -> String): HostException {
+        failure = "memory was short in an earlier tick"
         engine.close()
+        val why = words()
+        failure = why
         return HostException(HostError.SESSION_FAILED, why, cause)
     }
 
