@@ -13,7 +13,7 @@
  * Threads
  *   All functions may be called from any thread. Calls that need the engine (start, open, step, close, control, stop) are served
  *   one at a time; a second caller waits its turn within its own limit, and gets CLK_TIMEOUT with nothing done when that
- *   passes. A call whose host does not come back within its limit and 2 s more loses the JVM: CLK_JVM_LOST. In a forked
+ *   passes. A call whose host does not come back within its limit and 10 s more loses the JVM: CLK_JVM_LOST. In a forked
  *   child process the JVM counts as lost.
  *
  * Errors

@@ -4,8 +4,9 @@
 
 #include <stdint.h>
 
-/* The time that the host gets to answer after the caller's limit, before the JVM counts as lost. */
-#define SESSION_GRACE_MS 2000
+/* The time that the host gets to answer after the caller's limit, before the JVM counts as lost. On a busy machine it may be long until a full
+ * heap gives room for the words of the answer. */
+#define SESSION_GRACE_MS 10000
 
 /* Forgets all sessions and gives their slots back: the JVM is gone. Under the turn. */
 void session_forget_all(void);

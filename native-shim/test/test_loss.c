@@ -37,7 +37,7 @@ void hang_loses_the_jvm(void) {
     start_with_session();
     int64_t begin = now_ns();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, HANG, 0, 300));
-    CHECK(now_ns() - begin >= 2300000000 && now_ns() - begin < 100000000000);
+    CHECK(now_ns() - begin >= 10300000000 && now_ns() - begin < 100000000000);
     CHECK(log_mentions("the JVM is lost"));
     check_all_lost("did not answer");
 }
@@ -63,7 +63,7 @@ void waiting_callers_learn_of_the_loss(void) {
         nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
     }
     for (int i = 0; i < 4; i++) CHECK(pthread_join(threads[i], NULL) == 0 && results[i] == CLK_JVM_LOST);
-    CHECK(now_ns() - begin < 20000000000);
+    CHECK(now_ns() - begin < 40000000000);
 }
 
 /* ---- Faults: the host process has handlers of its own ---------------------------------------------------------------- */
