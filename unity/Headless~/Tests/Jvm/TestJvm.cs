@@ -7,8 +7,14 @@ namespace Collektive.Headless.Tests
     /// <summary>The one JVM of the tests' process.</summary>
     internal static class TestJvm
     {
-        /// It outlives plays, as in an editor; a player that quits stops it.
-        static TestJvm() => UnityEngine.Headless.Loop.IsEditor = true;
+        private const int StopLimitMs = 5000;
+
+        /// It outlives plays, as in an editor, but not the process: its threads would run on without the runtime's signal handlers.
+        static TestJvm()
+        {
+            UnityEngine.Headless.Loop.IsEditor = true;
+            AppDomain.CurrentDomain.ProcessExit += (sender, arguments) => Jvm.Stop(StopLimitMs);
+        }
 
         internal static string Home => Variable("COLLEKTIVE_TEST_JAVA_HOME");
 
