@@ -13,6 +13,10 @@ namespace Collektive.Unity
     [DisallowMultipleComponent]
     public sealed class Node : MonoBehaviour
     {
+        internal PartList<Sensor> Sensors;
+        internal PartList<Actuator> Actuators;
+        internal PartList<NeighbourhoodRule> Rules;
+
         private static readonly List<Node> EnabledNodes = new List<Node>();
 
         /// <summary>Whether it was said already that there is no manager: once is enough for a thousand nodes.</summary>
@@ -38,9 +42,6 @@ namespace Collektive.Unity
         [Tooltip("When this node runs, if it has its own timing.")]
         private RoundTiming timing = new RoundTiming();
 
-        private readonly List<Sensor> sensors = new List<Sensor>();
-        private readonly List<Actuator> actuators = new List<Actuator>();
-        private readonly List<NeighbourhoodRule> rules = new List<NeighbourhoodRule>();
         private RandomStream random;
         private int joinedId = -1;
         private ActuatorBuffer answers;
@@ -115,12 +116,6 @@ namespace Collektive.Unity
         internal static List<Node> All => EnabledNodes;
 
         internal Transform Body { get; private set; }
-
-        internal List<Sensor> Sensors => sensors;
-
-        internal List<Actuator> Actuators => actuators;
-
-        internal List<NeighbourhoodRule> Rules => rules;
 
         private bool HasAnswer
         {

@@ -535,7 +535,7 @@ namespace Collektive.Unity
 
         private void UpdateRules(Node node)
         {
-            var rules = node.Rules;
+            ref var rules = ref node.Rules;
             var i = 0;
             for (var left = rules.Count; left > 0 && i < rules.Count; left--)
             {
@@ -549,17 +549,13 @@ namespace Collektive.Unity
                 {
                     Report(node, rule, error);
                 }
-                if (StillAt(rules, i, rule)) i++;
+                if (rules.Has(i, rule)) i++;
             }
             if (Links.Count > MaxLinks)
             {
                 Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name + "': use smaller neighbourhoods, or place the nodes apart", node);
             }
         }
-
-        /// <summary>Whether a part is where it was before its call: it may have been disabled or destroyed, or have come back at the end.</summary>
-        private static bool StillAt<T>(List<T> parts, int place, T part)
-            where T : NodePart => place < parts.Count && ReferenceEquals(parts[place], part);
 
         private void SenseAll()
         {
@@ -590,14 +586,15 @@ namespace Collektive.Unity
 
         private bool Sense(Node node, SensorBuffer buffer, int index)
         {
-            var sensors = node.Sensors;
+            ref var sensors = ref node.Sensors;
+            var type = buffer.DataType;
             var i = 0;
             for (var left = sensors.Count; left > 0 && i < sensors.Count; left--)
             {
                 var sensor = sensors[i];
-                if (sensor.DataType != buffer.DataType)
+                if (!ReferenceEquals(sensor.DataType, type))
                 {
-                    Fail(Mismatch("sensor", sensor.GetType(), node, sensor.DataType, buffer.DataType), sensor);
+                    Fail(Mismatch("sensor", sensor.GetType(), node, sensor.DataType, type), sensor);
                     return false;
                 }
                 try
@@ -610,7 +607,7 @@ namespace Collektive.Unity
                     Report(node, sensor, error);
                     return false;
                 }
-                if (StillAt(sensors, i, sensor)) i++;
+                if (sensors.Has(i, sensor)) i++;
             }
             return true;
         }
@@ -630,10 +627,12 @@ namespace Collektive.Unity
                 roundErrors.Report(id, program, answer.Tick, message, node);
             }
             // Answers and due nodes are both ascending; due nodes without an answer failed.
+            var count = answer.NodeCount;
+            var allAnswered = count == dueIds.Count;
             var place = 0;
-            for (var i = 0; session != null && i < answer.NodeCount; i++)
+            for (var i = 0; session != null && i < count; i++)
             {
-                var id = answer.Node(i);
+                var id = allAnswered ? dueIds.Items[i] : answer.Node(i);
                 while (dueIds.Items[place] != id) place++;
                 // Not so when an actuator made the node leave.
                 if (due[place].Id == id) Act(due[place], answer.Actuators, i);
@@ -643,14 +642,15 @@ namespace Collektive.Unity
         private void Act(Node node, ActuatorBuffer buffer, int index)
         {
             node.Answered(buffer, index, tickInProgress, session.Time, settings.deltaTime);
-            var actuators = node.Actuators;
+            ref var actuators = ref node.Actuators;
+            var type = buffer.DataType;
             var i = 0;
             for (var left = actuators.Count; left > 0 && i < actuators.Count; left--)
             {
                 var actuator = actuators[i];
-                if (actuator.DataType != buffer.DataType)
+                if (!ReferenceEquals(actuator.DataType, type))
                 {
-                    Fail(Mismatch("actuator", actuator.GetType(), node, actuator.DataType, buffer.DataType), actuator);
+                    Fail(Mismatch("actuator", actuator.GetType(), node, actuator.DataType, type), actuator);
                     return;
                 }
                 try
@@ -662,7 +662,7 @@ namespace Collektive.Unity
                 {
                     Report(node, actuator, error);
                 }
-                if (StillAt(actuators, i, actuator)) i++;
+                if (actuators.Has(i, actuator)) i++;
             }
         }
 

@@ -104,6 +104,9 @@ namespace Collektive.Headless.Tests.Components
             grid.Find(Vector3.zero, 1);
             grid.Find(Vector3.zero, 4);
             Assert.That(grid.MeanRadius, Is.EqualTo(2));
+            Assert.That(Found(Vector3.zero, float.NaN), Is.Empty);
+            Assert.That(Found(Vector3.zero, -4), Is.Empty);
+            Assert.That(grid.MeanRadius, Is.EqualTo(2), "a radius that is none does not count");
         }
 
         /// <summary>Every node searches once; looking at all nodes takes the same grid, with cells so small that it does so.</summary>

@@ -122,6 +122,64 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_listed_node_that_never_was_active_is_passed_over()
+        {
+            var line = MakeLine(0, 100);
+            var prefab = new GameObject("Prefab");
+            prefab.SetActive(false);
+            var rule = line[0].Node.gameObject.AddComponent<ExplicitNeighbourhood>();
+            rule.Neighbours.AddRange(new[] { prefab.AddComponent<Node>(), line[1].Node });
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(float.NaN, 0, "length")]
+        [TestCase(-1, 0, "length")]
+        [TestCase(float.PositiveInfinity, 0, "length")]
+        [TestCase(1, float.NaN, "attenuation")]
+        [TestCase(1, -1, "attenuation")]
+        public void A_rule_that_names_impossible_links_fails_and_the_links_stay(float length, float attenuation, string what)
+        {
+            var line = MakeLine(0, 1, 2);
+            var rule = line[0].Node.gameObject.AddComponent<Named>();
+            rule.Others.Add(line[1].Node);
+            Play(1);
+            rule.Others.Add(line[2].Node);
+            rule.Length = length;
+            rule.Attenuation = attenuation;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("Named of node 0").And.StringContaining("a link's " + what + " is 0 or greater, and finite"));
+            rule.Length = 1;
+            rule.Attenuation = 0;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 0>2 1>0 2>0"));
+        }
+
+        [Test]
+        public void Neighbours_are_named_when_the_rule_is_asked_and_at_no_other_time()
+        {
+            var line = MakeLine(0, 1);
+            var rule = line[0].Node.gameObject.AddComponent<Named>();
+            Play(1);
+            Assert.That(Assert.Throws<System.InvalidOperationException>(() => rule.Name(line[1].Node)).Message, Is.StringContaining("FindNeighbours"));
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+        }
+
+        [Test]
+        public void A_rule_may_make_the_node_that_it_names()
+        {
+            var line = MakeLine(0);
+            line[0].Node.gameObject.AddComponent<Named>().MakeAt = 100;
+            Play(2);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Links(), Is.EqualTo("0>100 100>0"));
+        }
+
+        [Test]
         public void A_rule_of_the_users_own_asks_the_manager_for_nodes()
         {
             foreach (var node in MakeLine(0, 1, 2, 3)) node.Node.gameObject.AddComponent<SecondNearest>();
@@ -188,6 +246,28 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.CopyLinks(links);
             links.Sort((a, b) => a.From != b.From ? a.From.CompareTo(b.From) : a.To.CompareTo(b.To));
             return string.Join(" ", links.ConvertAll(link => link.From + ">" + link.To));
+        }
+
+        /// <summary>Names those that it is told to.</summary>
+        public sealed class Named : NeighbourhoodRule
+        {
+            public float Length { get; set; } = 1;
+
+            public float Attenuation { get; set; }
+
+            /// <summary>Id of a node to make when it is asked.</summary>
+            public int MakeAt { get; set; } = -1;
+
+            public List<Node> Others { get; } = new List<Node>();
+
+            public void Name(Node other) => Connect(other);
+
+            protected override void FindNeighbours(SimulationManager manager)
+            {
+                if (MakeAt >= 0) Others.Add(MakeNode(1, new Vector3(1, 0, 0), MakeAt).Node);
+                MakeAt = -1;
+                foreach (var other in Others) Connect(other, Length, Attenuation);
+            }
         }
 
         public sealed class SecondNearest : NeighbourhoodRule

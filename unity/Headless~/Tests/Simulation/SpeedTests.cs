@@ -40,7 +40,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         /// <summary>
         /// 10,000 nodes circle on a plane, each at 2 m/s, about 12 within 2 m of each. Counted is the processor time of the main thread, rounds on the JVM's
-        /// threads not: it hardly depends on what else the machine does. The target is 15 ms; a busy machine may take twice as long.
+        /// threads not; of several windows the best, since other processes take a share of the caches.
         /// </summary>
         [Test]
         public void Ten_thousand_nodes_sense_and_act_within_15_ms_of_processor_time()
@@ -59,18 +59,19 @@ namespace Collektive.Headless.Tests.Simulation
                 node.SetActive(true);
             }
             Play(10);
-            var times = new List<double>();
-            for (var i = 0; i < 40; i++)
+            const int windows = 6;
+            const int ticks = 10;
+            var best = double.MaxValue;
+            for (var window = 0; window < windows; window++)
             {
                 var start = ThreadMilliseconds();
-                Manager.Step();
-                times.Add(ThreadMilliseconds() - start);
+                for (var i = 0; i < ticks; i++) Manager.Step();
+                best = Math.Min(best, (ThreadMilliseconds() - start) / ticks);
             }
-            times.Sort();
-            Console.WriteLine(
-                "  10,000 nodes, " + Manager.LinkCount + " links: " + times[20].ToString("0.0") + " ms of processor time a tick (median), " + times[0].ToString("0.0") + " ms (least)");
+            Console.WriteLine("  10,000 nodes, " + Manager.LinkCount + " links: " + best.ToString("0.0") + " ms of processor time a tick");
             Assert.That(Errors, Is.Empty);
-            Assert.That(times[20], Is.LessThan(2 * 15));
+            Assert.That(Manager.LinkCount, Is.InRange(100000, 140000));
+            Assert.That(best, Is.LessThan(15));
         }
 
         /// <summary>Processor time of this thread.</summary>
@@ -185,12 +186,13 @@ namespace Collektive.Headless.Tests.Simulation
             protected override Vector3 Read(ActuatorDataValue data) => home + new Vector3(SimulationManager.Current.Tick % 2 == 0 ? 0.2f : -0.2f, 0, 0);
         }
 
+        /// <summary>Goes around the middle of the plane.</summary>
         public sealed class Orbit : MoveActuator<ActuatorDataValue>
         {
             protected override Vector3 Read(ActuatorDataValue data)
             {
                 var place = Node.transform.position;
-                return new Vector3(place.z, 0, 100 - place.x);
+                return new Vector3(place.x + (place.z - 50), 0, place.z - (place.x - 50));
             }
         }
 

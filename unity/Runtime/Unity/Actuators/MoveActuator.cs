@@ -70,6 +70,10 @@ namespace Collektive.Unity
             body.linearVelocity = velocity;
         }
 
-        private Vector3 Velocity(Vector3 way) => Vector3.ClampMagnitude(way / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed);
+        private Vector3 Velocity(Vector3 way)
+        {
+            var length = way.magnitude;
+            return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed / length) * way : way;
+        }
     }
 }

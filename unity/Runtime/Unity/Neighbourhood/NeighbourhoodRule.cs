@@ -9,8 +9,11 @@ namespace Collektive.Unity
     /// </summary>
     public abstract class NeighbourhoodRule : NodePart
     {
-        /// <summary>By node id: 1 + place among the wanted, 0 for all others. Scratch of one update; main thread only.</summary>
+        // Scratch of one update, of the rule that is asked; a rule at a time, on the main thread. By node id: 1 + place among the wanted, 0 for all others.
         private static int[] places = Array.Empty<int>();
+        private static Neighbour[] wanted = new Neighbour[64];
+        private static int wantedCount;
+        private static NeighbourhoodRule asked;
 
         [SerializeField]
         [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
@@ -21,9 +24,9 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        private Neighbour[] wanted = Array.Empty<Neighbour>();
+        // What is looked at in each tick, and place for place what is needed when a link changes.
         private Neighbour[] held = Array.Empty<Neighbour>();
-        private int wantedCount;
+        private HeldLinks[] links = Array.Empty<HeldLinks>();
         private int heldCount;
         private int drops;
         private bool isAttached;
@@ -33,10 +36,13 @@ namespace Collektive.Unity
             internal int Id;
             internal float Length;
             internal float Attenuation;
+        }
+
+        private struct HeldLinks
+        {
             internal LinkHandle Out;
             internal LinkHandle In;
             internal bool BothWays;
-            internal bool IsHeld;
         }
 
         /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
@@ -72,75 +78,67 @@ namespace Collektive.Unity
         internal void UpdateLinks(SimulationManager manager)
         {
             if (places.Length < manager.IdCapacity) Array.Resize(ref places, manager.IdCapacity);
+            asked = this;
             try
             {
                 FindNeighbours(manager);
+                // Not when the rule or its node left in the rule's own call, and the links with it.
+                if (isAttached && Node.Id >= 0) TakeWanted(manager.Links);
             }
-            catch
+            finally
             {
-                // The links stay as they were.
-                ForgetWanted();
-                throw;
+                // After an exception the links stay as they were.
+                for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
+                wantedCount = 0;
+                asked = null;
             }
-            if (!isAttached || Node.Id < 0)
-            {
-                // The rule or its node left in the rule's own call, and the links with it.
-                ForgetWanted();
-                return;
-            }
-            var links = manager.Links;
-            var dropped = links.Drops != drops;
-            drops = links.Drops;
-            var now = wanted;
-            var before = held;
-            for (var h = 0; h < heldCount; h++)
-            {
-                ref var old = ref before[h];
-                var place = places[old.Id];
-                if (place == 0) Release(links, old);
-                // Most links of most ticks go this way: nothing to look up, nothing to send.
-                else if (!dropped && IsSame(old, now[place - 1])) now[place - 1] = old;
-                else if (!Keep(links, old, ref now[place - 1])) Release(links, old);
-            }
-            for (var w = 0; w < wantedCount; w++)
-            {
-                places[now[w].Id] = 0;
-                if (!now[w].IsHeld) Hold(links, ref now[w]);
-            }
-            held = now;
-            heldCount = wantedCount;
-            wanted = before;
-            wantedCount = 0;
         }
 
-        private void ForgetWanted()
+        internal void ReleaseAll(LinkTable table)
         {
-            for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
-            wantedCount = 0;
-        }
-
-        internal void ReleaseAll(LinkTable links)
-        {
-            for (var i = 0; i < heldCount; i++) Release(links, held[i]);
+            for (var i = 0; i < heldCount; i++) Release(table, links[i]);
             heldCount = 0;
         }
 
         /// <summary>Names this node's neighbours by <see cref="Connect(Node)"/>. Called once before each tick; must not allocate.</summary>
         protected abstract void FindNeighbours(SimulationManager manager);
 
-        /// <summary>Names a neighbour; the link gets the distance of the two nodes as its length, and no attenuation.</summary>
+        /// <summary>
+        /// Names a neighbour; the link gets the distance of the two nodes as its length, and no attenuation. A node that takes no part in the
+        /// simulation, the node itself, and a node named before are passed over.
+        /// </summary>
+        /// <exception cref="InvalidOperationException">It was not called from <see cref="FindNeighbours"/>.</exception>
         protected void Connect(Node other)
         {
-            Connect(other, Vector3.Distance(Node.Body.position, other.Body.position), 0);
+            // One that never was active has no place yet.
+            if (other.Id >= 0) Connect(other, Vector3.Distance(Node.Body.position, other.Body.position), 0);
         }
 
         /// <summary>
         /// Names a neighbour with the link's length in metres and attenuation (0 = clear). A node that takes no part in the simulation, the
         /// node itself, and a node named before are passed over.
         /// </summary>
+        /// <exception cref="InvalidOperationException">It was not called from <see cref="FindNeighbours"/>.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or no number.</exception>
         protected void Connect(Node other, float length, float attenuation)
         {
+            if (!ReferenceEquals(asked, this)) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
+            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
+            if (!IsAmount(attenuation)) throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
+            // Nodes may have joined since the update began.
+            if (other.Id >= places.Length) Array.Resize(ref places, SimulationManager.Current.IdCapacity);
             Connect(other.Id, length, attenuation);
+        }
+
+        internal void Connect(int id, float length, float attenuation)
+        {
+            if (id < 0 || id == Node.Id || places[id] != 0) return;
+            EnsureCapacity(wantedCount + 1);
+            ref var neighbour = ref wanted[wantedCount];
+            neighbour.Id = id;
+            neighbour.Length = length;
+            neighbour.Attenuation = attenuation;
+            places[id] = ++wantedCount;
         }
 
         /// <summary>Names all nodes that a search found, without attenuation.</summary>
@@ -161,57 +159,91 @@ namespace Collektive.Unity
                 neighbour.Id = id;
                 neighbour.Length = hit.Distance;
                 neighbour.Attenuation = 0;
-                neighbour.IsHeld = false;
                 marks[id] = ++count;
             }
             wantedCount = count;
         }
 
-        internal void Connect(int id, float length, float attenuation)
-        {
-            if (id < 0 || id == Node.Id || places[id] != 0) return;
-            EnsureCapacity(wantedCount + 1);
-            ref var neighbour = ref wanted[wantedCount];
-            neighbour.Id = id;
-            neighbour.Length = length;
-            neighbour.Attenuation = attenuation;
-            neighbour.IsHeld = false;
-            places[id] = ++wantedCount;
-        }
+        private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
 
-        private void EnsureCapacity(int count)
+        private static void EnsureCapacity(int count)
         {
             if (count > wanted.Length) Array.Resize(ref wanted, Math.Max(count, wanted.Length * 2));
         }
 
-        private void Hold(LinkTable links, ref Neighbour neighbour)
+        private void TakeWanted(LinkTable table)
         {
-            neighbour.Out = links.Hold(Node.Id, neighbour.Id, neighbour.Length, neighbour.Attenuation);
-            neighbour.BothWays = !directed;
-            if (neighbour.BothWays) neighbour.In = links.Hold(neighbour.Id, Node.Id, neighbour.Length, neighbour.Attenuation);
-            neighbour.IsHeld = true;
+            var dropped = table.Drops != drops;
+            drops = table.Drops;
+            var marks = places;
+            var all = wanted;
+            var kept = held;
+            var tolerance = lengthTolerance;
+            var left = heldCount;
+            for (var h = 0; h < left;)
+            {
+                ref var old = ref kept[h];
+                var place = marks[old.Id] - 1;
+                if (place < 0)
+                {
+                    Release(table, links[h]);
+                    old = kept[--left];
+                    links[h] = links[left];
+                    continue;
+                }
+                marks[old.Id] = 0;
+                ref var now = ref all[place];
+                var change = now.Length - old.Length;
+                // Most links of most ticks go this way: nothing to look up, nothing to send.
+                if (dropped || change > tolerance || -change > tolerance || now.Attenuation != old.Attenuation) Change(table, h, now);
+                h++;
+            }
+            heldCount = left;
+            for (var w = 0; w < wantedCount; w++)
+            {
+                ref var mark = ref marks[all[w].Id];
+                if (mark == 0) continue;
+                mark = 0;
+                if (heldCount == held.Length)
+                {
+                    Array.Resize(ref held, Math.Max(16, 2 * heldCount));
+                    Array.Resize(ref links, held.Length);
+                }
+                Hold(table, heldCount++, all[w]);
+            }
+            wantedCount = 0;
         }
 
-        private bool IsSame(in Neighbour before, in Neighbour now) =>
-            Math.Abs(before.Length - now.Length) <= lengthTolerance && before.Attenuation == now.Attenuation;
-
-        /// <returns>False when the link is gone, because the other node left and came back.</returns>
-        private bool Keep(LinkTable links, in Neighbour before, ref Neighbour now)
+        private void Hold(LinkTable table, int place, in Neighbour now)
         {
-            if (IsSame(before, now)) now.Length = before.Length;
-            if (!links.Update(before.Out, now.Length, now.Attenuation)) return false;
-            if (before.BothWays) links.Update(before.In, now.Length, now.Attenuation);
-            now.Out = before.Out;
-            now.In = before.In;
-            now.BothWays = before.BothWays;
-            now.IsHeld = true;
-            return true;
+            held[place] = now;
+            ref var made = ref links[place];
+            made.Out = table.Hold(Node.Id, now.Id, now.Length, now.Attenuation);
+            made.BothWays = !directed;
+            if (made.BothWays) made.In = table.Hold(now.Id, Node.Id, now.Length, now.Attenuation);
         }
 
-        private static void Release(LinkTable links, in Neighbour neighbour)
+        private void Change(LinkTable table, int place, in Neighbour now)
         {
-            links.Release(neighbour.Out);
-            if (neighbour.BothWays) links.Release(neighbour.In);
+            ref var old = ref held[place];
+            if (Math.Abs(now.Length - old.Length) > lengthTolerance) old.Length = now.Length;
+            old.Attenuation = now.Attenuation;
+            ref var made = ref links[place];
+            if (!table.Update(made.Out, old.Length, old.Attenuation))
+            {
+                // The link is gone, because the other node left and came back.
+                Hold(table, place, now);
+            }
+            else if (made.BothWays)
+            {
+                table.Update(made.In, old.Length, old.Attenuation);
+            }
+        }
+
+        private static void Release(LinkTable table, in HeldLinks made)
+        {
+            table.Release(made.Out);
+            if (made.BothWays) table.Release(made.In);
         }
     }
 }

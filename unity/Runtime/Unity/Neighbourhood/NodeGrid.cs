@@ -12,13 +12,17 @@ namespace Collektive.Unity
     internal sealed class NodeGrid
     {
         /// <summary>Beyond this a cell's number would not fit an int.</summary>
-        private const float MaxCells = 1 << 30;
+        private const int MaxCells = 1 << 30;
+
+        /// <summary>More rows than this have no numbers of their own.</summary>
+        private const int MaxRows = 0xFFFF;
 
         /// <summary>Metres. No search needs to be larger, and its square still fits a float.</summary>
         private const float MaxRadius = 1e18f;
 
         // By place in the list of nodes.
         private Entry[] unsorted = new Entry[64];
+        private int[] bucketOf = new int[64];
         private Node[] nodes = new Node[64];
         // By bucket: the nodes of one cell lie side by side.
         private Entry[] entries = new Entry[64];
@@ -28,6 +32,7 @@ namespace Collektive.Unity
         private int hitCount;
         private int mask;
         private float cellSize = 1;
+        private double cellsPerMetre = 1;
         // The cells that hold all nodes: a swarm on the ground has one layer of them.
         private Cell least;
         private Cell most;
@@ -43,8 +48,10 @@ namespace Collektive.Unity
 
         private struct Entry
         {
-            internal Vector3 Position;
-            internal Cell Cell;
+            internal float X;
+            internal float Y;
+            internal float Z;
+            internal int Row;
             internal int Place;
             internal int Id;
         }
@@ -68,6 +75,7 @@ namespace Collektive.Unity
         {
             count = all.Count;
             cellSize = Math.Min(Math.Max(radius, 1e-3f), MaxRadius);
+            cellsPerMetre = 1 / (double)cellSize;
             asked = 0;
             searches = 0;
             least = new Cell { X = int.MaxValue, Y = int.MaxValue, Z = int.MaxValue };
@@ -76,21 +84,24 @@ namespace Collektive.Unity
             Array.Clear(starts, 0, mask + 2);
             for (var i = 0; i < count; i++)
             {
-                nodes[i] = all[i];
+                var node = all[i];
+                var position = node.Body.position;
+                var cell = new Cell { X = CellOf(position.x), Y = CellOf(position.y), Z = CellOf(position.z) };
+                Include(cell);
+                nodes[i] = node;
                 ref var entry = ref unsorted[i];
-                entry.Position = all[i].Body.position;
-                entry.Cell = CellOf(entry.Position);
+                entry.X = position.x;
+                entry.Y = position.y;
+                entry.Z = position.z;
+                entry.Row = Row(cell.Y, cell.Z);
                 entry.Place = i;
-                entry.Id = all[i].Id;
-                Include(entry.Cell);
-                starts[Bucket(entry.Cell) + 1]++;
+                entry.Id = node.Id;
+                var bucket = Bucket(cell.X, entry.Row);
+                bucketOf[i] = bucket;
+                starts[bucket + 1]++;
             }
             for (var bucket = 0; bucket <= mask; bucket++) starts[bucket + 1] += starts[bucket];
-            for (var i = count - 1; i >= 0; i--)
-            {
-                ref var entry = ref unsorted[i];
-                entries[--starts[Bucket(entry.Cell) + 1]] = entry;
-            }
+            for (var i = count - 1; i >= 0; i--) entries[--starts[bucketOf[i] + 1]] = unsorted[i];
             // Each starts[bucket + 1] now holds its bucket's beginning: move them back by one.
             for (var bucket = 0; bucket <= mask; bucket++) starts[bucket] = starts[bucket + 1];
             starts[mask + 1] = count;
@@ -126,6 +137,7 @@ namespace Collektive.Unity
 
         private void Count(float radius)
         {
+            if (!(radius >= 0)) return;
             asked += Math.Min(radius, MaxRadius);
             searches++;
         }
@@ -133,54 +145,59 @@ namespace Collektive.Unity
         private void Collect(Vector3 centre, float radius)
         {
             hitCount = 0;
+            if (!(radius >= 0)) return;
             var squared = radius * radius;
-            var reach = Math.Ceiling(radius / cellSize);
-            var side = 2 * reach + 1;
-            if (!(side * side * side <= count))
+            // A little more, since distances are rounded.
+            var reach = radius * (1 + 1e-6);
+            var from = new Cell
             {
-                Test(0, count, centre, squared, false, default);
+                X = Math.Max(CellOf(centre.x - reach), least.X), Y = Math.Max(CellOf(centre.y - reach), least.Y), Z = Math.Max(CellOf(centre.z - reach), least.Z),
+            };
+            var to = new Cell
+            {
+                X = Math.Min(CellOf(centre.x + reach), most.X), Y = Math.Min(CellOf(centre.y + reach), most.Y), Z = Math.Min(CellOf(centre.z + reach), most.Z),
+            };
+            var length = (long)to.X - from.X + 1;
+            var rows = ((long)to.Y - from.Y + 1) * ((long)to.Z - from.Z + 1);
+            if (length <= 0) return;
+            // As a double: there may be more cells than a long can count.
+            if ((double)length * rows > count || rows > MaxRows)
+            {
+                Test(0, count, centre, squared, false, 0);
                 return;
             }
-            var near = (int)reach;
-            var middle = CellOf(centre);
-            var from = new Cell { X = Math.Max(middle.X - near, least.X), Y = Math.Max(middle.Y - near, least.Y), Z = Math.Max(middle.Z - near, least.Z) };
-            var to = new Cell { X = Math.Min(middle.X + near, most.X), Y = Math.Min(middle.Y + near, most.Y), Z = Math.Min(middle.Z + near, most.Z) };
-            Cell cell;
-            for (cell.X = from.X; cell.X <= to.X; cell.X++)
+            for (var y = from.Y; y <= to.Y; y++)
             {
-                for (cell.Y = from.Y; cell.Y <= to.Y; cell.Y++)
+                for (var z = from.Z; z <= to.Z; z++)
                 {
-                    for (cell.Z = from.Z; cell.Z <= to.Z; cell.Z++)
-                    {
-                        var bucket = Bucket(cell);
-                        Test(starts[bucket], starts[bucket + 1], centre, squared, true, cell);
-                    }
+                    var row = Row(y, z);
+                    var first = Bucket(from.X, row);
+                    var end = first + (int)length;
+                    Test(starts[first], starts[Math.Min(end, mask + 1)], centre, squared, true, row);
+                    if (end > mask + 1) Test(0, starts[end - mask - 1], centre, squared, true, row);
                 }
             }
         }
 
         /// <summary>
-        /// Takes the entries of a range that are near enough, of one cell alone or of all: others may share its bucket. Most of a search is
-        /// spent in this loop; locals are what Mono is fast with.
+        /// Takes the entries of a range that are near enough, of one row alone or of all: others may share its buckets. Most of a search is spent
+        /// in this loop; locals are what Mono is fast with.
         /// </summary>
-        private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofCell, Cell cell)
+        private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row)
         {
             var centreX = centre.x;
             var centreY = centre.y;
             var centreZ = centre.z;
-            var cellX = cell.X;
-            var cellY = cell.Y;
-            var cellZ = cell.Z;
             var all = entries;
             for (var i = start; i < end; i++)
             {
                 ref var entry = ref all[i];
-                var dx = entry.Position.x - centreX;
-                var dy = entry.Position.y - centreY;
-                var dz = entry.Position.z - centreZ;
+                var dx = entry.X - centreX;
+                var dy = entry.Y - centreY;
+                var dz = entry.Z - centreZ;
                 var squared = dx * dx + dy * dy + dz * dz;
                 if (!(squared <= squaredRadius)) continue;
-                if (ofCell && (entry.Cell.X != cellX || entry.Cell.Z != cellZ || entry.Cell.Y != cellY)) continue;
+                if (ofRow && entry.Row != row) continue;
                 if (hitCount == hits.Length) Array.Resize(ref hits, hitCount * 2);
                 ref var hit = ref hits[hitCount++];
                 hit.Place = entry.Place;
@@ -217,14 +234,24 @@ namespace Collektive.Unity
             most.Z = Math.Max(most.Z, cell.Z);
         }
 
-        private Cell CellOf(Vector3 position) => new Cell { X = CellOf(position.x), Y = CellOf(position.y), Z = CellOf(position.z) };
-
-        private int CellOf(float coordinate) => (int)Math.Floor(Math.Min(Math.Max(coordinate / cellSize, -MaxCells), MaxCells));
-
-        private int Bucket(in Cell cell)
+        private int CellOf(double coordinate)
         {
-            var mixed = unchecked((uint)cell.X * 0x8DA6B343u ^ (uint)cell.Y * 0xD8163841u ^ (uint)cell.Z * 0xCB1AB31Fu);
-            return (int)(mixed ^ mixed >> 16) & mask;
+            var cell = coordinate * cellsPerMetre;
+            if (!(cell > -MaxCells)) return -MaxCells;
+            if (cell >= MaxCells) return MaxCells;
+            // Rounded down; Math.Floor is a call on Mono.
+            var towardsZero = (int)cell;
+            return cell < towardsZero ? towardsZero - 1 : towardsZero;
+        }
+
+        /// <summary>The number of a row of cells along x: no two rows of one search have the same.</summary>
+        private static int Row(int y, int z) => y << 16 | z & MaxRows;
+
+        /// <summary>Cells that are neighbours along x have neighbouring buckets, so that a row of them is one range of entries.</summary>
+        private int Bucket(int x, int row)
+        {
+            var mixed = unchecked((uint)row * 0x9E3779B1u);
+            return unchecked(x + (int)(mixed ^ mixed >> 15)) & mask;
         }
 
         private void EnsureCapacity()
@@ -234,6 +261,7 @@ namespace Collektive.Unity
                 var capacity = Math.Max(count, nodes.Length * 2);
                 unsorted = new Entry[capacity];
                 entries = new Entry[capacity];
+                bucketOf = new int[capacity];
                 nodes = new Node[capacity];
             }
             var buckets = starts.Length - 1;
