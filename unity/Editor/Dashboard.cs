@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 using Collektive.Bridge;
@@ -16,6 +17,7 @@ namespace Collektive.Unity.Editor
             Add("Tick", manager.Tick + " (" + Number(manager.SimulatedTime, "0.00") + " s)");
             Add("Nodes", manager.Nodes.Count.ToString(CultureInfo.InvariantCulture));
             Add("Links", manager.LinkCount.ToString(CultureInfo.InvariantCulture));
+            Add("Messages", Messages(manager.Network));
             Add("Errors", manager.ErrorCount.ToString(CultureInfo.InvariantCulture));
             var times = manager.Times;
             Add("Sense", Milliseconds(times.Sense));
@@ -34,6 +36,10 @@ namespace Collektive.Unity.Editor
             if (!manager.isActiveAndEnabled) return "disabled";
             return manager.Paused ? "paused" : "running";
         }
+
+        /// <summary>Of the last tick.</summary>
+        private static string Messages(in NetworkCounts counts) =>
+            FormattableString.Invariant($"{counts.Sent} sent, {counts.Dropped} dropped, {counts.Delayed} delayed, {counts.Expired} expired");
 
         internal static string Milliseconds(double value) => Number(value, "0.00") + " ms";
 

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.IO;
+using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
@@ -130,7 +131,7 @@ namespace Collektive.Headless.Tests.Editor
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
             inspector.OnInspectorGUI();
             Assert.That(inspector.RequiresConstantRepaint(), Is.True);
-            foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
+            foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired", "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
             {
                 Assert.That(Gui.Lines, Has.Some.EqualTo(line));
             }
@@ -141,6 +142,19 @@ namespace Collektive.Headless.Tests.Editor
             inspector.OnInspectorGUI();
             Assert.That(Manager.Tick, Is.EqualTo(2));
             Assert.That(Manager.Paused, Is.True);
+        }
+
+        [Test]
+        public void The_dashboard_counts_what_the_network_does_to_messages()
+        {
+            Configure("double", settings => settings.network = new NetworkModel { loss = 1 });
+            MakeThree();
+            UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label Messages: 3 sent, 3 dropped, 0 delayed, 0 expired"));
+            Configure("double", settings => settings.network = new NetworkModel { delay = 1 });
+            MakeThree();
+            UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label Messages: 3 sent, 0 dropped, 3 delayed, 0 expired"));
         }
 
         [Test]
