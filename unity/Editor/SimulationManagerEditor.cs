@@ -31,6 +31,11 @@ namespace Collektive.Unity.Editor
             if (EditorApplication.isPlaying) DrawDashboard(manager);
         }
 
+        private void OnDisable()
+        {
+            if (jvm != null) DestroyImmediate(jvm);
+        }
+
         /// <summary>The settings of the asset that the manager names, in place.</summary>
         private void DrawJvm(JvmSettingsAsset asset)
         {

@@ -186,13 +186,10 @@ namespace Collektive.Unity
             saidAlone = false;
         }
 
-        private void Awake()
-        {
-            Body = transform;
-        }
-
         private void OnEnable()
         {
+            // Not in Awake, which is not called again when scripts are compiled during play.
+            Body = transform;
             EnabledNodes.Add(this);
             if (SimulationManager.Current != null) SimulationManager.Current.Join(this);
         }

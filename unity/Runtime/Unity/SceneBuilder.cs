@@ -56,7 +56,7 @@ namespace Collektive.Unity
             {
                 // Half a scene would run and mean nothing.
                 Debug.LogException(error, this);
-                SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message);
+                SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message, this);
             }
         }
     }

@@ -315,6 +315,9 @@ namespace Collektive.Unity
             errors.Clear();
             Finished = false;
             Digest = 0;
+            Network = default;
+            Times = default;
+            HostMicros = default;
             accumulated = 0;
             nextId = 0;
             Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
@@ -475,7 +478,7 @@ namespace Collektive.Unity
                 problem = node.StartTimer(settings, session.Time);
                 if (problem != null)
                 {
-                    Fail("node " + node.Id + " ('" + node.name + "'): " + problem);
+                    Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
                     return;
                 }
                 session.Request.AddNode(node.Id, node.Program, ParametersOf(node));

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Drives the node's rigid body towards the program's target.</summary>
-    [AddComponentMenu("Collektive/Samples/Move Actuator")]
+    [AddComponentMenu("Collektive/Samples/Gradient Ascent/Move Actuator")]
     public sealed class MoveActuator : MoveActuator<ActuatorDataValue>
     {
         /// <inheritdoc/>

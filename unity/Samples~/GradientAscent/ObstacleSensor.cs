@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives colliders around the node, obstacles and other bodies alike.</summary>
-    [AddComponentMenu("Collektive/Samples/Obstacle Sensor")]
+    [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
     public sealed class ObstacleSensor : ObstacleSensor<SensorDataDraft>
     {
         /// <summary>Colliders that touch the node's own body at the last tick: closest points within a radius of the centre.</summary>

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives where the node is.</summary>
-    [AddComponentMenu("Collektive/Samples/Position Sensor")]
+    [AddComponentMenu("Collektive/Samples/Gradient Ascent/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorDataDraft>
     {
         /// <inheritdoc/>

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Shows a lamp above each leader.</summary>
-    [AddComponentMenu("Collektive/Samples/LeaderElection/Leader Lamp")]
+    [AddComponentMenu("Collektive/Samples/Leader Election/Leader Lamp")]
     public sealed class LeaderLamp : EnableActuator<ActuatorDataValue>
     {
         /// <inheritdoc/>

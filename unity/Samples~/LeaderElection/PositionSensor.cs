@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Perceives where the node is.</summary>
-    [AddComponentMenu("Collektive/Samples/LeaderElection/Position Sensor")]
+    [AddComponentMenu("Collektive/Samples/Leader Election/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorDataValue>
     {
         /// <inheritdoc/>

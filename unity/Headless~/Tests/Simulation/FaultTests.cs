@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Collektive.Unity;
 using NUnit.Framework;
 using UnityEngine;
@@ -351,6 +352,101 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.Answer, Is.EqualTo(3));
         }
 
+        [Test]
+        public void A_click_on_an_error_selects_the_part_that_failed()
+        {
+            var sensor = MakeNode(1).Node.gameObject.AddComponent<ThrowingSensor>();
+            var actuator = MakeNode(1, Vector3.right).Node.gameObject.AddComponent<ThrowingActuator>();
+            var rule = actuator.gameObject.AddComponent<ThrowingRule>();
+            var selected = new Selection(() => Play(10));
+            Assert.That(selected.By("ThrowingSensor of node"), Is.SameAs(sensor));
+            Assert.That(selected.By("ThrowingActuator of node"), Is.SameAs(actuator));
+            Assert.That(selected.By("ThrowingRule of node"), Is.SameAs(rule));
+            Assert.That(selected.By("ThrowingSensor on 'Probe' failed 10 times"), Is.SameAs(sensor));
+            var foreign = actuator.gameObject.AddComponent<ForeignActuator>();
+            Assert.That(new Selection(() => Play(1)).By("ForeignActuator"), Is.SameAs(foreign));
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignActuator").And.StringContaining("ActuatorDataValue"));
+        }
+
+        [Test]
+        public void A_click_on_a_message_selects_the_node_that_it_is_about()
+        {
+            Configure("trouble");
+            var flat = MakeNode(0, Vector3.one).Node;
+            flat.transform.localScale = Vector3.zero;
+            var bad = MakeNode(13, Vector3.one);
+            var selected = new Selection(() => Play(1));
+            Assert.That(selected.By("scale of zero"), Is.SameAs(flat));
+            Assert.That(selected.By("at one point"), Is.SameAs(flat));
+            Assert.That(selected.By("thirteen"), Is.SameAs(bad.Node));
+            bad.Sensor.Value = float.NaN;
+            Assert.That(new Selection(() => Play(1)).By("not finite"), Is.SameAs(bad.Node));
+            Object.DestroyImmediate(Manager.gameObject);
+            Node lonely = null;
+            selected = new Selection(() =>
+            {
+                lonely = MakeNode(1).Node;
+                UnityEngine.Headless.Loop.Frame(0.05f);
+            });
+            Assert.That(selected.By("no Simulation Manager"), Is.SameAs(lonely));
+        }
+
+        [Test]
+        public void A_click_on_a_refusal_selects_who_is_refused()
+        {
+            Configure("double", settings => settings.schedule = org.collektive.frame.Schedule.Asynchronous);
+            var node = MakeNode(1, default, 5).Node;
+            node.OwnTiming = true;
+            node.Timing.period = 0;
+            var second = new GameObject("Second");
+            Assert.That(new Selection(() => second.AddComponent<SimulationManager>()).By("second Simulation Manager"), Is.SameAs(second.GetComponent<SimulationManager>()));
+            Assert.That(new Selection(() => Play(1)).By("period is 0"), Is.SameAs(node));
+            Configure("double");
+            Node twin = null;
+            Assert.That(new Selection(() => twin = MakeNode(1, default, 5).Node).By("wants id 5"), Is.SameAs(twin));
+            Object.DestroyImmediate(twin.gameObject);
+            Configure("double");
+            BrokenScene scene = null;
+            Assert.That(new Selection(() => scene = new GameObject("scene").AddComponent<BrokenScene>()).By("could not be built"), Is.SameAs(scene));
+            Configure("nonesuch");
+            Assert.That(new Selection(() => Play(1)).By("nonesuch"), Is.SameAs(Manager));
+        }
+
+        /// <summary>What a click on the messages of an act would select.</summary>
+        private sealed class Selection : ILogHandler
+        {
+            private readonly List<KeyValuePair<string, Object>> told = new List<KeyValuePair<string, Object>>();
+            private readonly ILogHandler before = Debug.unityLogger.logHandler;
+
+            internal Selection(Action act)
+            {
+                Debug.unityLogger.logHandler = this;
+                act();
+                Debug.unityLogger.logHandler = before;
+            }
+
+            public void LogFormat(LogType logType, Object context, string format, params object[] args)
+            {
+                told.Add(new KeyValuePair<string, Object>(string.Format(format, args), context));
+                before.LogFormat(logType, context, format, args);
+            }
+
+            public void LogException(Exception exception, Object context)
+            {
+                told.Add(new KeyValuePair<string, Object>(exception.Message, context));
+                before.LogException(exception, context);
+            }
+
+            internal Object By(string words)
+            {
+                foreach (var message in told)
+                {
+                    if (message.Key.Contains(words)) return message.Value;
+                }
+                throw new AssertionException("nothing was said of '" + words + "'");
+            }
+        }
+
         public sealed class SuicidalSensor : Sensor<probe.SensorDataValue>
         {
             protected override void Sense(ref probe.SensorDataValue data) => Object.DestroyImmediate(this);
@@ -414,6 +510,13 @@ namespace Collektive.Headless.Tests.Simulation
         public sealed class BrokenScene : SceneBuilder
         {
             protected override void Build(SimulationManager manager) => throw new InvalidOperationException("broken on purpose");
+        }
+
+        public sealed class ForeignActuator : Actuator<int>
+        {
+            protected override void Act(int data)
+            {
+            }
         }
 
         public sealed class ForeignSensor : Sensor<int>

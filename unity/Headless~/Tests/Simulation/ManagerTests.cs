@@ -264,6 +264,7 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.enabled = false;
             Manager.enabled = true;
             Assert.That(Manager.LinkCount, Is.EqualTo(0));
+            Assert.That((Manager.Network, Manager.HostMicros, Manager.Times.Total), Is.EqualTo((new NetworkCounts(), (0, 0), 0.0)), "what the dashboard shows");
             Play(2);
             Assert.That(Errors, Is.Empty);
             Assert.That(a.Answer, Is.EqualTo(2));

@@ -129,6 +129,31 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_view_draws_with_copies_of_its_material_and_leaves_none_of_them_behind()
+        {
+            var view = AddLinkView();
+            MakeNode(0);
+            MakeNode(0, Vector3.right);
+            Manager.AddLink(0, 1);
+            Play(1);
+            Assert.That(DrawLog.Draws[0].Material.shader.name, Is.EqualTo("Collektive/Surface"));
+            Assert.That(view.Material == null, Is.True, "the package's own is nobody's setting");
+            view.enabled = false;
+            var shared = new Material(Shader.Find("Standard")) { color = Color.blue, renderQueue = 1234 };
+            view.Material = shared;
+            view.enabled = true;
+            Play(1);
+            var drawn = DrawLog.Draws[0].Material;
+            Assert.That(drawn.renderQueue, Is.EqualTo(1234));
+            Assert.That(shared.color, Is.EqualTo(Color.blue));
+            Assert.That(view.Material, Is.SameAs(shared));
+            view.enabled = false;
+            Play(1);
+            Assert.That(drawn == null, Is.True);
+            Assert.That(shared == null, Is.False);
+        }
+
+        [Test]
         public void Nodes_are_coloured_by_a_number_of_their_answers()
         {
             var view = new GameObject("View").AddComponent<DoubleView>();

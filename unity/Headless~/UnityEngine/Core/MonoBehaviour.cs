@@ -11,6 +11,7 @@ namespace UnityEngine
 
         public MonoBehaviour() => messages = Messages.Of(GetType());
 
+        public bool useGUILayout { get; set; } = true; // the stand-in's labels need no layout either way
         public bool didAwake { get; private set; }
         public bool didStart { get; internal set; }
 

@@ -12,6 +12,7 @@ namespace Collektive.Unity
     {
         /// <summary>Seconds from one round to the next; at least the manager's delta time.</summary>
         [Tooltip("Simulated seconds from one round to the next; at least the delta time.")]
+        [Min(0.001f)]
         public float period = 0.1f;
 
         /// <summary>Seconds from joining to the first round; negative: drawn for each node, below the period.</summary>
@@ -20,6 +21,7 @@ namespace Collektive.Unity
 
         /// <summary>Seconds by which each round may come later, evenly spread; 0 or greater and less than the period.</summary>
         [Tooltip("Simulated seconds by which each round may come later, evenly spread; less than the period.")]
+        [Min(0)]
         public float jitter;
 
         /// <summary>The first thing that is wrong; null when all is right.</summary>

@@ -64,6 +64,9 @@ namespace Collektive.Unity
         /// <summary>The number in a node's answer; a node whose number is not finite keeps its colour.</summary>
         protected abstract float Read(TData data);
 
+        // The legend has its place; Unity's layout would allocate with each event.
+        private void OnEnable() => useGUILayout = false;
+
         private void LateUpdate()
         {
             var manager = SimulationManager.Current;

@@ -43,6 +43,13 @@ namespace Collektive.Unity
         private SimulationManager drawn;
         private ulong tick;
 
+        /// <summary>Material whose colour is replaced; null: the package's own. Read when the component is enabled.</summary>
+        public Material Material
+        {
+            get => material;
+            set => material = value;
+        }
+
         /// <summary>Thickness of a link in metres, greater than 0.</summary>
         public float Width
         {
@@ -65,21 +72,18 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
-            if (material == null)
+            var shader = material == null ? Shader.Find("Collektive/Surface") : null;
+            if (material == null && shader == null)
             {
-                var shader = Shader.Find("Collektive/Surface");
-                if (shader == null)
-                {
-                    Debug.LogError("Link View on '" + name + "' has no material, and the package's shader is not in this player: name a material", this);
-                    enabled = false;
-                    return;
-                }
-                material = new Material(shader);
+                Debug.LogError("Link View on '" + name + "' has no material, and the package's shader is not in this player: name a material", this);
+                enabled = false;
+                return;
             }
             mesh = MakeMesh();
             for (var step = 0; step < materials.Length; step++)
             {
-                materials[step] = new Material(material) { enableInstancing = true };
+                materials[step] = material == null ? new Material(shader) : new Material(material);
+                materials[step].enableInstancing = true;
                 places[step] = places[step] ?? Array.Empty<Matrix4x4>();
             }
             drawn = null;
