@@ -6,8 +6,8 @@ help_package() {
   cat <<'H'
 usage: ./collektive package [--out DIR] [--jre]
 
-Makes org.collektive.unity-VERSION.tgz in --out (default: out): what Unity users install by Package Manager > Add package from
-tarball. It holds the sources that Unity compiles, the native library, the jars and the tools, each with its .meta. The same
+Makes org.collektive.unity-VERSION.tgz in --out (default: out): what Unity users install by Package Manager > Install package
+from tarball. It holds the sources that Unity compiles, the native library, the jars and the tools, each with its .meta. The same
 sources give the same bytes.
 
 --jre adds a JVM of its own (the JDK at hand, trimmed by jlink, some 45 MB), so that users need none; the archive is then named

@@ -7,8 +7,9 @@ help_run() {
 usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--recording FILE.jfr] [--set FIELD=VALUE]...
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
-outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html and pictures,
-as the scenario asks. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
+outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
+run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. --set gives a public field of the scene builder
+another value. --recording makes a flight recording of the JVM.
 The scenario file's keys are described in unity/Documentation~/headless.md.
 H
 }
