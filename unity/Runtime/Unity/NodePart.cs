@@ -4,7 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent.
-    /// A subclass that has its own <c>OnEnable</c> or <c>OnDisable</c> overrides these and calls them.
+    /// A subclass that has its own <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base overrides it and calls it.
     /// </summary>
     public abstract class NodePart : MonoBehaviour
     {

@@ -7,6 +7,7 @@ namespace Collektive.Unity
     /// <summary>
     /// Fills a scene from code, so that the same scene runs in the editor and without it. Its public fields can be set in the
     /// inspector, in a scenario file and on the command line. The scene needs a <see cref="SimulationManager"/>.
+    /// A subclass that has its own <c>Awake</c> overrides this one and calls it.
     /// </summary>
     public abstract class SceneBuilder : MonoBehaviour
     {
@@ -40,7 +41,8 @@ namespace Collektive.Unity
             return box;
         }
 
-        private void Awake()
+        /// <summary>Calls <see cref="Build"/>.</summary>
+        protected virtual void Awake()
         {
             if (SimulationManager.Current == null)
             {

@@ -43,11 +43,14 @@ namespace Collektive.Unity
         /// <summary>Writes the contacts, the nearest to the node's centre first. They are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Contact> contacts);
 
-        private void OnCollisionEnter(Collision collision) => Touch(collision);
+        /// <summary>Takes a contact that begins.</summary>
+        protected virtual void OnCollisionEnter(Collision collision) => Touch(collision);
 
-        private void OnCollisionStay(Collision collision) => Touch(collision);
+        /// <summary>Takes a contact that goes on.</summary>
+        protected virtual void OnCollisionStay(Collision collision) => Touch(collision);
 
-        private void OnCollisionExit(Collision collision)
+        /// <summary>Takes the end of a contact.</summary>
+        protected virtual void OnCollisionExit(Collision collision)
         {
             var place = Find(collision.collider);
             if (place < contacts.Count) ended.Items[place] = true;

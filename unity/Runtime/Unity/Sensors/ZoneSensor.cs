@@ -62,7 +62,8 @@ namespace Collektive.Unity
         /// <summary>Writes the zones, those entered first at the beginning. They are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
-        private void OnTriggerEnter(Collider other)
+        /// <summary>Takes a zone that the node enters.</summary>
+        protected virtual void OnTriggerEnter(Collider other)
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
             var place = Find(other);
@@ -70,7 +71,8 @@ namespace Collektive.Unity
             visits.Items[place].Entries++;
         }
 
-        private void OnTriggerExit(Collider other)
+        /// <summary>Takes a zone that the node leaves.</summary>
+        protected virtual void OnTriggerExit(Collider other)
         {
             var place = Find(other);
             if (place < visits.Count && visits.Items[place].Entries > 0) visits.Items[place].Entries--;

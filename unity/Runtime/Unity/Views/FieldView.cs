@@ -64,10 +64,11 @@ namespace Collektive.Unity
         /// <summary>The number in a node's answer; a node whose number is not finite keeps its colour.</summary>
         protected abstract float Read(TData data);
 
-        // The legend has its place; Unity's layout would allocate with each event.
-        private void OnEnable() => useGUILayout = false;
+        /// <summary>The legend has its place; Unity's layout would allocate with each event.</summary>
+        protected virtual void OnEnable() => useGUILayout = false;
 
-        private void LateUpdate()
+        /// <summary>Colours the nodes, once a tick.</summary>
+        protected virtual void LateUpdate()
         {
             var manager = SimulationManager.Current;
             if (manager == null || shown == manager && tick == manager.Tick) return;
@@ -126,7 +127,8 @@ namespace Collektive.Unity
         private static string Hex(Color color) =>
             ((int)(255 * Mathf.Clamp01(color.r)) << 16 | (int)(255 * Mathf.Clamp01(color.g)) << 8 | (int)(255 * Mathf.Clamp01(color.b))).ToString("X6");
 
-        private void OnGUI()
+        /// <summary>Shows the legend.</summary>
+        protected virtual void OnGUI()
         {
             if (legend) GUI.Label(new Rect(10, 10, 600, 24), Legend);
         }
