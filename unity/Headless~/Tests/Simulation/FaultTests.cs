@@ -353,6 +353,85 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_step_of_what_does_not_run_is_told_and_does_nothing()
+        {
+            Manager.Step();
+            Assert.That(Errors, Is.EqualTo(new[] { "the simulation has not started: step it from Update on, in play mode" }));
+            MakeNode(float.NaN);
+            Play(1);
+            Manager.Step();
+            Assert.That(Errors[2], Is.StringStarting("the simulation has stopped: sensor data of node 0"));
+        }
+
+        [Test]
+        public void A_step_within_a_tick_is_refused()
+        {
+            var node = MakeNode(1);
+            node.Node.gameObject.AddComponent<SteppingActuator>();
+            Play(2);
+            Assert.That(Errors[0], Is.StringContaining("SteppingActuator").And.StringContaining("Step was called from within a tick"));
+            Assert.That(Manager.Tick, Is.EqualTo(2));
+            Assert.That(node.Actuator.Calls, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void An_id_beyond_the_largest_stops_the_simulation_with_the_largest()
+        {
+            MakeNode(1, default, 1 << 24);
+            Assert.That(Manager.Failure, Is.EqualTo("node 'Probe' wants id 16777216: the largest id is 16777215"));
+        }
+
+        [Test]
+        public void Removing_a_link_that_no_script_made_is_told_and_harms_nothing()
+        {
+            var node = MakeNode(1);
+            MakeNode(2, Vector3.right).Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            Play(1);
+            Manager.RemoveLink(0, 1);
+            Assert.That(Log, Has.Some.EqualTo("no script made a link from node 0 to node 1: nothing to remove"));
+            Play(1);
+            Assert.That(Manager.LinkCount, Is.EqualTo(2));
+            Assert.That(node.Actuator.Calls, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void A_part_without_a_node_is_told_and_works_once_it_has_one()
+        {
+            var holder = new GameObject("stray");
+            var sensor = holder.AddComponent<ProbeSensor>();
+            var actuator = holder.AddComponent<ProbeActuator>();
+            Assert.That(sensor.enabled || actuator.enabled, Is.False);
+            Assert.That(Errors[0], Is.EqualTo("ProbeSensor on 'stray' has no Node on its GameObject or its parents: add one (Collektive/Node)"));
+            holder.AddComponent<Node>();
+            sensor.Value = 4;
+            sensor.enabled = true;
+            actuator.enabled = true;
+            Play(1);
+            Assert.That(actuator.Last.Value, Is.EqualTo(8));
+        }
+
+        [Test]
+        public void A_node_outside_a_simulation_has_no_random_numbers()
+        {
+            var node = MakeNode(1).Node;
+            Assert.That(node.Random, Is.Not.Null);
+            node.enabled = false;
+            Assert.That(Assert.Throws<InvalidOperationException>(() => node.Random.NextDouble()).Message, Is.StringContaining("node 'Probe'"));
+        }
+
+        [Test]
+        public void Other_JVM_settings_than_those_of_the_running_JVM_are_told_and_the_simulation_goes_on()
+        {
+            MakeNode(1);
+            Play(1);
+            Configure("double", settings => settings.jvm.settings.compileThreshold = 50);
+            Play(2);
+            Assert.That(Log, Has.Some.StringContaining("The running JVM is used; the new settings take effect after a restart of the editor."));
+            Assert.That(Manager.Tick, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_click_on_an_error_selects_the_part_that_failed()
         {
             var sensor = MakeNode(1).Node.gameObject.AddComponent<ThrowingSensor>();
@@ -445,6 +524,11 @@ namespace Collektive.Headless.Tests.Simulation
                 }
                 throw new AssertionException("nothing was said of '" + words + "'");
             }
+        }
+
+        public sealed class SteppingActuator : Actuator<probe.ActuatorDataValue>
+        {
+            protected override void Act(probe.ActuatorDataValue data) => SimulationManager.Current.Step();
         }
 
         public sealed class SuicidalSensor : Sensor<probe.SensorDataValue>
