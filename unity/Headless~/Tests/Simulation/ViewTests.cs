@@ -165,6 +165,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(nodes[0]), Is.EqualTo(Color.black));
             Assert.That(ColorOf(nodes[1]).r, Is.EqualTo(8 / 15f).Within(1e-3f));
             Assert.That(ColorOf(nodes[2]), Is.EqualTo(Color.white));
+            Assert.That(view.useGUILayout, Is.False, "a layout would allocate with each event");
             Assert.That(view.Legend, Is.StringContaining("double  2 ").And.StringContaining("<color=#000000>").And.StringEnding(" 6"));
             nodes[2].Sensor.Value = 101;
             Play(1);
