@@ -21,26 +21,36 @@ internal object ProbeJars {
     private val work = createTempDirectory("collektive-host-test").also { folder ->
         Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
     }
-    private val generated: Path by lazy { generate("probe.fbs", work.resolve("generated"), root.resolve("jvm-host/host/src/test/schema/probe.fbs")) }
+    private val generated: Path by lazy { generate(work.resolve("generated"), "probe.fbs") }
 
     /** Schema `probe.ProbeSchema` and the programs "sum" and "probe". */
     val programs: Path by lazy { jar("programs", generated, root.resolve("jvm-host/host/src/test/programs")) }
 
-    /** The same schema, and [java] as `probe/Bad.java`. */
+    /** The same, and `other.OtherSchema` with [java] as `other/Programs.java`. */
+    fun withOtherSchema(java: String): Path {
+        val folder = createTempDirectory(work, "both")
+        val both = generate(folder.resolve("generated"), "probe.fbs", "other.fbs")
+        both.resolve("META-INF/services/org.collektive.api.schema.DataSchema").writeText("probe.ProbeSchema\nother.OtherSchema\n")
+        both.resolve("other/Programs.java").writeText(java)
+        return jar(folder.fileName.toString(), both, root.resolve("jvm-host/host/src/test/programs"))
+    }
+
+    /** The same schema as [programs], and [java] as `probe/Bad.java`. */
     fun withClass(java: String): Path {
         val folder = createTempDirectory(work, "bad")
         folder.resolve("probe").createDirectories().resolve("Bad.java").writeText(java)
         return jar(folder.fileName.toString(), generated, folder)
     }
 
-    private fun generate(name: String, output: Path, schema: Path): Path {
-        check(Files.exists(schema)) { "no $name" }
-        generate(
-            arrayOf(
-                "--flatc", System.getProperty("collektive.flatc"), "--schema", schema.toString(),
-                "--include", root.resolve("schema").toString(), "--java", output.createDirectories().toString(),
-            ),
-        )
+    private fun generate(output: Path, vararg schemas: String): Path {
+        for (schema in schemas) {
+            generate(
+                arrayOf(
+                    "--flatc", System.getProperty("collektive.flatc"), "--schema", root.resolve("jvm-host/host/src/test/schema/$schema").toString(),
+                    "--include", root.resolve("schema").toString(), "--java", output.createDirectories().toString(),
+                ),
+            )
+        }
         return output
     }
 

@@ -4,14 +4,18 @@ import com.google.flatbuffers.Table
 import org.collektive.api.schema.DataSchema
 import org.collektive.frame.Opaque
 import java.nio.ByteBuffer
+import java.nio.file.Path
 import java.util.ServiceLoader
 
 /** What the tests must know of the probe's generated code, which is on no class path of theirs. */
 internal object ProbeSchema {
     /** Fingerprints as C# would send them. */
-    val types: Map<String, Long> by lazy {
-        val loader = ProgramLoader(listOf(ProgramJar.open(JarBytes.read(ProbeJars.programs.toString()))))
-        ServiceLoader.load(DataSchema::class.java, loader).single().types
+    val types: Map<String, Long> by lazy { types("probe.ProbeSchema", ProbeJars.programs) }
+
+    /** The same for any schema of a jar. */
+    fun types(schema: String, jar: Path): Map<String, Long> {
+        val loader = ProgramLoader(listOf(ProgramJar.open(JarBytes.read(jar.toString()))))
+        return ServiceLoader.load(DataSchema::class.java, loader).single { it.name == schema }.types
     }
 
     /** Value and text of element [index] of the table `Actuators`. */

@@ -1,0 +1,74 @@
+package channel
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.util.Point2D
+import org.junit.jupiter.api.Test
+import samples.Swarm
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import kotlin.test.assertEquals
+
+/**
+ * Worked out by hand. Nodes 0 to 4 stand in a row, 10 m apart, from the source to the target; 5 stands beside 2, 8 m off; 6 nearly between
+ * 0 and 2: its way is 40.1 m long, 5's is 56 m.
+ */
+class ChannelTest {
+    private val row = (0..4).associateWith { Point2D(10.0 * it, 0.0) } + mapOf(5 to Point2D(20.0, 8.0), 6 to Point2D(10.0, 1.0))
+
+    private fun swarm(width: String = "2.0") =
+        Swarm(11.0, mapOf("width" to width), { id, place -> sensors(place, id == 0, id == 4) }, Aggregate<Int>::channel).apply { places += row }
+
+    private fun Map<Int, ActuatorDataT>.marked() = filterValues { it.inChannel }.keys
+
+    @Test
+    fun `the channel is the shortest way, and what is nearly on it`() {
+        swarm().use { assertEquals(setOf(0, 1, 2, 3, 4, 6), it.ticks(STABLE).marked()) }
+    }
+
+    @Test
+    fun `its width is a parameter`() {
+        swarm("0").use { assertEquals(setOf(0, 1, 2, 3, 4), it.ticks(STABLE).marked()) }
+        swarm("16.1").use { assertEquals(row.keys, it.ticks(STABLE).marked()) }
+    }
+
+    @Test
+    fun `each node knows its way to the source`() {
+        val answers = swarm().use { it.ticks(STABLE) }
+        for ((id, metres) in listOf(0f, 10f, 20f, 30f, 40f, 28f).withIndex()) assertEquals(metres, answers.getValue(id).distance, 1e-4f, "node $id")
+    }
+
+    @Test
+    fun `when a node of it fails, the channel finds another way`() = swarm().use {
+        it.ticks(STABLE)
+        it.places -= 1
+        assertEquals(setOf(0, 2, 3, 4, 6), it.ticks(STABLE).marked())
+    }
+
+    @Test
+    fun `without a way there is no channel, and no distance beyond the gap`() = swarm().use {
+        it.ticks(STABLE)
+        it.places -= 3
+        val answers = it.ticks(STABLE)
+        assertEquals(emptySet(), answers.marked())
+        assertEquals(-1f, answers.getValue(4).distance)
+        assertEquals(20f, answers.getValue(2).distance)
+    }
+
+    @Test
+    fun `a node alone that is source and target is the channel`() =
+        Swarm(1.0, mapOf("width" to "0"), { _, place -> sensors(place, source = true, target = true) }, Aggregate<Int>::channel).use {
+            it.places[0] = Point2D(0.0, 0.0)
+            assertEquals(setOf(0), it.tick().marked())
+        }
+
+    private fun sensors(place: Point2D, source: Boolean, target: Boolean): SensorData {
+        val bytes = ByteBuffer.allocate(16).order(ByteOrder.LITTLE_ENDIAN)
+        bytes.putFloat(place.x.toFloat()).putFloat(0f).putFloat(place.y.toFloat()).put(if (source) 1 else 0).put(if (target) 1 else 0)
+        return SensorData().__assign(0, bytes)
+    }
+
+    private companion object {
+        /** Ticks after which nothing changes any more. */
+        const val STABLE = 30
+    }
+}

@@ -1,0 +1,88 @@
+package crowd
+
+import com.google.flatbuffers.FlatBufferBuilder
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.util.Point2D
+import org.collektive.schema.Vector3T
+import org.junit.jupiter.api.Test
+import samples.Swarm
+import kotlin.math.PI
+import kotlin.math.hypot
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** Walkers on the ground; they hear each other within 6 m. */
+class CrowdTest {
+    private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorDataT>) -> T): T =
+        Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place -> sensors(place, walkers.getValue(id)) }, Aggregate<Int>::crowd).use {
+            for ((id, walker) in walkers) it.places[id] = walker.place
+            use(it)
+        }
+
+    private fun alone(goal: Point2D?, vararg obstacles: Point2D) =
+        walk(mapOf(0 to Walker(Point2D(0.0, 0.0), goal, obstacles.asList()))) { it.tick().getValue(0).velocity }
+
+    @Test
+    fun `a free walker goes straight to its goal, and slows down at the last metre`() {
+        assertEquals(0.84f to 1.12f, alone(Point2D(6.0, 8.0)).onGround())
+        assertEquals(0.7f to 0f, alone(Point2D(0.5, 0.0)).onGround())
+        assertEquals(0f to 0f, alone(Point2D(0.0, 0.0)).onGround())
+    }
+
+    @Test
+    fun `a walker without a goal is an error that says so`() =
+        assertContains(assertFailsWith<IllegalStateException> { alone(null) }.message.orEmpty(), "the sensors give no goal")
+
+    @Test
+    fun `two who meet pass each other on the right`() {
+        val walkers = mapOf(0 to Walker(Point2D(-0.6, 0.0), Point2D(10.0, 0.0)), 1 to Walker(Point2D(0.6, 0.0), Point2D(-10.0, 0.0)))
+        val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
+        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: on, but slower, and to the right, which is -z")
+        assertEquals(-left.first to -left.second, right, "the same seen from the other side")
+    }
+
+    @Test
+    fun `a wall pushes away when it is near`() {
+        val (x, _) = alone(Point2D(10.0, 0.0), Point2D(0.3, 0.0)).onGround()
+        assertTrue(x < 0, "$x")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0, 0.0), Point2D(1.5, 0.0)).onGround(), "1.25 m from its skin")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0, 0.0), Point2D(0.0, 0.0)).onGround(), "what is at its own centre has no direction")
+    }
+
+    @Test
+    fun `where it is too dense a warning spreads two hops, and who hears it goes at half the speed`() {
+        // Twelve within 2 m of each other, and a chain of three 5 m apart.
+        val dense = (0 until 12).associateWith { Point2D(0.3 * (it % 4), 0.3 * (it / 4)) }
+        val chain = mapOf(12 to Point2D(5.0, 0.0), 13 to Point2D(10.0, 0.0), 14 to Point2D(15.0, 0.0))
+        val answers = walk((dense + chain).mapValues { (_, place) -> Walker(place, Point2D(100.0, 0.0)) }) { it.ticks(5) }
+        assertEquals((12 / (4 * PI)).toFloat(), answers.getValue(0).density)
+        assertEquals((1 / (4 * PI)).toFloat(), answers.getValue(12).density)
+        for (id in 0..13) assertTrue(answers.getValue(id).warned, "node $id")
+        assertFalse(answers.getValue(14).warned)
+        for (id in 0..13) assertTrue(answers.getValue(id).velocity.onGround().let { (x, z) -> hypot(x, z) } <= 0.7001f, "node $id")
+        assertEquals(0.7f to 0f, answers.getValue(13).velocity.onGround())
+        assertEquals(1.4f to 0f, answers.getValue(14).velocity.onGround())
+    }
+
+    private class Walker(val place: Point2D, val goal: Point2D?, val obstacles: List<Point2D> = emptyList())
+
+    private fun Vector3T.onGround() = x to z
+
+    private fun vector(point: Point2D) = Vector3T().also {
+        it.x = point.x.toFloat()
+        it.z = point.y.toFloat()
+    }
+
+    private fun sensors(place: Point2D, walker: Walker): SensorData {
+        val builder = FlatBufferBuilder()
+        val data = SensorDataT()
+        data.position = vector(place)
+        data.goal = walker.goal?.let(::vector)
+        data.obstacles = walker.obstacles.map(::vector).toTypedArray()
+        builder.finish(SensorData.pack(builder, data))
+        return SensorData.getRootAsSensorData(builder.dataBuffer())
+    }
+}
