@@ -11,6 +11,9 @@ internal class BreadthFirst {
     private var size = 0
     private var turns = IntArray(0)
 
+    // How many nodes have been placed when each node's neighbours have: its round is the first to read those from here to the one before.
+    private var reached = IntArray(0)
+
     /** Links made and ended since the nodes were put in order. */
     private var linksChanged = 0
 
@@ -45,6 +48,7 @@ internal class BreadthFirst {
         linksChanged = 0
         isForAll = false
         var placed = 0
+        if (reached.size < nodes.size) reached = IntArray(nodes.size)
         for (index in 0 until all.size) {
             val start = all.node(index)
             if (start.arrangedAt == tick) continue
@@ -53,6 +57,7 @@ internal class BreadthFirst {
             while (next < placed) {
                 val receivers = checkNotNull(nodes[next++]).outgoing
                 for (receiver in 0 until receivers.size) placed = place(receivers.node(receiver), placed, tick)
+                reached[next - 1] = placed
             }
         }
     }
@@ -70,6 +75,20 @@ internal class BreadthFirst {
         }
         isForAll = result.size == size
         return turns
+    }
+
+    /**
+     * Reads the nodes that the rounds of these turns are the first to read, so that they are in the processor's caches by then. One after
+     * the other, each would wait for several reads that depend on each other; here those of different nodes wait at the same time.
+     */
+    fun touch(begin: Int, end: Int): Int {
+        if (!isForAll || end > reached.size) return 0
+        var sum = 0
+        for (index in (if (begin == 0) 0 else reached[begin - 1]) until reached[end - 1]) {
+            val node = nodes[index] ?: continue
+            sum += node.touchExports() + node.incoming.touch()
+        }
+        return sum
     }
 
     private fun place(node: Node, at: Int, tick: Long): Int {

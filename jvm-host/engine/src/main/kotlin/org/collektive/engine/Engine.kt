@@ -16,14 +16,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val order = BreadthFirst()
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
-    private val clock = Clock()
     private val result = TickResult()
     private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
     private val rounds = Array(settings.threads) { Round(it) }
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
+    private val clock = Clock()
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
-    private val sendTask = RoundPool.Task { _, _, begin, end -> sendRange(begin, end) }
     private val deliveryTask = RoundPool.Task(::deliverRange)
     private var data: RoundData? = null
     private var turns = IntArray(0)
@@ -75,6 +74,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun apply(tick: Tick) {
         clock.tick = tick.number
         clock.time = tick.time
+        clock.readsBefore = if (isSequential) tick.number + 1 else tick.number
         clock.deltaTime = tick.deltaTime
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
@@ -90,7 +90,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
                 from.outgoing.insert(to)
                 linkCount++
                 order.linkChanged()
-                if (settings.network.isIdeal && from.export != null) result.network.sent++
+                if (settings.network.isIdeal && from.last != null) result.network.sent++
             }
         }
     }
@@ -141,16 +141,6 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         if (!isSequential) turns = order.turns(result)
         runOnPool(roundTask, result.size, deadline)
         result.countFailures()
-        if (isSequential) return
-        // Waking the threads again is worth its time for many nodes only.
-        if (result.size < PARALLEL_SENDS) sendRange(0, result.size) else runOnPool(sendTask, result.size, deadline)
-    }
-
-    private fun sendRange(begin: Int, end: Int) {
-        for (turn in begin until end) {
-            val index = turns[turn]
-            if (result.failure(index) == null) send(result.node(index))
-        }
     }
 
     /** Puts what was sent on the links. An ideal network has nothing to do: receivers read what their senders sent last. */
@@ -175,7 +165,9 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun deliverRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
         for (index in begin until end) {
             if (pool.isClosed) return
-            nodes.node(index).incoming.update(transmitters[worker])
+            val incoming = nodes.node(index).incoming
+            incoming.take(transmitters[worker])
+            incoming.advance(transmitters[worker])
         }
     }
 
@@ -193,18 +185,20 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     private fun runRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
         val round = rounds[worker]
+        var touched = begin
         for (turn in begin until end) {
             if (pool.isClosed) return
+            if (turn == touched) touched = round.touch(turn, minOf(turn + TOUCHED_TOGETHER, end))
             val index = indexOf(turn)
             val node = result.node(index)
             thread.program = node.program.name
             thread.node = node.id
             thread.rounds++
             try {
-                node.incoming.update(transmitters[worker])
+                if (isSequential) node.incoming.take(transmitters[worker])
+                node.incoming.advance(transmitters[worker])
                 val answer = round.run(node, index)
-                node.sending = node.runtime.commit()
-                if (isSequential) send(node)
+                node.send(node.runtime.commit(), clock.tick, clock.time)
                 result.answered(index, answer)
             } catch (failure: Throwable) {
                 // Whatever a program throws, errors of the JVM included, is the failure of its round.
@@ -221,16 +215,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
     }
 
-    private fun send(node: Node) {
-        node.export = node.sending
-        node.sentAt = clock.tick
-        node.sentTime = clock.time
-    }
-
     /** The round that one thread runs, made once. */
     private inner class Round(private val worker: Int) : RoundProgram {
         private var node: Node? = null
         private var index = 0
+
+        // Kept: see Export.touch.
+        private var touched = 0
 
         fun run(node: Node, index: Int): Any {
             this.node = node
@@ -238,6 +229,12 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             val answer = node.runtime.round(node.incoming, this) ?: throw UnusableAnswer("the result is null")
             checkNotNull(data).fault(worker, answer)?.let { throw UnusableAnswer(it) }
             return answer
+        }
+
+        /** Makes ready for the rounds of these turns; returns [end]. */
+        fun touch(begin: Int, end: Int): Int {
+            if (!isSequential) touched += order.touch(begin, end)
+            return end
         }
 
         override fun run(aggregate: Aggregate<Int>): Any? {
@@ -251,7 +248,9 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         const val RANGES_PER_THREAD = 8
         const val MIN_RANGE = 16
         const val MAX_RANGE = 512
-        const val PARALLEL_SENDS = 2048
+
+        // Enough for the processor to wait for many reads at once, few enough to stay in its nearest caches.
+        const val TOUCHED_TOGETHER = 64
     }
 }
 

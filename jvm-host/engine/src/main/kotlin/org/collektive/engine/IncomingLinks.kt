@@ -4,7 +4,7 @@ import org.collektive.runtime.Export
 import org.collektive.runtime.Inbox
 
 /** The links into the node [receiver], ascending by the sender's id, with their values; channels only unless [isIdeal]. */
-internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean) :
+internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, private val clock: Clock) :
     Peers(),
     Inbox {
     private var lengths = FloatArray(keys.size)
@@ -21,18 +21,21 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean) :
     override val ids: Array<Any>
         get() = boxedIds ?: Array<Any>(size) { node(it).boxedId }.also { boxedIds = it }
 
-    override fun export(index: Int): Export? = if (channels == null) node(index).export else channel(index).held
+    override fun export(index: Int): Export? = if (channels == null) node(index).readable(clock.readsBefore) else channel(index).held
 
     override fun wasKnown(index: Int): Boolean =
-        since[index] <= if (channels == null) node(index).sentAt else channel(index).heldAt
+        since[index] <= if (channels == null) node(index).readable(clock.readsBefore)?.tick ?: 0 else channel(index).heldAt
 
-    /** Takes over what senders sent since the last time, and lets arrive what is due; nothing to do in an ideal network. */
-    fun update(transmitter: Transmitter) {
+    /** Takes over what senders sent since the last time; nothing to do in an ideal network. No sender may run meanwhile. */
+    fun take(transmitter: Transmitter) {
         if (channels == null) return
-        for (index in 0 until size) {
-            if (node(index).sentAt > channel(index).takenAt) take(index, transmitter)
-            transmitter.advance(channel(index))
-        }
+        for (index in 0 until size) if (node(index).sentAt > channel(index).takenAt) take(index, transmitter)
+    }
+
+    /** Lets arrive what is due; nothing to do in an ideal network. */
+    fun advance(transmitter: Transmitter) {
+        if (channels == null) return
+        for (index in 0 until size) transmitter.advance(channel(index))
     }
 
     private fun take(index: Int, transmitter: Transmitter) {
@@ -42,6 +45,9 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean) :
     }
 
     private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel at $index of $size")
+
+    /** See [Export.touch]: both ends of what rounds read. */
+    fun touch(): Int = if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0
 
     fun mark(index: Int): Long = marks[index]
 

@@ -4,7 +4,6 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.api.Philox
 import org.collektive.runtime.DeviceRuntime
-import org.collektive.runtime.Export
 import kotlin.random.Random
 
 /** One node of a session: its links, its program, its device. */
@@ -16,21 +15,12 @@ internal class Node(
     private val clock: Clock,
     seed: Long,
     isIdeal: Boolean,
-) : Device {
+) : Outbox(),
+    Device {
     /** The one object that stands for [id] wherever ids are objects. */
     val boxedId: Any = id
-    val incoming = IncomingLinks(id, isIdeal)
+    val incoming = IncomingLinks(id, isIdeal, clock)
     val outgoing = Peers()
-
-    /** What the last round that gave an answer sent; `null` before. */
-    var export: Export? = null
-
-    /** The same, set by the round itself: neighbours that run beside it still read [export]. */
-    var sending: Export? = null
-
-    /** Tick of that round, and its simulated time; 0 before. */
-    var sentAt = 0L
-    var sentTime = 0.0
 
     /** Tick at which this node was last put in order, and its index among the due ones: see BreadthFirst. */
     var arrangedAt = 0L
@@ -52,4 +42,7 @@ internal class Clock {
     var time = 0.0
     var deltaTime = 0.0
     var globals: Any? = null
+
+    /** Rounds read what was sent before this tick: in sequence they see what others sent in their own. */
+    var readsBefore = 0L
 }

@@ -1,6 +1,7 @@
 package org.collektive.engine
 
 import java.util.concurrent.atomic.AtomicInteger
+import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
 
 /**
@@ -15,11 +16,14 @@ internal class RoundPool(private val size: Int) {
     }
 
     private val workers = Array(size) { Worker(it) }
-    private val nextRange = AtomicInteger()
+
+    // Where the next range of each thread's share begins.
+    private val next = AtomicIntegerArray(size * APART)
     private val busy = AtomicInteger()
     private var task = Task { _, _, _, _ -> }
     private var count = 0
     private var range = 1
+    private var needed = 0
 
     // What a task threw: an error of ours, since rounds keep theirs.
     @Volatile
@@ -45,9 +49,9 @@ internal class RoundPool(private val size: Int) {
         this.task = task
         this.count = count
         this.range = range
-        nextRange.set(0)
         caller = Thread.currentThread()
-        val needed = minOf(size, (count + range - 1) / range)
+        needed = minOf(size, (count + range - 1) / range)
+        for (share in 0 until needed) next[share * APART] = beginOf(share)
         busy.set(needed)
         for (index in 0 until needed) workers[index].start()
         while (busy.get() > 0) {
@@ -76,13 +80,20 @@ internal class RoundPool(private val size: Int) {
         }
     }
 
+    /** Each thread has the same share each time, as long as the count is the same, since what it did last is in its caches; then it helps others. */
     private fun work(worker: Worker) {
-        while (!isClosed) {
-            val begin = nextRange.getAndAdd(range)
-            if (begin >= count) return
-            task.run(worker.thread, worker.index, begin, minOf(begin + range, count))
+        for (turn in 0 until needed) {
+            val share = (worker.index + turn) % needed
+            val end = beginOf(share + 1)
+            while (!isClosed) {
+                val begin = next.getAndAdd(share * APART, range)
+                if (begin >= end) break
+                task.run(worker.thread, worker.index, begin, minOf(begin + range, end))
+            }
         }
     }
+
+    private fun beginOf(share: Int): Int = (count.toLong() * share / needed).toInt()
 
     private inner class Worker(val index: Int) : Runnable {
         val thread = RoundThread("collektive-round-$index", this)
@@ -112,5 +123,10 @@ internal class RoundPool(private val size: Int) {
                 if (busy.decrementAndGet() == 0) LockSupport.unpark(caller)
             }
         }
+    }
+
+    private companion object {
+        // Threads write each other's shares rarely, and should not find them in one cache line.
+        const val APART = 16
     }
 }

@@ -1,22 +1,26 @@
 package org.collektive.engine
 
+import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
+
 /** A thread that runs users' rounds: its stack is its own, so that endless recursion ends in an error and nothing else. */
 public class RoundThread internal constructor(name: String, task: Runnable) : Thread(null, task, name, STACK_BYTES) {
     init {
         isDaemon = true
     }
 
-    /** Id of the node whose round runs here, or -1. */
     @Volatile
-    public var node: Int = -1
-        internal set
+    private var running = -1
+
+    /** Id of the node whose round runs here, or -1; other threads may see it late, since a round should not pay for that. */
+    public var node: Int
+        get() = running
+        internal set(id) = RUNNING.lazySet(this, id)
 
     /** Rounds that this thread has begun. */
     public var rounds: Long = 0
         internal set
 
-    /** Name of the program of that round. */
-    @Volatile
+    /** Name of the program of that round; on this thread only. */
     public var program: String = ""
         internal set
 
@@ -27,6 +31,7 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
 
     public companion object {
         private const val STACK_BYTES = 4L shl 20
+        private val RUNNING = AtomicIntegerFieldUpdater.newUpdater(RoundThread::class.java, "running")
 
         /** Whose code runs on the calling thread, for the log: a round's, or that of a thread which a round made; else `null`. */
         public fun origin(): String? {

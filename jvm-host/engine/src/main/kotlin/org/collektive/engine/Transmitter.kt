@@ -16,7 +16,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
 
     /** Puts what [from] sent last on the [channel] of its link to the node [to]. */
     fun send(from: Node, to: Int, length: Float, attenuation: Float, channel: Channel) {
-        val export = from.export ?: return
+        val export = from.last ?: return
         counts.sent++
         words[0] = from.sentAt.toInt()
         words[1] = from.id

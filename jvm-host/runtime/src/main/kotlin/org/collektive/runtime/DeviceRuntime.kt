@@ -21,7 +21,7 @@ public interface DeviceRuntime {
     /**
      * Makes the state of the last round the valid one and returns what that round sends.
      *
-     * The result may be read until the next [commit], and longer while someone [holds][Export.hold] it.
+     * The result may be read until the first [round] after the next [commit], and longer while someone [holds][Export.hold] it.
      */
     public fun commit(): Export
 }

@@ -11,8 +11,17 @@ public abstract class Export protected constructor() {
     @Volatile
     private var holders = 0
 
+    /** Tick in which it was sent; the engine sets it, before any neighbour can see the export. */
+    public var tick: Long = 0
+
     /** Whether someone counts on this export to stay as it is. */
     public val isHeld: Boolean get() = holders > 0
+
+    /**
+     * Reads what neighbours will read, so that it is in the processor's caches by then. The answer means nothing; who uses it keeps the
+     * compiler from leaving the reads out.
+     */
+    public open fun touch(): Int = 0
 
     /** Keeps this export as it is until [release]; once for each holder. */
     public fun hold() {

@@ -1,60 +1,106 @@
 package org.collektive.runtime
 
+import it.unibo.collektive.aggregate.Field
+
 /** What one round of a device left behind: per path the value kept and the value sent. */
 internal class RoundRecord : Export() {
-    // A hash table by identity, at most half full. A path, its kept and its sent value stand side by side: neighbours who read one of
-    // them in a random place of the memory have all three in one cache line.
-    private var slots = arrayOfNulls<Any?>(INITIAL)
+    // The first two paths, which are all for many programs, stand in the record itself: neighbours who read it in a random place of the
+    // memory need one cache line instead of two.
+    private var path0: PathNode? = null
+    private var kept0: Any? = null
+    private var sent0: Any? = null
+    private var path1: PathNode? = null
+    private var kept1: Any? = null
+    private var sent1: Any? = null
+
+    // The others: a hash table by identity, at most half full, a path beside its values.
+    private var slots = NONE
     private var count = 0
 
+    // To ask for the type of a value is to read the value.
+    override fun touch(): Int = if (sent0 is Field<*, *> || sent1 is Field<*, *>) 1 else 0
+
     fun clear() {
-        if (count == 0) return
-        slots.fill(null)
+        path0 = null
+        kept0 = null
+        sent0 = null
+        path1 = null
+        kept1 = null
+        sent1 = null
+        if (count > 2) slots.fill(null)
         count = 0
     }
 
     /** Takes [path] for a primitive; `false` when another one has it already. */
     fun claim(path: PathNode): Boolean {
-        var slot = slotOf(path)
-        if (slots[slot] === path) return false
-        if (2 * WIDTH * (count + 1) > slots.size) {
-            grow()
-            slot = slotOf(path)
+        if (path === path0 || path === path1) return false
+        if (count == 0) {
+            path0 = path
+            kept0 = Nothing
+            sent0 = Nothing
+        } else if (count == 1) {
+            path1 = path
+            kept1 = Nothing
+            sent1 = Nothing
+        } else if (!claimSlot(path)) {
+            return false
         }
-        slots[slot] = path
-        slots[slot + KEPT] = Nothing
-        slots[slot + SENT] = Nothing
         count++
         return true
     }
 
+    private fun claimSlot(path: PathNode): Boolean {
+        if (2 * WIDTH * (count - 1) > slots.size) grow()
+        val slot = slotOf(path)
+        if (slots[slot] === path) return false
+        slots[slot] = path
+        slots[slot + KEPT] = Nothing
+        slots[slot + SENT] = Nothing
+        return true
+    }
+
     fun keep(path: PathNode, value: Any?) {
-        slots[slotOf(path) + KEPT] = value
+        if (path === path0) {
+            kept0 = value
+        } else if (path === path1) {
+            kept1 = value
+        } else {
+            slots[slotOf(path) + KEPT] = value
+        }
     }
 
     /** A `Field` stands for one value per receiver. */
     fun send(path: PathNode, value: Any?) {
-        slots[slotOf(path) + SENT] = value
+        if (path === path0) {
+            sent0 = value
+        } else if (path === path1) {
+            sent1 = value
+        } else {
+            slots[slotOf(path) + SENT] = value
+        }
     }
 
     /** At how many paths a value was sent. */
     fun countSent(): Int {
         var sent = 0
-        for (slot in slots.indices step WIDTH) if (slots[slot] != null && slots[slot + SENT] !== Nothing) sent++
+        forEachPath { if (sentAt(it) !== Nothing) sent++ }
         return sent
     }
 
     /** The value kept at [path], or [Nothing]. */
-    fun keptAt(path: PathNode): Any? = at(path, KEPT)
+    fun keptAt(path: PathNode): Any? = if (path === path0) kept0 else if (path === path1) kept1 else at(path, KEPT)
 
     /** The value sent at [path], or [Nothing]; a `Field` of an exchange stands for one value per receiver. */
-    fun sentAt(path: PathNode): Any? = at(path, SENT)
+    fun sentAt(path: PathNode): Any? = if (path === path0) sent0 else if (path === path1) sent1 else at(path, SENT)
 
     fun forEachPath(action: (PathNode) -> Unit) {
+        path0?.let(action)
+        path1?.let(action)
         for (slot in slots.indices step WIDTH) (slots[slot] as PathNode?)?.let(action)
     }
 
     private fun at(path: PathNode, offset: Int): Any? {
+        if (count <= 2) return Nothing
         val slots = slots
         var slot = firstSlot(path, slots)
         while (true) {
@@ -79,7 +125,7 @@ internal class RoundRecord : Export() {
 
     private fun grow() {
         val old = slots
-        slots = arrayOfNulls(2 * old.size)
+        slots = arrayOfNulls(if (old.size == 0) INITIAL else 2 * old.size)
         for (from in old.indices step WIDTH) {
             val path = old[from] as PathNode? ?: continue
             old.copyInto(slots, slotOf(path), from, from + WIDTH)
@@ -94,6 +140,7 @@ internal class RoundRecord : Export() {
         const val WIDTH = 4
         const val KEPT = 1
         const val SENT = 2
-        const val INITIAL = 2 * WIDTH
+        const val INITIAL = 4 * WIDTH
+        val NONE = arrayOfNulls<Any?>(0)
     }
 }

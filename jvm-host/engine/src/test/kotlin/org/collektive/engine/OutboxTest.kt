@@ -1,0 +1,53 @@
+package org.collektive.engine
+
+import org.collektive.runtime.Export
+import org.junit.jupiter.api.Test
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertNull
+import kotlin.test.assertSame
+
+class OutboxTest {
+    private val box = object : Outbox() {}
+
+    private class Sent : Export()
+
+    @Test
+    fun `nothing can be read of a node that never sent`() {
+        assertNull(box.last)
+        assertNull(box.readable(tick = 1))
+        assertEquals(0, box.sentAt)
+    }
+
+    @Test
+    fun `what is sent in a tick is read from the next one on`() {
+        val sent = Sent()
+        box.send(sent, tick = 3, time = 0.3)
+        assertNull(box.readable(tick = 3))
+        assertSame(sent, box.readable(tick = 4))
+        assertEquals(3, sent.tick)
+        assertEquals(0.3, box.sentTime)
+    }
+
+    @Test
+    fun `rounds of a tick read the same before and after the sender's own, whichever ticks it leaves out`() {
+        val random = Random(1)
+        var last: Export? = null
+        for (tick in 1L..1000L) {
+            assertSame(last, box.readable(tick), "tick $tick, before")
+            if (random.nextInt(3) == 0) continue
+            val sent = Sent()
+            box.send(sent, tick, time = tick * 0.1)
+            assertSame(last, box.readable(tick), "tick $tick, after")
+            assertSame(sent, box.last)
+            last = sent
+        }
+    }
+
+    @Test
+    fun `in sequence, what is sent in a tick is read in it`() {
+        val sent = Sent()
+        box.send(sent, tick = 3, time = 0.3)
+        assertSame(sent, box.readable(tick = 3 + 1))
+    }
+}

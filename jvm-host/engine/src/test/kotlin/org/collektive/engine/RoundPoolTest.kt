@@ -1,0 +1,42 @@
+package org.collektive.engine
+
+import org.junit.jupiter.api.Test
+import java.util.concurrent.atomic.AtomicIntegerArray
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+class RoundPoolTest {
+    private val farOff get() = System.nanoTime() + 60_000_000_000
+
+    @Test
+    fun `every index is done once, for any count, range and number of threads`() {
+        val random = Random(1)
+        for (threads in listOf(1, 2, 3, 8)) {
+            val pool = RoundPool(threads)
+            repeat(200) {
+                val count = random.nextInt(1, 500)
+                val range = random.nextInt(1, 60)
+                val done = AtomicIntegerArray(count)
+                val task = RoundPool.Task { _, _, begin, end -> for (index in begin until end) done.incrementAndGet(index) }
+                assertTrue(pool.run(task, count, range, farOff))
+                for (index in 0 until count) assertEquals(1, done[index], "index $index of $count in ranges of $range on $threads threads")
+            }
+            pool.abandon()
+        }
+    }
+
+    @Test
+    fun `a thread that is done helps the others`() {
+        val pool = RoundPool(2)
+        val workers = AtomicIntegerArray(100)
+        val task = RoundPool.Task { _, worker, begin, _ ->
+            if (begin == 0) Thread.sleep(500)
+            workers[begin] = worker
+        }
+        assertTrue(pool.run(task, 100, 1, farOff))
+        pool.abandon()
+        val idle = 1 - workers[0]
+        assertTrue((1 until 50).all { workers[it] == idle }, "the share of the thread that slept")
+    }
+}
