@@ -46,7 +46,7 @@ namespace Collektive.Bridge
                 status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
             new JvmSetting(
                 nameof(JvmSettings.collector), "Collector",
-                "The garbage collector. Serial for small scenes, Parallel for the most ticks per second, Z for the shortest pauses. " +
+                "The garbage collector. Automatic is Serial: rounds leave little behind, and run fastest with it. Parallel, G1 or Z for programs that keep much. " +
                 "Shenandoah is not in every JVM.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
                 nameof(JvmSettings.compiler), "Compiler",
@@ -173,6 +173,10 @@ namespace Collektive.Bridge
             }
             return "another";
         }
+
+        /// <summary>Whether a flag of the JVM chooses its collector.</summary>
+        internal static bool IsCollector(string flag) =>
+            flag != null && flag.StartsWith("-XX:+Use", StringComparison.Ordinal) && flag.EndsWith("GC", StringComparison.Ordinal);
 
         internal static string FlagOf(JvmCollector collector) => collector == JvmCollector.Z ? "UseZGC" : "Use" + collector + "GC";
 

@@ -21,11 +21,11 @@ namespace Collektive.Bridge
     /// <summary>The garbage collector.</summary>
     public enum JvmCollector
     {
-        /// <summary>The JVM's own choice for this machine.</summary>
+        /// <summary>Serial, unless one of the free flags names another.</summary>
         Automatic,
         /// <summary>A balance of throughput and short pauses.</summary>
         G1,
-        /// <summary>One thread; the least memory and the fastest start.</summary>
+        /// <summary>One thread; the cheapest for programs while it rests, the least memory and the fastest start.</summary>
         Serial,
         /// <summary>The highest throughput, with long pauses.</summary>
         Parallel,
@@ -125,6 +125,7 @@ namespace Collektive.Bridge
             if (initialHeapMb > 0) options.Add("-Xms" + Text(initialHeapMb) + "m");
             if (maximumHeapMb > 0) options.Add("-Xmx" + Text(maximumHeapMb) + "m");
             if (collector != JvmCollector.Automatic) options.Add("-XX:+" + JvmSetting.FlagOf(collector));
+            else if (!flags.Exists(JvmSetting.IsCollector)) options.Add("-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial));
             if (compiler == JvmCompiler.C1) options.Add("-XX:TieredStopAtLevel=1");
             if (compiler == JvmCompiler.Interpreter) options.Add("-Xint");
             if (compileThreshold != 100) options.Add("-XX:CompileThresholdScaling=" + (compileThreshold / 100.0).ToString(CultureInfo.InvariantCulture));
