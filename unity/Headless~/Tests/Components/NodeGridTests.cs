@@ -44,6 +44,26 @@ namespace Collektive.Headless.Tests.Components
             }
         }
 
+        /// <summary>So many rows of cells that some of them go over the last bucket, and some share theirs.</summary>
+        [Test]
+        public void It_finds_all_around_every_node_of_a_large_cloud()
+        {
+            const float radius = 1.5f;
+            var random = new RandomStream(6, 0, RandomPurpose.Scene);
+            var places = new Vector3[2000];
+            for (var i = 0; i < places.Length; i++)
+            {
+                places[i] = new Vector3(random.Range(-7f, 7f), random.Range(-7f, 7f), random.Range(-7f, 7f));
+                Make(places[i]);
+            }
+            grid.Build(nodes, 0.5f);
+            for (var i = 0; i < places.Length; i++)
+            {
+                var near = Array.FindAll(places, place => (place - places[i]).sqrMagnitude <= radius * radius).Length;
+                Assert.That(grid.Find(places[i], radius).Length, Is.EqualTo(near), "around node " + i);
+            }
+        }
+
         [Test]
         public void All_nodes_at_one_point_are_found()
         {
