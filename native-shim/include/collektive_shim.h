@@ -122,7 +122,8 @@ CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
 
 /* Closes all sessions, saves flight recordings and destroys the JVM on the engine thread. For the end of the process only: no JVM
  * can follow. Programs' threads that do not end are halted where they are. With CLK_TIMEOUT not all of that was done in time; the
- * JVM's threads are then halted if possible (the state tells), so that the process may exit. CLK_OK when none was ever started. */
+ * JVM's threads are then halted if possible (the state tells), so that the process may exit; that may take 10 s more, until a
+ * collection has ended. A lost JVM is halted so too, where it can be. CLK_OK when none was ever started. */
 CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 
 /* ---- Slots ----------------------------------------------------------------------------------------------------------- */
