@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void ElementsAreReadInPlace()
+        public void ElementsAreThoseOfTheFrame()
         {
             actuators.Attach(new ByteBuffer(frame), position);
             Assert.That(actuators.Count, Is.EqualTo(3));

@@ -3,7 +3,7 @@ using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Reads one tick's actuator data in the memory of the answer. Not thread-safe; allocates nothing.</summary>
+    /// <summary>Reads one tick's actuator data. Not thread-safe; no allocation once the capacities are reached.</summary>
     public abstract class ActuatorBuffer
     {
         /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
@@ -26,8 +26,6 @@ namespace Collektive.Bridge
     /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
     public abstract class ActuatorBuffer<T> : ActuatorBuffer
     {
-        private protected ByteBuffer frame;
-        private protected int start;
         private int count;
 
         /// <inheritdoc/>
@@ -45,19 +43,20 @@ namespace Collektive.Bridge
         /// <inheritdoc/>
         public sealed override void Attach(ByteBuffer frame, int position)
         {
-            var vector = FrameTable.FindData(frame, position, ElementSize, out count);
-            this.frame = frame;
-            start = vector;
+            var first = FrameTable.FindData(frame, position, ElementSize, out var elements);
+            Show(frame, first, elements);
+            count = elements;
         }
 
         /// <summary>Bytes of an element in the vector.</summary>
         private protected abstract int ElementSize { get; }
 
-        /// <summary>Where an element begins in the vector.</summary>
-        private protected int ElementAt(int index)
+        /// <summary>Takes over the elements of a vector; the first one begins at <paramref name="first"/>.</summary>
+        private protected abstract void Show(ByteBuffer frame, int first, int elements);
+
+        private protected void Require(int index)
         {
             if ((uint)index >= (uint)count) throw new ArgumentOutOfRangeException(nameof(index));
-            return start + index * ElementSize;
         }
     }
 }

@@ -1,32 +1,55 @@
 using System;
+using System.Text;
 using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Writes drafts and their children: strings, vectors, tables. Offsets of children wait on a stack that is reused every tick.
-    /// Used by generated code.
+    /// Writes drafts and their children: strings, vectors, tables. All of it is laid out in memory of the writer's own and goes into the frame as one
+    /// block; a call of the builder for each part would cost more than the part. Places are bytes from the end of the frame to the start of what was
+    /// written, as the builder's are. Memory is reused every tick. Used by generated code.
     /// </summary>
     public sealed class DraftWriter
     {
+        /// <summary>The largest that a field of a schema can have.</summary>
+        private const int MaxAlignment = 8;
+
+        private FlatBufferBuilder builder;
+        // Filled from its end, like the frame.
+        private byte[] memory = new byte[1024];
+        private int free;
+        // Where the frame ended when this block was begun.
+        private int origin;
         private int[] offsets = new int[16];
         private int depth;
         // The vtables of this frame, which tables with the same fields share.
         private VTablePlace[] vtables = new VTablePlace[8];
         private int vtableCount;
 
-        /// <summary>The builder that is written to.</summary>
-        public FlatBufferBuilder Builder { get; private set; }
-
         /// <summary>Index of the element that is being written; -1 for global data.</summary>
-        internal int Place { private get; set; }
+        internal int Element { private get; set; }
 
-        internal void Begin(FlatBufferBuilder builder)
+        /// <summary>Of what was written last.</summary>
+        private int Place => origin + memory.Length - free;
+
+        /// <summary>Begins a block; <see cref="End"/> puts it into the frame.</summary>
+        internal void Begin(FlatBufferBuilder frame)
         {
-            Builder = builder;
-            Place = -1;
+            builder = frame;
+            builder.Prep(MaxAlignment, 0);
+            origin = builder.Offset;
+            free = memory.Length;
+            Element = -1;
             depth = 0;
             vtableCount = 0;
+        }
+
+        internal unsafe void End()
+        {
+            var bytes = memory.Length - free;
+            if (bytes == 0) return;
+            builder.Prep(1, bytes);
+            fixed (byte* first = &memory[free]) builder.Put<byte>((IntPtr)first, bytes);
         }
 
         /// <summary>Refuses data without a required field.</summary>
@@ -36,7 +59,16 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Writes a string; 0 for null.</summary>
-        public int String(string text) => text == null ? 0 : Builder.CreateString(text).Value;
+        public int String(string text)
+        {
+            if (text == null) return 0;
+            var bytes = Encoding.UTF8.GetByteCount(text);
+            var at = Reserve(sizeof(int), sizeof(int) + bytes + 1);
+            PutInt(at, bytes);
+            Encoding.UTF8.GetBytes(text, 0, text.Length, memory, at + sizeof(int));
+            memory[at + sizeof(int) + bytes] = 0;
+            return Place;
+        }
 
         /// <summary>Writes a vector of strings; 0 for an empty one that is not required.</summary>
         public int Strings(DraftList<string> list, bool required, string field)
@@ -45,7 +77,7 @@ namespace Collektive.Bridge
             for (var i = 0; i < list.Count; i++)
             {
                 if (list[i] == null) throw Missing(field + "[" + i + "] is null; use an empty string instead");
-                Push(Builder.CreateString(list[i]).Value);
+                Push(String(list[i]));
             }
             return PopVector(list.Count);
         }
@@ -58,32 +90,70 @@ namespace Collektive.Bridge
             return PopVector(list.Count);
         }
 
-        /// <summary>
-        /// Writes a vector of scalars, enums or structs by one block copy; 0 for an empty one that is not required. The
-        /// alignment is the element's, in bytes.
-        /// </summary>
-        public int Values<T>(DraftList<T> list, bool required, int alignment) where T : unmanaged
+        /// <summary>Writes a vector of scalars, enums or structs; 0 for an empty one that is not required. The alignment is the element's, in bytes.</summary>
+        public unsafe int Values<T>(DraftList<T> list, bool required, int alignment) where T : unmanaged
         {
-            if (list.Count == 0 && !required) return 0;
-            return Blit.Vector(Builder, list.Items, list.Count, alignment);
+            var count = list.Count;
+            if (count == 0 && !required) return 0;
+            var items = list.Items;
+            var at = Reserve(Math.Max(alignment, sizeof(int)), count * sizeof(T));
+            fixed (byte* all = memory)
+            {
+                var elements = (T*)(all + at);
+                for (var i = 0; i < count; i++) elements[i] = items[i];
+            }
+            return Length(count);
         }
 
         internal unsafe int Table<TRow>(Draft<TRow> draft) where TRow : unmanaged
         {
             var vtable = VTable(draft.Layout, draft.WriteChildren(this));
-            Builder.Prep(draft.Layout.Alignment, sizeof(TRow));
-            var row = default(TRow);
-            draft.Fill(ref row, vtable, Builder.Offset + sizeof(TRow));
-            Builder.Put<byte>((IntPtr)(&row), sizeof(TRow));
-            return Builder.Offset;
+            var at = Reserve(draft.Layout.Alignment, sizeof(TRow));
+            fixed (byte* row = &memory[at])
+            {
+                *(TRow*)row = default;
+                draft.Fill(ref *(TRow*)row, vtable, Place);
+            }
+            return Place;
         }
 
-        /// <summary>The vtable of rows without the slots in <paramref name="absent"/>, in bytes from the end of the frame; written at its first use.</summary>
+        /// <summary>Writes the first <paramref name="count"/> drafts, whose children are written, as a vector of tables.</summary>
+        internal unsafe int Rows<TDraft, TRow>(TDraft[] drafts, int[] vtables, int count) where TDraft : Draft<TRow> where TRow : unmanaged
+        {
+            var at = Reserve(drafts[0].Layout.Alignment, count * sizeof(TRow));
+            Array.Clear(memory, at, count * sizeof(TRow));
+            var first = Place;
+            var place = first;
+            fixed (byte* all = memory)
+            {
+                var rows = (TRow*)(all + at);
+                for (var i = 0; i < count; i++)
+                {
+                    drafts[i].Fill(ref rows[i], vtables[i], place);
+                    place -= sizeof(TRow);
+                }
+            }
+            at = Reserve(sizeof(int), count * sizeof(int));
+            // The tables stand in the order of the vector, each as far from the one before.
+            var offset = Place - first;
+            fixed (byte* all = memory)
+            {
+                var elements = (int*)(all + at);
+                for (var i = 0; i < count; i++)
+                {
+                    elements[i] = offset;
+                    offset += sizeof(TRow) - sizeof(int);
+                }
+            }
+            return Length(count);
+        }
+
+        /// <summary>The place of the vtable of rows without the slots in <paramref name="absent"/>; written at its first use.</summary>
         internal int VTable(RowLayout layout, ulong absent)
         {
             for (var i = vtableCount - 1; i >= 0; i--)
             {
-                if (ReferenceEquals(vtables[i].Layout, layout) && vtables[i].Absent == absent) return vtables[i].Place;
+                if (vtables[i].Absent == absent && ReferenceEquals(vtables[i].Layout, layout)) return vtables[i].Place;
             }
             if (vtableCount == vtables.Length) Array.Resize(ref vtables, 2 * vtableCount);
             var place = WriteVTable(layout, absent);
@@ -91,44 +161,70 @@ namespace Collektive.Bridge
             return place;
         }
 
-        private int WriteVTable(RowLayout layout, ulong absent)
+        private unsafe int WriteVTable(RowLayout layout, ulong absent)
         {
-            var offsets = layout.Offsets;
-            var bytes = (2 + offsets.Length) * sizeof(ushort);
-            Builder.Prep(sizeof(ushort), bytes);
-            for (var slot = offsets.Length - 1; slot >= 0; slot--) Builder.PutUshort((absent >> slot & 1) == 0 ? offsets[slot] : (ushort)0);
-            Builder.PutUshort((ushort)layout.Bytes);
-            Builder.PutUshort((ushort)bytes);
-            return Builder.Offset;
+            var slots = layout.Offsets;
+            var bytes = (2 + slots.Length) * sizeof(ushort);
+            var at = Reserve(sizeof(ushort), bytes);
+            fixed (byte* all = memory)
+            {
+                var entries = (ushort*)(all + at);
+                entries[0] = (ushort)bytes;
+                entries[1] = (ushort)layout.Bytes;
+                for (var slot = 0; slot < slots.Length; slot++) entries[2 + slot] = (absent >> slot & 1) == 0 ? slots[slot] : (ushort)0;
+            }
+            return Place;
         }
 
-        internal void Push(int offset)
+        private void Push(int offset)
         {
             if (depth == offsets.Length) Array.Resize(ref offsets, 2 * depth);
             offsets[depth++] = offset;
         }
 
         /// <summary>Writes the last offsets of the stack as a vector, in the order in which they were pushed.</summary>
-        internal unsafe int PopVector(int count)
+        private int PopVector(int count)
         {
-            Builder.StartVector(sizeof(int), count, sizeof(int));
-            if (count > 0)
-            {
-                depth -= count;
-                var place = Builder.Offset + count * sizeof(int);
-                for (var i = depth; i < depth + count; i++)
-                {
-                    offsets[i] = place - offsets[i];
-                    place -= sizeof(int);
-                }
-                fixed (int* first = &offsets[depth]) Builder.Put<byte>((IntPtr)first, count * sizeof(int));
-            }
-            return Builder.EndVector().Value;
+            var at = Reserve(sizeof(int), count * sizeof(int));
+            depth -= count;
+            for (var i = 0; i < count; i++) PutInt(at + i * sizeof(int), Place - i * sizeof(int) - offsets[depth + i]);
+            return Length(count);
+        }
+
+        /// <summary>Ends a vector whose elements were written last.</summary>
+        private int Length(int count)
+        {
+            PutInt(Reserve(sizeof(int), sizeof(int)), count);
+            return Place;
+        }
+
+        /// <summary>Makes room before what is there, so that its start is aligned; the index of its first byte.</summary>
+        private int Reserve(int alignment, int bytes)
+        {
+            var padding = -(Place + bytes) & (alignment - 1);
+            if (free < padding + bytes) Grow(padding + bytes);
+            for (; padding > 0; padding--) memory[--free] = 0;
+            free -= bytes;
+            return free;
+        }
+
+        private void Grow(int bytes)
+        {
+            var used = memory.Length - free;
+            var larger = new byte[Math.Max(2 * memory.Length, checked(used + bytes))];
+            Buffer.BlockCopy(memory, free, larger, larger.Length - used, used);
+            free = larger.Length - used;
+            memory = larger;
+        }
+
+        private unsafe void PutInt(int at, int value)
+        {
+            fixed (byte* place = &memory[at]) *(int*)place = value;
         }
 
         private BridgeException Missing(string what)
         {
-            var where = Place < 0 ? "the global data: " : "the sensor data of due node number " + Place + ": ";
+            var where = Element < 0 ? "the global data: " : "the sensor data of due node number " + Element + ": ";
             return new BridgeException(BridgeError.Argument, where + what);
         }
 

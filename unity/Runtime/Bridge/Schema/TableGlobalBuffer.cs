@@ -26,7 +26,9 @@ namespace Collektive.Bridge
         public override int Write(FlatBufferBuilder builder)
         {
             writer.Begin(builder);
-            return Data.Write(writer);
+            var place = Data.Write(writer);
+            writer.End();
+            return place;
         }
     }
 }

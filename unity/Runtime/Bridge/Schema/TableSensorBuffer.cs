@@ -7,7 +7,6 @@ namespace Collektive.Bridge
     public sealed class TableSensorBuffer<TDraft, TRow> : SensorBuffer<TDraft> where TDraft : Draft<TRow>, new() where TRow : unmanaged
     {
         private readonly DraftWriter writer = new DraftWriter();
-        private TRow[] rows = Array.Empty<TRow>();
         private int[] vtables = Array.Empty<int>();
 
         /// <inheritdoc/>
@@ -17,7 +16,6 @@ namespace Collektive.Bridge
             base.EnsureCapacity(count);
             if (Items.Length == old) return;
             for (var i = old; i < Items.Length; i++) Items[i] = new TDraft();
-            rows = new TRow[Items.Length];
             vtables = new int[Items.Length];
         }
 
@@ -33,27 +31,17 @@ namespace Collektive.Bridge
         /// <inheritdoc/>
         public override int Write(FlatBufferBuilder builder, int count)
         {
+            if (count == 0) return FrameTable.Write(builder, 0);
+            var drafts = Items;
             writer.Begin(builder);
             for (var i = 0; i < count; i++)
             {
-                writer.Place = i;
-                vtables[i] = writer.VTable(Items[i].Layout, Items[i].WriteChildren(writer));
+                writer.Element = i;
+                vtables[i] = writer.VTable(drafts[i].Layout, drafts[i].WriteChildren(writer));
             }
-            if (count > 0) WriteRows(builder, count);
-            return FrameTable.Write(builder, writer.PopVector(count));
-        }
-
-        private unsafe void WriteRows(FlatBufferBuilder builder, int count)
-        {
-            builder.Prep(Items[0].Layout.Alignment, count * sizeof(TRow));
-            var place = builder.Offset + count * sizeof(TRow);
-            for (var i = 0; i < count; i++)
-            {
-                Items[i].Fill(ref rows[i], vtables[i], place);
-                writer.Push(place);
-                place -= sizeof(TRow);
-            }
-            fixed (TRow* first = rows) builder.Put<byte>((IntPtr)first, count * sizeof(TRow));
+            var data = writer.Rows<TDraft, TRow>(drafts, vtables, count);
+            writer.End();
+            return FrameTable.Write(builder, data);
         }
     }
 }
