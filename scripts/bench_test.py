@@ -6,6 +6,8 @@ import subprocess
 import sys
 import unittest
 
+import python_tests
+
 ROOT = os.path.abspath(sys.argv[1])
 OUT = os.path.join(ROOT, "build/bench/test.json")
 KEYS = ["name", "variant", "program", "topology", "nodes", "threads", "median_us", "p99_us", "min_us", "managed_bytes_per_tick", "jvm_bytes_per_tick"]
@@ -58,7 +60,4 @@ class BenchTick(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout).run(unittest.defaultTestLoader.loadTestsFromTestCase(BenchTick))
-    failed = len(result.failures) + len(result.errors)
-    print(f"{result.testsRun - min(failed, result.testsRun)} passed, {failed} failed")
-    sys.exit(1 if failed else 0)
+    python_tests.run(sys.modules[__name__], sys.argv[2:])

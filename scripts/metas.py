@@ -57,6 +57,12 @@ def guid_for(asset):
     return hashlib.md5(("org.collektive.unity/" + asset.replace(os.sep, "/")).encode()).hexdigest()
 
 
+def guid_in(meta):
+    """The GUID in the text of a meta; None when there is none."""
+    match = re.search(r"^guid: ([0-9a-f]{32})$", meta, re.M)
+    return match and match.group(1)
+
+
 def meta_of(root, asset):
     path = os.path.join(root, asset)
     head = f"fileFormatVersion: 2\nguid: {guid_for(asset)}\n"
@@ -76,13 +82,14 @@ def problems(root):
         if not os.path.exists(meta):
             yield f"{asset}: no .meta (run scripts/metas.py)"
             continue
-        match = re.search(r"^guid: ([0-9a-f]{32})$", open(meta).read(), re.M)
-        if not match:
+        with open(meta) as file:
+            guid = guid_in(file.read())
+        if guid is None:
             yield f"{asset}.meta: no GUID"
-        elif match.group(1) in known:
-            yield f"{asset}.meta: GUID of {known[match.group(1)]} used again"
+        elif guid in known:
+            yield f"{asset}.meta: GUID of {known[guid]} used again"
         else:
-            known[match.group(1)] = asset
+            known[guid] = asset
     for top in IMPORTED:
         for folder, folders, files in os.walk(os.path.join(root, top)):
             folders[:] = [name for name in folders if is_asset(name)]

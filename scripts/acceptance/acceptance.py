@@ -52,7 +52,7 @@ class TheCommand(unittest.TestCase):
     def test_each_command_has_help(self):
         whole = collektive("--help")
         self.assertEqual(whole.returncode, 0)
-        for command in ["setup", "generate", "demo", "run", "replay", "diff", "test", "bench", "package", "clean"]:
+        for command in ["setup", "generate", "demo", "run", "profile", "replay", "diff", "test", "bench", "package", "clean"]:
             self.assertIn(command, whole.stdout)
             part = collektive(command, "--help")
             self.assertEqual(part.returncode, 0, command)
@@ -295,6 +295,26 @@ class AForeignProject(Project):
         manifest = self.manifest(self.path("out"))
         self.assertEqual(manifest["end"], {"agreeing": 6, "seen": 12})
         self.assertEqual(manifest["seed"], 3)
+
+    def messages(self):
+        """What metrics.csv tells of the only second."""
+        with open(self.path("out", "metrics.csv")) as file:
+            (row,) = csv.DictReader(file)
+        return {name: int(row[name]) for name in ("sent", "dropped", "delayed", "expired")}
+
+    def test_its_timing_decides_which_ticks_have_rounds(self):
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.5, "phase": 0 }')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Two rounds of each lamp in ten ticks, and 18 links.
+        self.assertEqual(self.messages()["sent"], 2 * 18)
+
+    def test_its_network_decides_what_arrives(self):
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "network": { "loss": 1 }')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.messages(), {"sent": 180, "dropped": 180, "delayed": 0, "expired": 0})
+        self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 0)
 
     def test_its_profile_counts_each_tick_and_names_the_program_and_its_function(self):
         result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), cwd=self.folder)
@@ -570,9 +590,9 @@ class ThePackage(unittest.TestCase):
         if result.returncode != 0:
             raise AssertionError(result.stderr)
         cls.archive = result.stdout.strip()
-        cls.root = os.path.join(cls.folder, "project/Packages/org.collektive.unity")
-        os.makedirs(cls.root)
-        subprocess.run(["tar", "-xzf", cls.archive, "-C", cls.root, "--strip-components=1"], check=True)
+        cls.project = InstalledProject(cls.archive)
+        cls.addClassCleanup(cls.project.remove)
+        cls.root = cls.project.package
 
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
@@ -607,19 +627,15 @@ class ThePackage(unittest.TestCase):
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
     def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self):
-        project = Project(self.archive)
-        self.addCleanup(project.remove)
         # No file of the project and no variable says where the clone is.
-        self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, project.folder], capture_output=True, text=True).stdout, "")
-        result = project.play(JAVA_HOME=jdk())
+        self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, self.project.folder], capture_output=True, text=True).stdout, "")
+        result = self.project.play(JAVA_HOME=jdk())
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        ran = project.manifest()
+        ran = self.project.manifest()
         self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
 
     def test_without_a_jvm_it_says_how_to_get_one(self):
-        project = Project(self.archive)
-        self.addCleanup(project.remove)
-        result = project.play()
+        result = self.project.play()
         self.assertEqual(result.returncode, 1)
         self.assertIn("install the package that has one, set JAVA_HOME, or choose a folder", last_error(result))
 
@@ -629,7 +645,7 @@ class ThePackage(unittest.TestCase):
         self.assertIn("--nonesuch", last_error(result))
 
 
-class Project:
+class InstalledProject:
     """A project of a user who installed the package from its tarball, with a player for it."""
 
     def __init__(self, archive):
@@ -672,7 +688,7 @@ class ThePackageWithAJvm(unittest.TestCase):
         if result.returncode != 0:
             raise AssertionError(result.stderr)
         cls.archive = result.stdout.strip()
-        cls.project = Project(cls.archive)
+        cls.project = InstalledProject(cls.archive)
         cls.addClassCleanup(cls.project.remove)
         cls.home = os.path.join(cls.project.package, "unity/Jvm~/linux-x64")
 

@@ -1,6 +1,5 @@
 """The package's assets by path and by GUID."""
 import os
-import re
 
 import metas
 
@@ -33,5 +32,4 @@ def guid_of(meta):
     if not os.path.exists(meta):
         return None
     with open(meta) as file:
-        match = re.search(r"^guid: ([0-9a-f]{32})$", file.read(), re.M)
-    return match and match[1]
+        return metas.guid_in(file.read())

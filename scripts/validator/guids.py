@@ -15,10 +15,14 @@ def lasting(assets, classes):
     return {guid: path for guid, path in assets.guids.items() if path in wanted}
 
 
+def read(ledger):
+    with open(ledger) as file:
+        return dict(line.split(" ", 1) for line in file.read().splitlines())
+
+
 def problems(assets, classes, ledger=LEDGER):
     """One line for each GUID that vanished or changed, and for each that is not listed yet."""
-    with open(ledger) as file:
-        listed = dict(line.split(" ", 1) for line in file.read().splitlines())
+    listed = read(ledger)
     present = lasting(assets, classes)
     for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):
         if guid not in present:
@@ -29,7 +33,8 @@ def problems(assets, classes, ledger=LEDGER):
 
 
 def update(assets, classes, ledger=LEDGER):
-    present = lasting(assets, classes)
+    """Enters new and renamed assets. What vanished stays, and with it the problem."""
+    listed = {**read(ledger), **lasting(assets, classes)}
     with open(ledger, "w") as file:
-        for guid, path in sorted(present.items(), key=lambda entry: entry[1]):
+        for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):
             file.write(f"{guid} {path}\n")

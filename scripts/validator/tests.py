@@ -8,7 +8,8 @@ import unittest
 
 ROOT, FIELDS = os.path.abspath(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import python_tests  # noqa: E402  (these lie in the folder above)
+import metas  # noqa: E402  (these lie in the folder above)
+import python_tests  # noqa: E402
 import unity_assets  # noqa: E402
 import validate  # noqa: E402
 from validator import serialized_fields  # noqa: E402
@@ -17,7 +18,6 @@ PREFAB = "unity/Prefabs/Simulation Manager.prefab"
 NODE = "unity/Prefabs/Node.prefab"
 SCENE = "unity/Samples~/GradientAscent/GradientAscent.unity"
 ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
-PACKAGE = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
 
 
 def classes():
@@ -45,7 +45,7 @@ class TheValidator(unittest.TestCase):
     def setUp(self):
         self.root = tempfile.mkdtemp(prefix="collektive-assets-")
         self.addCleanup(shutil.rmtree, self.root)
-        for name in PACKAGE:
+        for name in metas.PACKED_ROOT_FILES:
             path = os.path.join(ROOT, name)
             if os.path.isdir(path):
                 shutil.copytree(path, os.path.join(self.root, name), ignore=shutil.ignore_patterns("Headless~"))
@@ -89,6 +89,15 @@ class TheValidator(unittest.TestCase):
     def test_finds_an_asset_whose_guid_is_not_listed(self):
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
         self.found(NODE, "--update")
+
+    def test_an_update_lists_what_is_new_and_forgets_nothing(self):
+        os.remove(os.path.join(self.root, PREFAB))
+        os.remove(os.path.join(self.root, PREFAB + ".meta"))
+        before = validate.guids.read(self.ledger)
+        self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
+        validate.guids.update(validate.Assets(self.root), classes(), self.ledger)
+        self.assertEqual(validate.guids.read(self.ledger), before)
+        self.found(PREFAB, "its GUID", "is gone")
 
     def test_finds_a_script_reference_to_nothing(self):
         self.change(PREFAB, r"guid: [0-9a-f]{32}", "guid: " + 32 * "b")
