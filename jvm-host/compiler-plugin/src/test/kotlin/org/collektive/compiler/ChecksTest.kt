@@ -111,6 +111,7 @@ class ChecksTest {
             also { maybe ?: neighboring(localId) }
             listOf(1).forEach { if (it == localId) alignedOn(it) { neighboring(localId) } else alignedOn(-it) { neighboring(localId) } }
             val noElse = run<Any> { if (localId == 0) neighboring(localId) }
+            val noElseInTry = run<Any> { try { if (localId == 0) neighboring(localId) } finally { } }
             val first = run { if (localId == 0) neighboring(localId) else neighboring(-localId); 1 }
             val inLoop = run { do { if (localId == 0) println() else null } while (localId < 0) }
             val atLast = run { try { 1 } finally { if (localId == 0) neighboring(localId) else neighboring(-localId) } }

@@ -32,8 +32,8 @@ public class NetworkModel(
     }
 
     /** Whether every message arrives at once and stays. */
-    public val isIdeal: Boolean
-        get() = loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 && retention.isInfinite()
+    public val isIdeal: Boolean =
+        loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 && retention.isInfinite()
 
     private fun requireAmount(name: String, value: Double) {
         require(value >= 0.0 && value.isFinite()) { "the network's $name must be finite and 0 or greater, but is $value" }

@@ -3,6 +3,8 @@ package org.collektive.generator
 import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.api.schema.DataSchema
 import org.collektive.api.schema.MalformedDataException
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
 import java.util.Random
 import kotlin.test.Test
 import kotlin.test.assertContentEquals
@@ -59,6 +61,18 @@ internal class GeneratedJavaTest {
             val alone = write(Workshop.blocks, arrayOf(results[i]))
             assertContentEquals(alone.first.range(alone.second, 0), bytes.range(ranges, i))
         }
+    }
+
+    @Test
+    fun `packed structs are written like those that come as objects`() {
+        val results = Array<Any?>(5) { Objects.random(Workshop.blocks.actuatorType, random) }
+        val writer = Workshop.blocks.actuatorWriter()
+        val packed = ByteBuffer.allocate(results.size * writer.structBytes).order(ByteOrder.LITTLE_ENDIAN)
+        results.forEachIndexed { i, result -> writer.pack(checkNotNull(result), packed.array(), i * writer.structBytes) }
+        val builder = FlatBufferBuilder(64)
+        builder.finish(writer.writePacked(builder, packed, results.size))
+        assertContentEquals(write(Workshop.blocks, results).first, builder.sizedByteArray())
+        assertEquals(0, Workshop.features.actuatorWriter().structBytes)
     }
 
     @Test

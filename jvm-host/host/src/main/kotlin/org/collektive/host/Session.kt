@@ -38,9 +38,9 @@ internal class Session private constructor(
     private val recorder: RecordWriter?,
 ) : AutoCloseable {
     private val frame = StepFrame(programs, defaultProgram)
-    private val data = UserData(schema, settings.threads)
+    private val answers = Answers.of(schema, settings.threads)
+    private val data = UserData(schema, settings.threads, answers)
     private val globals = if (schema.globalReader() == null) null else GlobalData(schema)
-    private val writer = schema.actuatorWriter()
     private val digest = RoundDigest()
     private val buffer = AnswerBuffer(shim)
     private val engine = Engine(settings, AggregateRuntimes(ViewRule))
@@ -49,10 +49,6 @@ internal class Session private constructor(
     private val endEvent = SessionEndEvent() // made here, as there may be no memory at the end
     private var lastEnd = 0L
     private var failure: String? = null
-
-    // What the writer takes: the answers without gaps, and where their bytes went.
-    private var answers = arrayOfNulls<Any?>(0)
-    private var ranges = IntArray(0)
 
     /** Writes the `OpenResponse`. */
     fun answerOpen(slot: Long, answer: ByteBuffer): Long {
@@ -189,12 +185,13 @@ internal class Session private constructor(
     private fun write(result: TickResult, slot: Long, answer: ByteBuffer, begin: Long): Long {
         buffer.begin(slot, answer)
         val builder = buffer.builder
-        val count = gather(result)
-        val actuators = writer.write(builder, answers, count, ranges)
-        chain(result)
+        val due = frame.tick.due
+        digest.begin(frame.tick.number)
+        val actuators = answers.write(due, result, buffer, digest)
+        digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
-        StepResponse.startNodesVector(builder, count)
-        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.addInt(result.id(index))
+        StepResponse.startNodesVector(builder, result.size - result.failureCount)
+        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.addInt(due[index])
         val nodes = builder.endVector()
         StepResponse.startStepResponse(builder)
         StepResponse.addTick(builder, frame.tick.number)
@@ -212,35 +209,6 @@ internal class Session private constructor(
         StepResponse.addRoundMicros(builder, micros(result.roundNanos))
         StepResponse.addHostMicros(builder, micros(System.nanoTime() - begin))
         return buffer.finish(StepResponse.endStepResponse(builder))
-    }
-
-    /** Puts the answers side by side and returns how many there are. */
-    private fun gather(result: TickResult): Int {
-        if (answers.size < result.size) {
-            answers = arrayOfNulls(maxOf(result.size, answers.size + (answers.size shr 1)))
-            ranges = IntArray(2 * answers.size)
-        }
-        var count = 0
-        for (index in 0 until result.size) {
-            if (result.failure(index) == null) answers[count++] = result.answer(index)
-        }
-        answers.fill(null, count)
-        return count
-    }
-
-    private fun chain(result: TickResult) {
-        digest.begin(frame.tick.number)
-        var answered = 0
-        for (index in 0 until result.size) {
-            val id = result.id(index)
-            if (result.failure(index) != null) {
-                digest.failure(id)
-            } else {
-                digest.answer(id, buffer.memory, buffer.position(ranges[2 * answered]), ranges[2 * answered + 1])
-                answered++
-            }
-        }
-        digest.end()
     }
 
     private fun writeErrors(result: TickResult): Int {
@@ -281,12 +249,15 @@ internal class Session private constructor(
 
     private fun count(value: Long) = value.coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
 
-    /** The tick's sensors, each thread with readers and writers of its own. */
-    private class UserData(schema: DataSchema, threads: Int) : RoundData {
+    /** The tick's data, each thread with a reader of its own. */
+    private class UserData(schema: DataSchema, threads: Int, private val answers: Answers) : RoundData {
         private val readers = Array(threads) { schema.sensorReader() }
-        private val checkers = Array(threads) { schema.actuatorWriter() }
+
+        // Index of the due node whose round each thread runs. A cache line apart, or the threads would wait for each other.
+        private val running = IntArray(threads * CACHE_LINE_INTS)
 
         fun attach(request: ByteBuffer, position: Int, due: Int) {
+            answers.begin(due)
             if (position == 0) {
                 if (due == 0) return
                 throw HostException(HostError.FRAME, "the frame has no sensor data, but $due nodes are due")
@@ -299,9 +270,17 @@ internal class Session private constructor(
             }
         }
 
-        override fun sensors(worker: Int, index: Int): Any = readers[worker][index]
+        override fun sensors(worker: Int, index: Int): Any {
+            running[worker * CACHE_LINE_INTS] = index
+            return readers[worker][index]
+        }
 
-        override fun fault(worker: Int, answer: Any): String? = checkers[worker].findFault(answer)
+        override fun fault(worker: Int, answer: Any): String? = answers.take(worker, running[worker * CACHE_LINE_INTS], answer)
+
+        private companion object {
+            /** 128 bytes: processors fetch lines in pairs. */
+            const val CACHE_LINE_INTS = 32
+        }
     }
 
     companion object {

@@ -67,6 +67,15 @@ public interface ActuatorWriter {
      */
     public fun findFault(result: Any?): String?
 
+    /** Bytes of a result that is a struct; 0 when results are tables, which vary. */
+    public val structBytes: Int
+
+    /** Writes the struct [result], which has no fault, into [target] from [offset] on. */
+    public fun pack(result: Any, target: ByteArray, offset: Int)
+
+    /** Writes the first [count] structs that lie side by side in [packed], little-endian, and returns the table's offset for [builder]. */
+    public fun writePacked(builder: FlatBufferBuilder, packed: ByteBuffer, count: Int): Int
+
     /**
      * Writes [results] `0 until count` in this order and returns the table's offset for [builder]. None may have a fault.
      *

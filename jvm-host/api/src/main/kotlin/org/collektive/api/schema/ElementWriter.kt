@@ -1,6 +1,7 @@
 package org.collektive.api.schema
 
 import com.google.flatbuffers.FlatBufferBuilder
+import java.nio.ByteBuffer
 
 /** Writes the table `Actuators` of any user schema; made by generated code. */
 public abstract class ElementWriter private constructor(private val type: Class<*>, private val rule: Rule) : ActuatorWriter {
@@ -22,8 +23,10 @@ public abstract class ElementWriter private constructor(private val type: Class<
         else -> rule.fault(result)
     }
 
-    override fun write(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int {
-        val vector = writeElements(builder, results, count, ranges)
+    override fun write(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int =
+        table(builder, writeElements(builder, results, count, ranges))
+
+    internal fun table(builder: FlatBufferBuilder, vector: Int): Int {
         builder.startTable(1)
         builder.addOffset(DATA_SLOT, vector, 0)
         return builder.endTable()
@@ -36,17 +39,39 @@ public abstract class ElementWriter private constructor(private val type: Class<
 
     private class Structs(
         type: Class<*>,
-        private val bytes: Int,
+        override val structBytes: Int,
         private val alignment: Int,
         private val packer: Packer,
         rule: Rule,
     ) : ElementWriter(type, rule) {
+        // Where one struct is built before it goes to its place. Builders ask for an alignment more than they use.
+        private val workplace = ByteBuffer.allocate(structBytes + alignment)
+        private val single = FlatBufferBuilder(workplace)
+
+        override fun pack(result: Any, target: ByteArray, offset: Int) {
+            single.clear()
+            packer.pack(single, result)
+            System.arraycopy(workplace.array(), alignment, target, offset, structBytes)
+        }
+
+        override fun writePacked(builder: FlatBufferBuilder, packed: ByteBuffer, count: Int): Int {
+            builder.startVector(structBytes, count, alignment)
+            // The builder takes blocks for vectors of bytes only.
+            var at = count * structBytes
+            while (at >= Long.SIZE_BYTES) {
+                at -= Long.SIZE_BYTES
+                builder.putLong(packed.getLong(at))
+            }
+            while (at > 0) builder.putByte(packed.get(--at))
+            return table(builder, builder.endVector())
+        }
+
         override fun writeElements(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int {
-            builder.startVector(bytes, count, alignment)
+            builder.startVector(structBytes, count, alignment)
             for (i in count - 1 downTo 0) {
                 packer.pack(builder, result(results, i))
                 ranges[2 * i] = builder.offset()
-                ranges[2 * i + 1] = bytes
+                ranges[2 * i + 1] = structBytes
             }
             return builder.endVector()
         }
@@ -54,6 +79,13 @@ public abstract class ElementWriter private constructor(private val type: Class<
 
     private class Tables(type: Class<*>, private val packer: Packer, rule: Rule) : ElementWriter(type, rule) {
         private var offsets = IntArray(0)
+
+        override val structBytes: Int get() = 0
+
+        override fun pack(result: Any, target: ByteArray, offset: Int) = throw UnsupportedOperationException("tables vary in length")
+
+        override fun writePacked(builder: FlatBufferBuilder, packed: ByteBuffer, count: Int) =
+            throw UnsupportedOperationException("tables vary in length")
 
         override fun writeElements(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int {
             if (offsets.size < count) offsets = IntArray(maxOf(count, 2 * offsets.size))

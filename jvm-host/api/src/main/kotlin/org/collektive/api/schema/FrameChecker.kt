@@ -17,6 +17,9 @@ internal class FrameChecker {
     /** Bytes that no object has claimed so far. */
     private var unclaimed = 0L
 
+    // Tables known by their vtables; one that falls on another's place takes it.
+    private val knownTables = Array(KNOWN) { KnownTable() }
+
     // The way from the outermost table to the field being checked, for messages; an index of -1 is none.
     private val fields = arrayOfNulls<FieldLayout>(MAX_DEPTH)
     private val indices = IntArray(MAX_DEPTH)
@@ -29,6 +32,7 @@ internal class FrameChecker {
      */
     fun check(frame: ByteBuffer, position: Int, layout: TableLayout) {
         this.frame = frame
+        for (known in knownTables) known.forget()
         start = frame.position().toLong()
         end = frame.limit().toLong()
         unclaimed = end - start
@@ -38,12 +42,34 @@ internal class FrameChecker {
 
     private fun table(position: Long, layout: TableLayout) {
         claim(position, OFFSET_BYTES.toLong())
+        if (depth == MAX_DEPTH) fail("is nested deeper than $MAX_DEPTH tables")
         val vtable = position - frame.getInt(position.toInt())
+        val known = knownTables[(vtable.toInt() ushr 1) and (KNOWN - 1)]
+        if (known.isOf(vtable, layout) && position + known.reach <= end) {
+            references(position, known)
+        } else {
+            wholeTable(position, vtable, layout)
+            if (layout.isFlat) known.learn(frame, vtable.toInt(), layout)
+        }
+    }
+
+    /** What is left to check of a table that shares its vtable with one that passed: where its strings and vectors are. */
+    private fun references(position: Long, known: KnownTable) {
+        if (known.count == 0) return
+        depth++
+        for (i in 0 until known.count) {
+            fields[depth - 1] = known.field(i)
+            indices[depth - 1] = -1
+            field(known.field(i), position + known.place(i))
+        }
+        depth--
+    }
+
+    private fun wholeTable(position: Long, vtable: Long, layout: TableLayout) {
         inside(vtable, VTABLE_HEADER_BYTES)
         val vtableBytes = frame.getShort(vtable.toInt()).toInt()
         if (vtableBytes < VTABLE_HEADER_BYTES || vtableBytes % 2 != 0) fail("has a damaged vtable")
         inside(vtable, vtableBytes.toLong())
-        if (depth == MAX_DEPTH) fail("is nested deeper than $MAX_DEPTH tables")
         depth++
         val list = layout.fields
         for (i in list.indices) {
@@ -153,6 +179,9 @@ internal class FrameChecker {
 
     private companion object {
         const val MAX_DEPTH = 64
+
+        /** A power of two. */
+        const val KNOWN = 8
         const val VTABLE_HEADER_BYTES = 4L
     }
 }

@@ -7,6 +7,10 @@ package org.collektive.api.schema
 public class TableLayout {
     internal val fields: MutableList<FieldLayout> = ArrayList()
 
+    /** Whether it leads to no further tables. */
+    internal var isFlat: Boolean = true
+        private set
+
     /** A scalar, an enum or a struct of [bytes] bytes. */
     public fun inline(name: String, entry: Int, bytes: Int, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.INLINE, bytes, null, required))
@@ -33,6 +37,7 @@ public class TableLayout {
 
     private fun add(field: FieldLayout): TableLayout {
         fields.add(field)
+        if (field.layout != null) isFlat = false
         return this
     }
 }
@@ -47,6 +52,9 @@ internal class FieldLayout(
     val bytes: Int,
     val layout: TableLayout?,
     val required: Boolean,
-)
+) {
+    /** Of what stands in the table itself. */
+    val bytesInTable: Int get() = if (kind == FieldKind.INLINE) bytes else OFFSET_BYTES
+}
 
 internal const val OFFSET_BYTES: Int = 4

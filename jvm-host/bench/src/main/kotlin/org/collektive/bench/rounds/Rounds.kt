@@ -1,6 +1,7 @@
 package org.collektive.bench.rounds
 
 import java.io.File
+import java.util.Locale
 import org.openjdk.jmh.profile.GCProfiler
 import org.openjdk.jmh.results.RunResult
 import org.openjdk.jmh.runner.Runner
@@ -31,13 +32,15 @@ private class RoundsRow(
     private val ratio: Double?,
 ) {
     val json: String
-        get() = """{"program": "$program", "topology": "$topology", "nodes": $nodes, "us_per_round": ${"%.4f".format(micros)}, """ +
-            """"bytes_per_round": ${"%.0f".format(bytes)}, "ratio_to_handwritten": ${ratio?.let { "%.2f".format(it) }}}"""
+        get() = """{"program": "$program", "topology": "$topology", "nodes": $nodes, "us_per_round": ${"%.4f".text(micros)}, """ +
+            """"bytes_per_round": ${"%.0f".text(bytes)}, "ratio_to_handwritten": ${ratio?.let { "%.2f".text(it) }}}"""
 
     val line: String
-        get() = "%-8s %-9s %6d %13.3f %12.0f %21s".format(program, topology, nodes, micros, bytes, ratio?.let { "%.1f".format(it) } ?: "")
+        get() = "%-8s %-9s %6d %13.3f %12.0f %21s".text(program, topology, nodes, micros, bytes, ratio?.let { "%.1f".text(it) } ?: "")
 
     companion object {
+        private fun String.text(vararg values: Any): String = format(Locale.ROOT, *values)
+
         const val HEADER = "program  topology   nodes  us per round  bytes/round  ratio to handwritten"
     }
 }

@@ -26,7 +26,10 @@ internal class Recorder(private val shim: ShimCalls) {
     private var worker: ExecutorService? = null
     private var recording: Recording? = null
 
-    /** What the worker is at, and what is left when it has done all that was asked. */
+    /** Those that are not done yet; guarded by this. */
+    private var orders = 0
+
+    /** What was ordered last, until the worker has done all that was ordered; then what is left. */
     @Volatile
     var state = State.OFF
         private set
@@ -86,11 +89,14 @@ internal class Recorder(private val shim: ShimCalls) {
     }
 
     private fun act(busy: State, action: () -> Unit) {
-        state = busy
-        error = null
+        synchronized(this) {
+            orders++
+            state = busy
+        }
         val worker = worker ?: Executors.newSingleThreadExecutor { Thread(it, "collektive-jfr").apply { isDaemon = true } }.also { worker = it }
         worker.execute {
             val begin = System.nanoTime()
+            error = null
             try {
                 action()
             } catch (e: Throwable) {
@@ -99,7 +105,10 @@ internal class Recorder(private val shim: ShimCalls) {
                 shim.log(LogLevel.ERROR, text)
             }
             millis = TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - begin).toInt()
-            state = if (recording == null) State.OFF else State.ON
+            synchronized(this) {
+                // Another order may have come meanwhile.
+                if (--orders == 0) state = if (recording == null) State.OFF else State.ON
+            }
         }
     }
 

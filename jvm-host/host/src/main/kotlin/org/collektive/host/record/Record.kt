@@ -9,6 +9,7 @@ import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.nio.channels.FileChannel
+import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 import java.nio.file.StandardOpenOption.READ
 import java.util.zip.CRC32
@@ -148,6 +149,8 @@ internal class Record private constructor(private val path: Path, private val ch
         fun open(path: Path): Record {
             val channel = try {
                 FileChannel.open(path, READ)
+            } catch (_: NoSuchFileException) {
+                throw RecordRefused("there is no record $path; correct the path, or make one with the scenario's outputs.record")
             } catch (e: IOException) {
                 throw RecordRefused("the record $path cannot be read: $e")
             }

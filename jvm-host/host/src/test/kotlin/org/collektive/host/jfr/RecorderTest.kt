@@ -98,6 +98,16 @@ class RecorderTest {
     }
 
     @Test
+    fun `an order that comes while another goes on is not forgotten`() {
+        val file = folder.resolve("short.jfr")
+        control.ask(recording = RecordingAction.Start, path = file.toString())
+        control.ask(recording = RecordingAction.Stop)
+        val states = generateSequence { control.ask().recording().also { Thread.sleep(1) } }.takeWhile { it != RecordingState.Off }.toSet()
+        assertTrue(RecordingState.On !in states, "it was said to go on after the order to stop")
+        assertTrue(file.exists(), "no $file")
+    }
+
+    @Test
     fun `the settings are default, profile, or those of a file, which may switch events off`() {
         val settings = folder.resolve("few.jfc")
         settings.writeText(

@@ -252,7 +252,7 @@ class RecordTest {
         val bytes = file.readBytes()
         val other = folder.resolve("other")
         fun refused(vararg arguments: Any): String = run(*arguments).also { assertEquals(2, it.code, it.results) }.messages
-        assertContains(refused("replay", folder.resolve("nowhere")), "nowhere")
+        assertContains(refused("replay", folder.resolve("nowhere")), "there is no record ${folder.resolve("nowhere")};")
         other.writeBytes(bytes.copyOf().also { it[0] = 'X'.code.toByte() })
         assertContains(refused("replay", other), "is not a record")
         other.writeBytes(bytes.copyOf().also { it[RecordWriter.MAGIC_TEXT.length] = 9 })
