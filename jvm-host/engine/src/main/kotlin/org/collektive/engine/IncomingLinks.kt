@@ -46,8 +46,8 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
 
     private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel at $index of $size")
 
-    /** See [Export.touch]: both ends of what rounds read. */
-    fun touch(): Int = if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0
+    /** See [Export.touch]. */
+    fun touch(): Int = (boxedIds?.size ?: 0) + (if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0)
 
     fun mark(index: Int): Long = marks[index]
 
