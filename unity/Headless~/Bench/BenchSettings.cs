@@ -10,8 +10,10 @@ namespace Collektive.Headless.Bench
         internal const string Usage =
             "Bench --java-home DIR --host-jar JAR --jar JAR [--jar JAR]... --out FILE [--quick] [--nodes N,N...]";
 
-        /// <summary>The same for this process's JVM and for the second one: a fixed heap, all of it in memory from the start.</summary>
-        internal static readonly string[] JvmOptions = { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseParallelGC" };
+        /// <summary>
+        /// The same for this process's JVM and for the second one: what the product gives a JVM, and a fixed heap, all of it in memory from the start.
+        /// </summary>
+        internal static readonly string[] JvmOptions = { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:+UseCondCardMark" };
 
         internal string JavaHome { get; private set; }
 
