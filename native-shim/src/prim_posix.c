@@ -7,6 +7,7 @@
 #include <langinfo.h>
 #include <locale.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -22,6 +23,7 @@ extern char **environ;
 /* ---- Time ------------------------------------------------------------------------------------------------------------ */
 
 #define NANOS_PER_SECOND INT64_C(1000000000)
+#define WATCH_NANOS INT64_C(500000)
 
 int64_t prim_now(void) {
     struct timespec now;
@@ -44,7 +46,19 @@ void prim_semaphore_wait(prim_semaphore *semaphore) {
     }
 }
 
+/* A processor that nobody uses falls asleep, and in a virtual machine takes longer to wake up than a tick of a small scene lasts. So
+ * a waiting thread keeps its own awake for a while, and gives it to every other thread that wants it. */
+static bool watch(prim_semaphore *semaphore, int64_t deadline) {
+    int64_t end = prim_now() + WATCH_NANOS < deadline ? prim_now() + WATCH_NANOS : deadline;
+    while (sem_trywait(semaphore) != 0) {
+        if (prim_now() >= end) return false;
+        sched_yield();
+    }
+    return true;
+}
+
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline) {
+    if (watch(semaphore, deadline)) return true;
     struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
     int result;
     do {

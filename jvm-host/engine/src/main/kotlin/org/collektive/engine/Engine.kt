@@ -41,6 +41,11 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     public var linkCount: Int = 0
         private set
 
+    /** A tick comes soon: threads wake up meanwhile. */
+    public fun wake() {
+        pool.wake()
+    }
+
     /**
      * Applies the changes of [tick], then runs one round of each due node.
      *

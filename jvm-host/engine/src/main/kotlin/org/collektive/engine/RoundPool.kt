@@ -32,12 +32,22 @@ internal class RoundPool(private val size: Int) {
     @Volatile
     private var caller: Thread? = null
 
+    // Until when idle threads stay awake.
+    @Volatile
+    private var awakeUntil = System.nanoTime()
+
     @Volatile
     var isClosed = false
         private set
 
     init {
         for (worker in workers) worker.thread.start()
+    }
+
+    /** Wakes the threads that the last work needed: the next comes soon. */
+    fun wake() {
+        awakeUntil = System.nanoTime() + WATCH_NANOS
+        for (index in 0 until needed) LockSupport.unpark(workers[index].thread)
     }
 
     /**
@@ -54,10 +64,12 @@ internal class RoundPool(private val size: Int) {
         for (share in 0 until needed) next[share * APART] = beginOf(share)
         busy.set(needed)
         for (index in 0 until needed) workers[index].start()
+        val begin = System.nanoTime()
         while (busy.get() > 0) {
-            val left = deadline - System.nanoTime()
-            if (left <= 0) return false
-            LockSupport.parkNanos(this, left)
+            val now = System.nanoTime()
+            if (deadline - now <= 0) return false
+            // A processor that falls asleep meanwhile takes longer to wake up than the rounds of a small network last.
+            if (now - begin < WATCH_NANOS) Thread.yield() else LockSupport.parkNanos(this, deadline - now)
         }
         failure?.let { throw IllegalStateException("a thread of the engine failed", it) }
         return true
@@ -109,7 +121,7 @@ internal class RoundPool(private val size: Int) {
         override fun run() {
             while (!isClosed) {
                 if (!isWanted) {
-                    LockSupport.park(this@RoundPool)
+                    if (System.nanoTime() - awakeUntil < 0) Thread.yield() else LockSupport.park(this@RoundPool)
                     continue
                 }
                 isWanted = false
@@ -128,5 +140,6 @@ internal class RoundPool(private val size: Int) {
     private companion object {
         // Threads write each other's shares rarely, and should not find them in one cache line.
         const val APART = 16
+        const val WATCH_NANOS = 500_000L
     }
 }

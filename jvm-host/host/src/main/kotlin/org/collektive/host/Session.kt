@@ -92,6 +92,7 @@ internal class Session private constructor(
 
     private fun run(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         tickEvent.begin()
+        engine.wake()
         frame.read(request)
         readUserData(request)
         val result = try {
