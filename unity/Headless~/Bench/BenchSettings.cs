@@ -13,7 +13,7 @@ namespace Collektive.Headless.Bench
         /// <summary>
         /// The same for this process's JVM and for the second one: what the product gives a JVM, and a fixed heap, all of it in memory from the start.
         /// </summary>
-        internal static readonly string[] JvmOptions = { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:+UseCondCardMark" };
+        internal static readonly string[] JvmOptions = { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2", "-XX:+UseCondCardMark" };
 
         internal string JavaHome { get; private set; }
 

@@ -125,7 +125,7 @@ namespace Collektive.Bridge
             if (initialHeapMb > 0) options.Add("-Xms" + Text(initialHeapMb) + "m");
             if (maximumHeapMb > 0) options.Add("-Xmx" + Text(maximumHeapMb) + "m");
             if (collector != JvmCollector.Automatic) options.Add("-XX:+" + JvmSetting.FlagOf(collector));
-            else if (!flags.Exists(JvmSetting.IsCollector)) options.Add("-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial));
+            else if (!flags.Exists(JvmSetting.IsCollector)) options.AddRange(OwnCollector);
             if (compiler == JvmCompiler.C1) options.Add("-XX:TieredStopAtLevel=1");
             if (compiler == JvmCompiler.Interpreter) options.Add("-Xint");
             if (compileThreshold != 100) options.Add("-XX:CompileThresholdScaling=" + (compileThreshold / 100.0).ToString(CultureInfo.InvariantCulture));
@@ -157,6 +157,9 @@ namespace Collektive.Bridge
             }
             return 0;
         }
+
+        // What outlives two collections is the state of nodes, and would be copied up to fifteen times: pauses of 5 ms instead of one.
+        private static readonly string[] OwnCollector = { "-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial), "-XX:MaxTenuringThreshold=2" };
 
         private const int FirstWithAutomaticArchive = 19;
 

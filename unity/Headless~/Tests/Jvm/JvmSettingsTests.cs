@@ -36,7 +36,7 @@ namespace Collektive.Headless.Tests
         [Test]
         public void Untouched_settings_choose_the_collector_only_and_a_flag_may_choose_another()
         {
-            Assert.That(Words(new JvmSettings { cdsArchive = false }), Is.EqualTo("-XX:+UseSerialGC"));
+            Assert.That(Words(new JvmSettings { cdsArchive = false }), Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2"));
             Assert.That(Words(new JvmSettings { cdsArchive = false, flags = { "-XX:+UseZGC" } }), Is.EqualTo("-XX:+UseZGC"));
             Assert.That(new JvmSettings().FindProblems(), Is.Empty);
         }
@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests
                 "-Xms64m -Xmx128m -XX:+UseZGC -XX:TieredStopAtLevel=1 -XX:CompileThresholdScaling=0.5 -XX:ReservedCodeCacheSize=48m -ea " +
                 "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
                 "-XX:+UnlockDiagnosticVMOptions -XX:-UseLibmIntrinsic -Xss2m"));
-            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }), Is.EqualTo("-XX:+UseSerialGC -Xint"));
+            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }), Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2 -Xint"));
         }
 
         [Test]
@@ -63,11 +63,11 @@ namespace Collektive.Headless.Tests
             var words = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options;
             if (JvmSettings.JavaVersion(TestJvm.Home) < 19)
             {
-                Assert.That(words, Is.EqualTo(new[] { "-XX:+UseSerialGC" }));
+                Assert.That(words, Is.EqualTo(new[] { "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2" }));
                 return;
             }
-            Assert.That(words[1], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
-            Assert.That(words[2], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
+            Assert.That(words[2], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
+            Assert.That(words[3], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
         }
