@@ -11,7 +11,7 @@ import org.collektive.runtime.Export
  * Threads: [send] by one at a time, [readable] by any at the same time; [last], [sentAt] and [sentTime] while no round runs.
  */
 internal abstract class Outbox {
-    // These three first in the object, side by side: neighbours read no more of a node.
+    // In a class of their own, whose fields stand before those of its subclass, side by side: neighbours read no more of a node.
     private var even: Export? = null
     private var odd: Export? = null
 
