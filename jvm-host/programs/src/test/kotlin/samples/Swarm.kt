@@ -56,7 +56,7 @@ internal class Swarm<S : Any, A : Any>(
         val data = object : RoundData {
             override fun sensors(worker: Int, index: Int) = seen[index]
 
-            override fun fault(worker: Int, answer: Any): String? = null
+            override fun fault(worker: Int, index: Int, answer: Any): String? = null
         }
         val result = engine.step(tick, data, System.nanoTime() + LIMIT)
         return (0 until result.size).associate { index ->

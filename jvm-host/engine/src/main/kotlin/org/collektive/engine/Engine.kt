@@ -232,7 +232,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             this.node = node
             this.index = index
             val answer = node.runtime.round(node.incoming, this) ?: throw UnusableAnswer("the result is null")
-            checkNotNull(data).fault(worker, answer)?.let { throw UnusableAnswer(it) }
+            checkNotNull(data).fault(worker, index, answer)?.let { throw UnusableAnswer(it) }
             return answer
         }
 

@@ -1,5 +1,7 @@
 package org.collektive.engine
 
+import java.nio.ByteBuffer
+
 /** Ints without boxes; keeps its memory when cleared. */
 public class IntList {
     private var items = IntArray(16)
@@ -15,6 +17,13 @@ public class IntList {
     public fun add(value: Int) {
         if (size == items.size) items = items.copyOf(2 * size)
         items[size++] = value
+    }
+
+    /** Appends the [count] little-endian ints that lie in [source] from [position] on. */
+    public fun addAll(source: ByteBuffer, position: Int, count: Int) {
+        if (items.size - size < count) items = items.copyOf(maxOf(size + count, 2 * items.size))
+        for (index in 0 until count) items[size + index] = source.getInt(position + index * Int.SIZE_BYTES)
+        size += count
     }
 
     /** Forgets all elements. */

@@ -21,6 +21,6 @@ public interface RoundData {
     /** The sensors of the node `due[index]`, for use on the thread [worker] (0 until [EngineSettings.threads]) until its next call. */
     public fun sensors(worker: Int, index: Int): Any?
 
-    /** Why [answer] is of no use, which makes its round a failed one; `null` when nothing is wrong. Called on the thread [worker]. */
-    public fun fault(worker: Int, answer: Any): String?
+    /** Why [answer] of the node `due[index]` is of no use, which makes its round a failed one; `null` when nothing is wrong. Called on the thread [worker]. */
+    public fun fault(worker: Int, index: Int, answer: Any): String?
 }

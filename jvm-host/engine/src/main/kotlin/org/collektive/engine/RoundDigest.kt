@@ -8,7 +8,7 @@ import java.security.MessageDigest
  * The chained proof of what a session computed: `d[0]` = 32 zero bytes; `d[k]` = SHA-256 of `d[k-1]`, the tick (u64), then for each due
  * node in id order its id (i32), the length of its answer (i32; -1 without one) and the answer's bytes. Little-endian.
  *
- * Called [begin], then [answer] or [failure] for each node, then [end]. Allocates nothing.
+ * Called [begin], then [answer] or [failure] for each node, or [answers] for several, then [end]. Allocates nothing.
  */
 public class RoundDigest {
     private val sha256 = MessageDigest.getInstance("SHA-256")
@@ -38,6 +38,12 @@ public class RoundDigest {
         }
     }
 
+    /** Adds answers that lie in [entries] from [begin] until [end] as the digest takes them: each after its [putHeader]. */
+    public fun answers(entries: ByteArray, begin: Int, end: Int) {
+        flush()
+        sha256.update(entries, begin, end - begin)
+    }
+
     /** Notes that [node] gave no answer. */
     public fun failure(node: Int) {
         header(node, -1)
@@ -50,8 +56,9 @@ public class RoundDigest {
     }
 
     private fun header(node: Int, length: Int) {
-        if (staging.remaining() < 2 * Int.SIZE_BYTES) flush()
-        staging.putInt(node).putInt(length)
+        if (staging.remaining() < HEADER_BYTES) flush()
+        putHeader(staging, staging.position(), node, length)
+        staging.position(staging.position() + HEADER_BYTES)
     }
 
     private fun flush() {
@@ -59,8 +66,15 @@ public class RoundDigest {
         staging.clear()
     }
 
-    private companion object {
-        const val LENGTH = 32
-        const val STAGING_BYTES = 8192
+    public companion object {
+        /** Before the bytes of each answer. */
+        public const val HEADER_BYTES: Int = 2 * Int.SIZE_BYTES
+        private const val LENGTH = 32
+        private const val STAGING_BYTES = 8192
+
+        /** Writes what comes before the [length] bytes of the answer of [node] to [entries], little-endian, at [offset]. */
+        public fun putHeader(entries: ByteBuffer, offset: Int, node: Int, length: Int) {
+            entries.putInt(offset, node).putInt(offset + Int.SIZE_BYTES, length)
+        }
     }
 }

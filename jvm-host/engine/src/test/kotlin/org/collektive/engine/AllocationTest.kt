@@ -27,7 +27,7 @@ class AllocationTest {
     private object NoData : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
-        override fun fault(worker: Int, answer: Any): String? = null
+        override fun fault(worker: Int, index: Int, answer: Any): String? = null
     }
 
     @Test

@@ -37,5 +37,36 @@ class RoundDigestTest {
         }
     }
 
+    @Test
+    fun `answers side by side count like one after the other`() {
+        val random = Random(2)
+        val length = 12
+        val entryBytes = RoundDigest.HEADER_BYTES + length
+        val entries = little(1000 * entryBytes)
+        val oneByOne = RoundDigest()
+        val blocks = RoundDigest()
+        for (tick in 1L..20L) {
+            random.nextBytes(entries.array())
+            for (node in 0 until 1000) RoundDigest.putHeader(entries, node * entryBytes, node, length)
+            oneByOne.begin(tick)
+            blocks.begin(tick)
+            var begin = 0
+            for (node in 0 until 1000) {
+                if (random.nextInt(100) > 0) {
+                    oneByOne.answer(node, entries, node * entryBytes + RoundDigest.HEADER_BYTES, length)
+                } else {
+                    oneByOne.failure(node)
+                    blocks.answers(entries.array(), begin * entryBytes, node * entryBytes)
+                    blocks.failure(node)
+                    begin = node + 1
+                }
+            }
+            blocks.answers(entries.array(), begin * entryBytes, 1000 * entryBytes)
+            oneByOne.end()
+            blocks.end()
+            assertEquals(oneByOne.value, blocks.value)
+        }
+    }
+
     private fun little(bytes: Int) = ByteBuffer.allocate(bytes).order(ByteOrder.LITTLE_ENDIAN)
 }

@@ -30,7 +30,7 @@ internal class TestEngine(
     private val data = object : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
-        override fun fault(worker: Int, answer: Any): String? = if (answer == USELESS) "is useless" else null
+        override fun fault(worker: Int, index: Int, answer: Any): String? = if (answer == USELESS) "is useless" else null
     }
     var tick = 0L
         private set

@@ -12,14 +12,20 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
     /** One for each thread that runs rounds. */
     protected val writers = Array(threads) { schema.actuatorWriter() }
 
-    /** Makes room for the answers of [due] nodes. */
-    open fun begin(due: Int) = Unit
+    /** Ids of the tick's due nodes. */
+    protected var due: IntList = IntList()
+        private set
 
-    /** Takes the [answer] of the due node [index] on the thread [worker]. Why it is of no use, or `null` when it is. */
+    /** Makes room for the answers of [due], which stay as they are until the next tick. */
+    open fun begin(due: IntList) {
+        this.due = due
+    }
+
+    /** Takes the [answer] of the due node [index] on the thread [worker]. Why it is of no use, or `null` when nothing is wrong. */
     open fun take(worker: Int, index: Int, answer: Any): String? = writers[worker].findFault(answer)
 
-    /** Adds the answers of all [due] nodes to [digest] and writes those that there are; the offset of the table `Actuators`. */
-    abstract fun write(due: IntList, result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
+    /** Adds the answers of all due nodes to [digest] and writes those that there are; the offset of the table `Actuators`. */
+    abstract fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
 
     companion object {
         fun of(schema: DataSchema, threads: Int): Answers {
@@ -29,37 +35,53 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
     }
 }
 
-/** Each thread packs the structs of its own rounds, at once, while they are in its processor's cache. They go into the frame as one block. */
+/**
+ * Each thread packs the structs of its own rounds, at once, while they are in its processor's cache: side by side for the frame, and with their
+ * headers for the digest. Both go on as blocks.
+ */
 private class StructAnswers(schema: DataSchema, threads: Int, private val bytes: Int) : Answers(schema, threads) {
-    // Element i is that of the due node i.
-    private var packed = ByteBuffer.allocate(0)
+    private val entryBytes = RoundDigest.HEADER_BYTES + bytes
 
-    override fun begin(due: Int) {
-        val needed = Math.multiplyExact(due, bytes)
-        if (packed.capacity() >= needed) return
-        packed = ByteBuffer.allocate(maxOf(needed, packed.capacity() + (packed.capacity() shr 1))).order(ByteOrder.LITTLE_ENDIAN)
+    // Element i of both is that of the due node i.
+    private var packed = ByteBuffer.allocate(0)
+    private var entries = ByteBuffer.allocate(0)
+
+    override fun begin(due: IntList) {
+        super.begin(due)
+        packed = withRoom(packed, due.size, bytes)
+        entries = withRoom(entries, due.size, entryBytes)
     }
 
     override fun take(worker: Int, index: Int, answer: Any): String? {
         val writer = writers[worker]
         writer.findFault(answer)?.let { return it }
         writer.pack(answer, packed.array(), index * bytes)
+        val entry = index * entryBytes
+        RoundDigest.putHeader(entries, entry, due[index], bytes)
+        System.arraycopy(packed.array(), index * bytes, entries.array(), entry + RoundDigest.HEADER_BYTES, bytes)
         return null
     }
 
-    override fun write(due: IntList, result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
+    override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
         var count = 0
-        for (index in 0 until result.size) {
-            if (result.failure(index) != null) {
-                digest.failure(due[index])
-                continue
-            }
-            digest.answer(due[index], packed, index * bytes, bytes)
+        var begin = 0
+        for (index in 0..result.size) {
+            val isEnd = index == result.size
+            if (!isEnd && result.failure(index) == null) continue
+            digest.answers(entries.array(), begin * entryBytes, index * entryBytes)
             // Closes the gaps of failed rounds.
-            if (count < index) packed.array().copyInto(packed.array(), count * bytes, index * bytes, (index + 1) * bytes)
-            count++
+            if (count < begin) System.arraycopy(packed.array(), begin * bytes, packed.array(), count * bytes, (index - begin) * bytes)
+            count += index - begin
+            begin = index + 1
+            if (!isEnd) digest.failure(due[index])
         }
         return writers[0].writePacked(buffer.builder, packed, count)
+    }
+
+    private fun withRoom(buffer: ByteBuffer, count: Int, size: Int): ByteBuffer {
+        val needed = Math.multiplyExact(count, size)
+        if (buffer.capacity() >= needed) return buffer
+        return ByteBuffer.allocate(maxOf(needed, buffer.capacity() + (buffer.capacity() shr 1))).order(ByteOrder.LITTLE_ENDIAN)
     }
 }
 
@@ -69,7 +91,7 @@ private class TableAnswers(schema: DataSchema, threads: Int) : Answers(schema, t
     private var answers = arrayOfNulls<Any?>(0)
     private var ranges = IntArray(0)
 
-    override fun write(due: IntList, result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
+    override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
         val count = gather(result)
         val table = writers[0].write(buffer.builder, answers, count, ranges)
         var answered = 0

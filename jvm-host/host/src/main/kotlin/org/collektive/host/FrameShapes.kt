@@ -11,6 +11,7 @@ import org.collektive.host.FrameVerifier.Shape
 
 /** The frames of `frame.fbs` that are read here, field by field. */
 internal object FrameShapes {
+    const val DUE = 7
     const val SENSORS = 8
     const val GLOBALS = 9
     const val ACTUATORS = 3

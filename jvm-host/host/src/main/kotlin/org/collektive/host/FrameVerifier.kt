@@ -27,12 +27,12 @@ internal class FrameVerifier {
         return root
     }
 
-    /** Where the user's table in the field [index] of the verified [table] lies; 0 when the field is absent. */
-    fun opaque(table: Int, index: Int): Int {
+    /** Where the table or vector in the field [index] of the verified [table] lies; 0 when the field is absent. */
+    fun target(table: Int, index: Int): Int {
         val vtable = table - frame.getInt(table)
         val entry = OFFSET + 2 * index
         val at = if (entry < (frame.getShort(vtable).toInt() and USHORT)) frame.getShort(vtable + entry).toInt() and USHORT else 0
-        return if (at == 0) 0 else target(table + at, "user data")
+        return if (at == 0) 0 else target(table + at, "a field")
     }
 
     private fun table(position: Int, shape: Shape, path: String) {

@@ -4,6 +4,7 @@ import org.collektive.api.schema.DataSchema
 import org.collektive.api.schema.MalformedDataException
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
+import org.collektive.engine.IntList
 import org.collektive.engine.NetworkModel
 import org.collektive.engine.RoundData
 import org.collektive.engine.RoundDigest
@@ -172,7 +173,7 @@ internal class Session private constructor(
     private fun readUserData(request: ByteBuffer) {
         val tick = frame.tick
         try {
-            data.attach(request, frame.sensors, tick.due.size)
+            data.attach(request, frame.sensors, tick.due)
             if (frame.globals != 0) {
                 val holder = globals
                     ?: throw HostException(HostError.FRAME, "the frame has global data, but schema ${schema.name} defines none")
@@ -186,13 +187,13 @@ internal class Session private constructor(
     private fun write(result: TickResult, slot: Long, answer: ByteBuffer, begin: Long): Long {
         buffer.begin(slot, answer)
         val builder = buffer.builder
-        val due = frame.tick.due
         digest.begin(frame.tick.number)
-        val actuators = answers.write(due, result, buffer, digest)
+        val actuators = answers.write(result, buffer, digest)
         digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
         StepResponse.startNodesVector(builder, result.size - result.failureCount)
-        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.addInt(due[index])
+        // There is room for all, and each is aligned as the one before.
+        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(frame.tick.due[index])
         val nodes = builder.endVector()
         StepResponse.startStepResponse(builder)
         StepResponse.addTick(builder, frame.tick.number)
@@ -254,34 +255,23 @@ internal class Session private constructor(
     private class UserData(schema: DataSchema, threads: Int, private val answers: Answers) : RoundData {
         private val readers = Array(threads) { schema.sensorReader() }
 
-        // Index of the due node whose round each thread runs. A cache line apart, or the threads would wait for each other.
-        private val running = IntArray(threads * CACHE_LINE_INTS)
-
-        fun attach(request: ByteBuffer, position: Int, due: Int) {
+        fun attach(request: ByteBuffer, position: Int, due: IntList) {
             answers.begin(due)
             if (position == 0) {
-                if (due == 0) return
-                throw HostException(HostError.FRAME, "the frame has no sensor data, but $due nodes are due")
+                if (due.size == 0) return
+                throw HostException(HostError.FRAME, "the frame has no sensor data, but ${due.size} nodes are due")
             }
             for (reader in readers) reader.attach(request, position)
             val first = readers[0]
             first.check()
-            if (first.size != due) {
-                throw HostException(HostError.FRAME, "the frame has sensor data of ${first.size} nodes, but $due are due")
+            if (first.size != due.size) {
+                throw HostException(HostError.FRAME, "the frame has sensor data of ${first.size} nodes, but ${due.size} are due")
             }
         }
 
-        override fun sensors(worker: Int, index: Int): Any {
-            running[worker * CACHE_LINE_INTS] = index
-            return readers[worker][index]
-        }
+        override fun sensors(worker: Int, index: Int): Any = readers[worker][index]
 
-        override fun fault(worker: Int, answer: Any): String? = answers.take(worker, running[worker * CACHE_LINE_INTS], answer)
-
-        private companion object {
-            /** 128 bytes: processors fetch lines in pairs. */
-            const val CACHE_LINE_INTS = 32
-        }
+        override fun fault(worker: Int, index: Int, answer: Any): String? = answers.take(worker, index, answer)
     }
 
     companion object {

@@ -33,8 +33,8 @@ internal class StepFrame(private val programs: Map<String, LoadedProgram>, priva
     fun read(frame: ByteBuffer) {
         val root = verifier.verify(frame, FrameShapes.stepRequest)
         request.__assign(root, frame)
-        sensors = verifier.opaque(root, FrameShapes.SENSORS)
-        globals = verifier.opaque(root, FrameShapes.GLOBALS)
+        sensors = verifier.target(root, FrameShapes.SENSORS)
+        globals = verifier.target(root, FrameShapes.GLOBALS)
         tick.clear()
         tick.number = request.tick()
         tick.time = request.time()
@@ -50,7 +50,8 @@ internal class StepFrame(private val programs: Map<String, LoadedProgram>, priva
             request.links(link, index)
             tick.links.add(link.from(), link.to(), link.length(), link.attenuation())
         }
-        for (index in 0 until request.dueLength()) tick.due.add(request.due(index))
+        val due = verifier.target(root, FrameShapes.DUE)
+        if (due != 0) tick.due.addAll(frame, due + Int.SIZE_BYTES, frame.getInt(due))
     }
 
     private fun newNode(added: NodeAdded): NewNode {

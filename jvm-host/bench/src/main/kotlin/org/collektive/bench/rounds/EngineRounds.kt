@@ -48,7 +48,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
     private class Data(private val senses: List<Senses>) : RoundData {
         override fun sensors(worker: Int, index: Int): Any = senses[index]
 
-        override fun fault(worker: Int, answer: Any): String? = null
+        override fun fault(worker: Int, index: Int, answer: Any): String? = null
     }
 
     private class Program(override val name: String) : NodeProgram {

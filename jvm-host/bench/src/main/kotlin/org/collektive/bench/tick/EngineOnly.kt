@@ -45,7 +45,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
 
     override fun sensors(worker: Int, index: Int): Any = now[worker][index]
 
-    override fun fault(worker: Int, answer: Any): String? = checkers[worker].findFault(answer)
+    override fun fault(worker: Int, index: Int, answer: Any): String? = checkers[worker].findFault(answer)
 
     override fun close() = engine.close()
 

@@ -16,6 +16,6 @@ internal class AnswerFrame(val frame: ByteBuffer) {
         val verifier = FrameVerifier()
         val root = verifier.verify(frame, FrameShapes.stepResponse)
         response = StepResponse().__assign(root, frame)
-        actuators = verifier.opaque(root, FrameShapes.ACTUATORS)
+        actuators = verifier.target(root, FrameShapes.ACTUATORS)
     }
 }

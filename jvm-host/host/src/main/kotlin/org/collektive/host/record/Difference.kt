@@ -77,8 +77,8 @@ internal class Difference(private val whose: String, private val field: String, 
                 val verifier = FrameVerifier()
                 val root = verifier.verify(bytes, FrameShapes.stepRequest)
                 val request = StepRequest().__assign(root, bytes)
-                val sensors = elements(schema.sensorReader(), bytes, verifier.opaque(root, FrameShapes.SENSORS), request.dueLength(), request::due)
-                Request(request.unpack(), sensors, globals(schema, bytes, verifier.opaque(root, FrameShapes.GLOBALS)))
+                val sensors = elements(schema.sensorReader(), bytes, verifier.target(root, FrameShapes.SENSORS), request.dueLength(), request::due)
+                Request(request.unpack(), sensors, globals(schema, bytes, verifier.target(root, FrameShapes.GLOBALS)))
             } catch (_: HostException) {
                 null
             } catch (_: MalformedDataException) {
