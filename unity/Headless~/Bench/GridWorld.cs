@@ -18,11 +18,14 @@ namespace Collektive.Headless.Bench
         private static readonly Vector3Value Obstacle = new Vector3Value { X = 0.4f, Y = 0, Z = 0.3f };
 
         private readonly int width;
+        private readonly Vector3Value[] positions;
 
         internal GridWorld(int size)
         {
             Size = size;
             width = (int)Math.Ceiling(Math.Sqrt(size));
+            positions = new Vector3Value[size];
+            for (var node = 0; node < size; node++) positions[node] = new Vector3Value { X = node % width, Y = 0, Z = node / width };
         }
 
         internal int Size { get; }
@@ -60,7 +63,7 @@ namespace Collektive.Headless.Bench
             sensors.Clear(index);
             var data = sensors.Items[index];
             data.Intensity = (node * 37 + (int)(tick % 64)) % 101;
-            data.Position = new Vector3Value { X = node % width, Y = 0, Z = node / width };
+            data.Position = positions[node];
             if (node % ObstacleEvery == 0) data.Obstacles.Add(Obstacle);
             request.AddDue(node);
         }
