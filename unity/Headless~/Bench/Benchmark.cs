@@ -102,6 +102,7 @@ namespace Collektive.Headless.Bench
                 throw new BenchException(variant.Row.Variant + " made " + calls + " calls into the JVM in " + count + " ticks, not " + variant.CallsPerTick + " a tick");
             }
             jvm = variant.JvmBytes() - jvm;
+            if (variant.Rounds != null) variant.Row.AddRounds(variant.Rounds, count);
             variant.Row.Add(times, count, variant.IsManaged ? (double)managed / count : -1, (double)jvm / count);
         }
 

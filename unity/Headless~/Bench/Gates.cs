@@ -28,7 +28,12 @@ namespace Collektive.Headless.Bench
             if (at50000 != null) AtMost(output, "tick at 50,000 nodes, us", at50000.Median, 20000);
             if (at10000 != null && loops != null) AtMost(output, "times hand-written at 10,000", at10000.Median / loops.Median, 15);
             if (at10000 != null && at500 != null) AtMost(output, "cost per node, 10,000 to 500", at10000.Median / 20 / at500.Median, 1.5);
-            if (at10000 != null && single != null) AtLeast(output, "two threads to one at 10,000", single.Median / at10000.Median, 1.6);
+            if (at10000 != null && single != null)
+            {
+                AtLeast(output, "two threads to one at 10,000", single.Median / at10000.Median, 1.6);
+                Part(output, "  its rounds alone", single.Rounds / at10000.Rounds);
+                Part(output, "  what one thread does meanwhile, us", at10000.Median - at10000.Rounds);
+            }
             foreach (var row in rows)
             {
                 if (row.Name == "tick" && row.Variant == "in-process") AtMost(output, "managed bytes per tick, " + row.Nodes + " nodes", row.ManagedBytes, 0);
@@ -44,6 +49,10 @@ namespace Collektive.Headless.Bench
         private static void AtMost(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at most", limit, value <= limit);
 
         private static void AtLeast(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at least", limit, value >= limit);
+
+        /// <summary>What a promise is made of.</summary>
+        private static void Part(TextWriter output, string what, double value) =>
+            output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#}", what, value));
 
         private static void Line(TextWriter output, string what, double value, string relation, double limit, bool met)
         {

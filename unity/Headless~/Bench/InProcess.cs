@@ -8,6 +8,7 @@ namespace Collektive.Headless.Bench
     internal class InProcess : Variant
     {
         private readonly AllocationProbe probe;
+        private double[] rounds = new double[0];
         private long tick;
 
         internal InProcess(BenchSettings settings, AllocationProbe probe, string name, string variant, int nodes, int threads)
@@ -28,17 +29,21 @@ namespace Collektive.Headless.Bench
 
         internal override int CallsPerTick => 1;
 
+        internal override double[] Rounds => rounds;
+
         internal override long JvmBytes() => probe.Read();
 
         internal override void Run(int count, double[] times)
         {
             if (tick == 0) Prepare();
+            if (rounds.Length < count) rounds = new double[count];
             for (var i = 0; i < count; i++)
             {
                 Pause();
                 var begin = Stopwatch.GetTimestamp();
                 Sum += Tick(++tick);
                 times[i] = Measurement.Micros(begin, Stopwatch.GetTimestamp());
+                rounds[i] = Session.Answer.RoundMicros;
             }
         }
 

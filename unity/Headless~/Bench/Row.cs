@@ -8,6 +8,7 @@ namespace Collektive.Headless.Bench
     internal sealed class Row
     {
         private readonly List<double> times = new List<double>();
+        private readonly List<double> rounds = new List<double>();
         private readonly List<double> managedBytes = new List<double>();
         private readonly List<double> jvmBytes = new List<double>();
 
@@ -35,6 +36,9 @@ namespace Collektive.Headless.Bench
 
         internal double Median => Quantiles.Of(times, 0.5);
 
+        /// <summary>The rounds' part of the median tick; 0 when unknown.</summary>
+        internal double Rounds => rounds.Count == 0 ? 0 : Quantiles.Of(rounds, 0.5);
+
         internal double P99 => Quantiles.Of(times, 0.99);
 
         /// <summary>The smallest of all batches, since the runtimes themselves allocate now and then; NaN when unknown.</summary>
@@ -51,6 +55,12 @@ namespace Collektive.Headless.Bench
             for (var i = 0; i < count; i++) times.Add(batch[i]);
             if (managed >= 0) managedBytes.Add(managed);
             if (jvm >= 0) jvmBytes.Add(jvm);
+        }
+
+        /// <summary>Adds the microseconds that the rounds of a batch's ticks took.</summary>
+        internal void AddRounds(double[] batch, int count)
+        {
+            for (var i = 0; i < count; i++) rounds.Add(batch[i]);
         }
 
         internal double Quantile(double q) => Quantiles.Of(times, q);

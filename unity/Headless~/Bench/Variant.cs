@@ -21,6 +21,9 @@ namespace Collektive.Headless.Bench
         /// <summary>Calls into the JVM of this process that a tick makes.</summary>
         internal virtual int CallsPerTick => 0;
 
+        /// <summary>Microseconds of the rounds in each of the ticks done last; null when unknown.</summary>
+        internal virtual double[] Rounds => null;
+
         /// <summary>Bytes that the JVM which runs its rounds has allocated so far; -1 when unknown.</summary>
         internal abstract long JvmBytes();
 
