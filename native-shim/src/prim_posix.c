@@ -41,11 +41,6 @@ void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { sem_init(s
 
 void prim_semaphore_post(prim_semaphore *semaphore) { sem_post(semaphore); }
 
-void prim_semaphore_wait(prim_semaphore *semaphore) {
-    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* a signal handler ran: wait on */
-    }
-}
-
 /* A processor that nobody uses falls asleep, and in a virtual machine takes longer to wake up than a tick of a small scene lasts. So
  * a waiting thread keeps its own awake for a while, and gives it to every other thread that wants it. */
 static bool watch(prim_semaphore *semaphore, int64_t deadline) {
@@ -55,6 +50,12 @@ static bool watch(prim_semaphore *semaphore, int64_t deadline) {
         sched_yield();
     }
     return true;
+}
+
+void prim_semaphore_wait(prim_semaphore *semaphore) {
+    if (watch(semaphore, INT64_MAX)) return;
+    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* a signal handler ran: wait on */
+    }
 }
 
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline) {
