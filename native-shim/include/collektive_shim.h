@@ -166,8 +166,9 @@ typedef struct clk_answer {
 CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
                                  clk_answer *answer);
 
-/* Runs one tick with the StepRequest in the slot; the answer holds a StepResponse. After any error but CLK_TIMEOUT,
- * CLK_SESSION_FAILED and CLK_JVM_LOST the session is as before the call. */
+/* Runs one tick with the StepRequest in the slot; the answer holds a StepResponse. After any error but CLK_SESSION_FAILED and
+ * CLK_JVM_LOST the session is as before the call. After these two the slot counts as in use for ever, as a round that does not
+ * end may read it: release it and acquire another. */
 CLK_API int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms,
                          clk_answer *answer);
 

@@ -102,6 +102,7 @@ static int32_t java_error(JNIEnv *env, int32_t code, const char *where) {
 static void throw_new(JNIEnv *env, const char *class_name, const char *message) {
     jclass class = (*env)->FindClass(env, class_name);
     if (class != NULL) (*env)->ThrowNew(env, class, message);
+    (*env)->DeleteLocalRef(env, class);
 }
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */

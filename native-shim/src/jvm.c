@@ -302,8 +302,8 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
         return error_set(CLK_JVM_START, "correct the JVM options and restart the process; JNI_CreateJavaVM failed (%d): %s", result,
                          last[0] != '\0' ? last : "the JVM gave no reason");
     }
-    atomic_store(&jvm.created, true);
     signals_adopt_jvm();
+    atomic_store(&jvm.created, true); /* from here on lose() repairs with what was adopted */
     return CLK_OK;
 }
 
@@ -343,10 +343,11 @@ static int32_t work_start(void) {
 static const char *const smuggling[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "JDK_JAVA_OPTIONS"};
 enum { SMUGGLING = sizeof smuggling / sizeof smuggling[0] };
 
-static void describe(void) {
+/* The version is "" when the start failed: the engine thread may still be writing it. */
+static void describe(const char *version) {
     const struct launch *launch = &jvm.launch;
     const char *const *words = (const char *const *)(launch->options + launch->own_count);
-    atomic_store(&jvm.description, join(launch->home, jvm.version, words, launch->option_count - launch->own_count));
+    atomic_store(&jvm.description, join(launch->home, version, words, launch->option_count - launch->own_count));
 }
 
 /* What start and check have in common runs under the turn, with the environment cleared of options. */
@@ -365,7 +366,7 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     } else if (result != CLK_OK && atomic_load(&jvm.began)) {
         engine_lose("its start failed: %s", error_last());
     }
-    if (atomic_load(&jvm.began)) describe();
+    if (atomic_load(&jvm.began)) describe(result == CLK_OK ? jvm.version : "");
     if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
     return result;
 }
@@ -456,7 +457,9 @@ static bool freeze(void) {
     atomic_store(&jvm.halting, true);
     if (!atomic_load(&jvm.keeper)) start_keeper();
     prim_semaphore_post(&jvm.wanted);
-    return prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI);
+    if (!prim_semaphore_wait_until(&jvm.frozen, prim_now() + FREEZE_LIMIT_MS * PRIM_MILLI)) return false;
+    prim_semaphore_post(&jvm.frozen); /* it stays so for whoever asks again */
+    return true;
 }
 
 int32_t clk_jvm_stop(int32_t limit_ms) {

@@ -22,6 +22,8 @@ static const struct rule refused[] = {
     {"-XX:OnOutOfMemoryError=*", "it forks the whole process to run a command"},
     {"-XX:OnError=*", "it forks the whole process to run a command"},
     {"-XX:+AbortVMOn*", "it aborts the whole process"},
+    {"-XX:AbortVMOnException*", "it aborts the whole process"},
+    {"-XX:SelfDestructTimer=*", "it ends the whole process after that many minutes"},
     {"-XX:+ShowMessageBoxOnError", "it waits at the console of the process for ever"},
     {"-XX:+AllowUserSignalHandlers", "the signal handlers of the host process and of the JVM would shut each other out"},
     {"-XX:-UseSignalChaining", "the signal handlers of the host process would not be called any more"},
@@ -59,7 +61,9 @@ int32_t options_check(const char *option) {
         if (matches(option, refused[i].text)) return refuse(option, refused[i].reason);
     }
     /* The debugger's default is suspend=y, and other machines could reach what listens on more than the loopback. */
-    if (matches(option, "-agentlib:jdwp*") || matches(option, "-Xrunjdwp*")) {
+    bool debugger = matches(option, "-agentlib:jdwp*") || matches(option, "-Xrunjdwp*") ||
+                    (matches(option, "-agentpath:*") && strstr(option, "libjdwp") != NULL);
+    if (debugger) {
         if (strstr(option, "suspend=n") == NULL) return refuse(option, "the start would wait for a debugger; add suspend=n");
         if (strstr(option, "address=127.0.0.1:") == NULL && strstr(option, "address=localhost:") == NULL) {
             return refuse(option, "whoever reaches a debugger's port runs code of his own here; use address=127.0.0.1:PORT");

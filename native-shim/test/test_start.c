@@ -151,9 +151,9 @@ void options_refused_by_text(void) {
     static const char *const refused[] = {
         "-XX:+ExitOnOutOfMemoryError", "-XX:+CrashOnOutOfMemoryError", "-XX:OnOutOfMemoryError=ls", "-XX:OnError=gdb",
         "-XX:+AllowUserSignalHandlers", "-XX:-UseSignalChaining", "-XX:-ReduceSignalUsage", "-XX:Flags=x", "-XX:VMOptionsFile=x",
-        "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
+        "-XX:+AbortVMOnSafepointTimeout", "-XX:AbortVMOnException=java.lang.Error", "-XX:SelfDestructTimer=1", "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
         "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint", "-Xrunjdwp:transport=dt_socket",
-        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005"};
+        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "-agentpath:/x/libjdwp.so=transport=dt_socket,server=y"};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
