@@ -24,7 +24,8 @@ suite() {
   shift
   mkdir -p "$BUILD/log"
   say "test $name ..."
-  "$@" >"$log" 2>&1 || code=$?
+  # In a shell of its own: a step that ends it fails this suite only.
+  ("$@") >"$log" 2>&1 || code=$?
   result=$(grep -aoE '[0-9]+ passed, [0-9]+ failed' "$log" | tail -n 1) || true
   passed=${result%% passed*}
   failed=${result##*, }

@@ -76,7 +76,7 @@ class TheTestsOfTheProject(Folder):
 
     def test_a_suite_counts_by_its_sum_and_its_end(self):
         for body, sum in [("echo 3 passed, 1 failed; return 1", "3 1"), ("echo 3 passed, 0 failed", "3 0"), ("echo 3 passed, 0 failed; return 134", "3 1"),
-                          ("return 1", "0 1"), ("true", "0 1")]:
+                          ("return 1", "0 1"), ("true", "0 1"), ("echo 3 passed, 0 failed; fail no more", "3 1")]:
             last, whole = self.counted("try() { %s; }\nsuite try try; echo $TOTAL_PASSED $TOTAL_FAILED" % body)
             self.assertEqual(last, sum, f"{body}: {whole}")
 

@@ -59,9 +59,7 @@ def run(places, kind, index):
         command = [runtime, "--debug", places["player"], "run", path, "--scripts", places["program"], "--jar", places["jar"], "--host-jar",
                    places["host"], "--java-home", jdk, "--out", os.path.join(folder, "out"), "--set", "how=" + kind]
         environment = dict(os.environ, LD_LIBRARY_PATH=places["shim"])
-        # Jobs of scripts ignore SIGINT, and hand that down.
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         watchdog = threading.Timer(LIMIT_S, process.kill)
         watchdog.start()
         text = b""
@@ -95,6 +93,8 @@ def main():
     with open(sys.argv[1]) as file:
         places = json.load(file)
     runs = int(sys.argv[2])
+    # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     passed = failed = 0
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
         rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in KINDS}

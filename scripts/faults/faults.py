@@ -95,16 +95,15 @@ class Trial:
         words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
         return words + ["option=" + option for option in fault.get("options", [])]
 
-    def limits(self):
-        if "file_limit" in self.fault:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
+    def limit_files(self):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
     def run(self):
         """Returns what is wrong ("" for nothing), the line that the user reads, and what still works."""
         environment = dict(os.environ, LD_LIBRARY_PATH=self.places["shim"], **self.fault.get("environment", {}))
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                    preexec_fn=self.limits, timeout=LIMIT_S)
+                                    preexec_fn=self.limit_files if "file_limit" in self.fault else None, timeout=LIMIT_S)
         except subprocess.TimeoutExpired as expired:
             return "hangs", "", "", (expired.stdout or b"").decode(errors="replace")
         text = result.stdout.decode(errors="replace")

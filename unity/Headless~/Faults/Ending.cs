@@ -10,7 +10,7 @@ namespace Collektive.Headless.Faults
     /// <summary>A scene that ends its process in the way of <see cref="how"/>, while its nodes run.</summary>
     public sealed class Ending : SceneBuilder
     {
-        /// <summary>leave, quit, ctrl-c, exception, or thread-exception.</summary>
+        /// <summary>leave, quit, ctrl-c, termination, exception, or thread-exception.</summary>
         public string how = "leave";
 
         private static readonly string[] Names = { "ticks" };
