@@ -222,6 +222,7 @@ static int32_t check(const clk_jvm_config *config, struct launch *launch, int64_
 /* ---- Hooks of the JVM ------------------------------------------------------------------------------------------------ */
 
 static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file, const char *format, va_list arguments) {
+    if (file != stdout && file != stderr) return vfprintf(file, format, arguments); /* a log file of the JVM's own */
     return log_jvm_output(file == stderr ? CLK_LOG_WARNING : CLK_LOG_INFO, format, arguments);
 }
 

@@ -58,7 +58,7 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(structs_of_other_sizes) \
     X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) X(home_with_a_broken_libjvm) \
     X(home_without_java_command) X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
-    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(option_that_ends_the_jvm) \
+    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) X(option_that_ends_the_jvm) \
     X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
     X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \
     X(environment_is_ignored) X(second_start) X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \

@@ -173,6 +173,17 @@ void options_refused_by_child(void) {
 
 void options_that_make_the_jvm_talk(void) { CHECK_OK(start(OPTIONS("-verbose:class"))); }
 
+void jvm_log_in_a_file(void) {
+    char option[128], line[1024];
+    snprintf(option, sizeof option, "-Xlog:gc+init:file=%s/gc.log", scratch_folder());
+    CHECK_OK(start(OPTIONS(option)));
+    CHECK_OK(clk_jvm_stop(60000));
+    FILE *file = fopen(strchr(option, '=') + 1, "r");
+    CHECK(file != NULL && fgets(line, sizeof line, file) != NULL && strstr(line, "[gc,init]") != NULL);
+    fclose(file);
+    CHECK(!log_mentions("[gc,init]"));
+}
+
 void option_that_ends_the_jvm(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "before it is up", start(OPTIONS("-Xlog:help")));
     check_start_still_works();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
 
-exits.py PLACES.json RUNS; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built.
+exits.py PLACES.json RUNS [KIND]...; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. Without a KIND all of them.
 """
 import collections
 import concurrent.futures
@@ -92,12 +92,12 @@ def run(places, kind, index):
 def main():
     with open(sys.argv[1]) as file:
         places = json.load(file)
-    runs = int(sys.argv[2])
+    runs, kinds = int(sys.argv[2]), sys.argv[3:] or list(KINDS)
     # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     passed = failed = 0
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
-        rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in KINDS}
+        rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in kinds}
         for kind, futures in rows.items():
             problems = [problem for problem in (future.result() for future in futures) if problem]
             print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)

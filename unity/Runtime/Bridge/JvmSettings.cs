@@ -171,6 +171,8 @@ namespace Collektive.Bridge
             Directory.CreateDirectory(cacheFolder);
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + Path.Combine(cacheFolder, "classes-" + key.ToString("x16", CultureInfo.InvariantCulture) + ".jsa"));
+            // A line for each class that it leaves out, and errors about an archive that it then makes anew.
+            options.Add("-Xlog:cds=off");
         }
 
         private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);

@@ -68,6 +68,7 @@ namespace Collektive.Headless.Tests
             }
             Assert.That(words[2], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
             Assert.That(words[3], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
+            Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "what it says is for nobody");
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
         }
