@@ -331,6 +331,15 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
 
+    def test_no_start_waits_for_the_events_of_a_recorder_that_nobody_asked_for(self):
+        self.change("lamps.json", '"-Xss2m"', '"-Xlog:class+load:file=classes.txt"')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("classes.txt")) as file:
+            classes = file.read()
+        self.assertIn("org.collektive.host.Session ", classes)
+        self.assertNotIn("jdk.jfr.internal.", classes)
+
     def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")

@@ -1,6 +1,7 @@
 package org.collektive.host
 
 import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SlotGrownEvent
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
@@ -34,10 +35,12 @@ internal class AnswerBuffer(private val shim: ShimCalls) : FlatBufferBuilder.Byt
         val before = buffer.capacity()
         buffer = shim.grow(slot, capacity)?.order(ByteOrder.LITTLE_ENDIAN)
             ?: throw OutOfMemoryError("no native memory for an answer of $capacity bytes")
-        val event = SlotGrownEvent()
-        event.before = before.toLong()
-        event.after = buffer.capacity().toLong()
-        event.commit()
+        if (SessionEvents.wanted) {
+            val event = SlotGrownEvent()
+            event.before = before.toLong()
+            event.after = buffer.capacity().toLong()
+            event.commit()
+        }
         return buffer
     }
 

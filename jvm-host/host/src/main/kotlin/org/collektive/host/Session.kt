@@ -19,11 +19,9 @@ import org.collektive.frame.ParameterInfo
 import org.collektive.frame.ProgramInfo
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
-import org.collektive.host.jfr.NetworkStatsEvent
 import org.collektive.host.jfr.ProgramErrorEvent
-import org.collektive.host.jfr.SessionEndEvent
+import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
-import org.collektive.host.jfr.TickEvent
 import org.collektive.host.record.RecordWriter
 import org.collektive.runtime.AggregateRuntimes
 import java.io.IOException
@@ -45,9 +43,7 @@ internal class Session private constructor(
     private val digest = RoundDigest()
     private val buffer = AnswerBuffer(shim)
     private val engine = Engine(settings, AggregateRuntimes(ViewRule))
-    private val tickEvent = TickEvent()
-    private val networkEvent = NetworkStatsEvent()
-    private val endEvent = SessionEndEvent() // made here, as there may be no memory at the end
+    private var events = SessionEvents.ofRecorder()
     private var lastEnd = 0L
     private var failure: String? = null
 
@@ -92,7 +88,8 @@ internal class Session private constructor(
     }
 
     private fun run(request: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
-        tickEvent.begin()
+        if (events == null) events = SessionEvents.ofRecorder()
+        events?.tick?.begin()
         engine.wake()
         frame.read(request)
         readUserData(request)
@@ -123,9 +120,11 @@ internal class Session private constructor(
 
     override fun close() {
         engine.close()
-        endEvent.ticks = engine.lastTick
-        endEvent.failure = failure
-        endEvent.commit()
+        (events ?: SessionEvents.ofRecorder())?.end?.let {
+            it.ticks = engine.lastTick
+            it.failure = failure
+            it.commit()
+        }
         recorder?.use {
             try {
                 it.end()
@@ -145,7 +144,7 @@ internal class Session private constructor(
     }
 
     private fun record(result: TickResult, bytesIn: Int, bytesOut: Int, wait: Long, write: Long) {
-        val event = tickEvent
+        val event = events?.tick ?: return
         event.end()
         if (!event.shouldCommit()) return
         event.tick = frame.tick.number
@@ -226,7 +225,7 @@ internal class Session private constructor(
     }
 
     private fun recordNetwork(result: TickResult) {
-        val event = networkEvent
+        val event = events?.network ?: return
         if (!event.isEnabled) return
         event.begin() // or it would keep the time of its first use
         event.tick = frame.tick.number
@@ -238,6 +237,7 @@ internal class Session private constructor(
     }
 
     private fun record(result: TickResult, index: Int, message: String) {
+        if (!SessionEvents.wanted) return
         val event = ProgramErrorEvent()
         if (!event.isEnabled) return
         event.tick = frame.tick.number
@@ -285,8 +285,8 @@ internal class Session private constructor(
 
         /** Loads what [request] asks for with the programs of [jars]; [record] is asked for when all is well so far. */
         fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter? = { null }): Session {
-            val event = SessionStartEvent()
-            event.begin()
+            val event = if (SessionEvents.wanted) SessionStartEvent() else null
+            event?.begin()
             if (request.protocol() != Host.PROTOCOL.toLong()) {
                 throw HostException(
                     HostError.HOST,
@@ -303,6 +303,7 @@ internal class Session private constructor(
             val name = request.program().orEmpty()
             val program = if (name.isEmpty()) null else programs[name] ?: throw StepFrame.noSuchProgram("the session", name, programs.keys)
             return Session(schema, programs, program, settings, shim, record()).also {
+                if (event == null) return@also
                 event.programs = programs.keys.joinToString()
                 event.schema = schema.name
                 event.schedule = settings.schedule.name

@@ -8,12 +8,15 @@ internal object ProgramRounds {
     /** Prime, so that the nodes take turns whatever their number. */
     const val EVERY = 17
 
-    /** Asked only whether such events are wanted. */
-    private val sample = ProgramRoundEvent()
+    /** Asked only whether such events are wanted; made at its first use. */
+    private object Sample {
+        @JvmField
+        val event = ProgramRoundEvent()
+    }
 
     /** A begun event for the round that begins on this thread, or `null`: the usual case, and a few nanoseconds. */
     fun begin(): ProgramRoundEvent? {
-        if (!sample.isEnabled) return null
+        if (!SessionEvents.wanted || !Sample.event.isEnabled) return null
         val thread = Thread.currentThread() as? RoundThread ?: return null
         if (thread.rounds % EVERY != 0L) return null
         return ProgramRoundEvent().apply { begin() }

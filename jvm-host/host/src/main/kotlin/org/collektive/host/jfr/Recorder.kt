@@ -58,6 +58,7 @@ internal class Recorder(private val shim: ShimCalls) {
     fun start(settings: String, file: String) = act(State.STARTING) {
         check(recording == null) { "a recording runs already, to $path; stop it first" }
         val target = target(file)
+        SessionEvents.prepare()
         val started = Recording(configuration(settings))
         try {
             started.name = "collektive"
