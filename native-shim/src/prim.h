@@ -30,8 +30,9 @@ void prim_unlock(prim_mutex *mutex);
 typedef sem_t prim_semaphore;
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
 void prim_semaphore_post(prim_semaphore *semaphore);
+/* Neither wait sleeps for the first half of a millisecond, but lets other threads run. */
 void prim_semaphore_wait(prim_semaphore *semaphore);
-/* False when the deadline passed first. Does not sleep for the first half of a millisecond, but lets other threads run. */
+/* False when the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
 
 /* Runs `init` once per process. */
