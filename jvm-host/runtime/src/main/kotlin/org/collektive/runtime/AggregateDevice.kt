@@ -167,11 +167,14 @@ internal class AggregateDevice<ID : Any>(
         val keptIds = arrayOfNulls<Any>(field.neighborCount)
         val keptValues = arrayOfNulls<Any?>(field.neighborCount)
         var kept = 0
-        // The field's neighbours are some of the links, in the same order.
-        var link = 0
+        // The field's neighbours are some of the links, in the same order; a field kept from a former round may have others.
+        var from = 0
         for (index in 0 until field.neighborCount) {
             val id: Any = field.neighborId(index)
-            while (ids[link] != id) link++
+            var link = from
+            while (link < ids.size && ids[link] != id) link++
+            if (link == ids.size) continue
+            from = link + 1
             val export = inbox.export(link) as RoundRecord? ?: continue
             if (export.sentAt(path) === RoundRecord.Nothing) continue
             keptIds[kept] = id

@@ -3,8 +3,10 @@ package org.collektive.runtime
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
 import org.junit.jupiter.api.Test
+import java.lang.ref.WeakReference
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertNull
 import kotlin.test.assertSame
 
 class ExportTest {
@@ -47,6 +49,23 @@ class ExportTest {
             runtimes.tidy(listOf(sender, receiver))
         }
         assertEquals<Any?>(mapOf(1 to 7), received(held))
+    }
+
+    @Test
+    fun `pivots that no device uses any more are freed`() {
+        class Pivot
+        fun round(pivot: Any) {
+            sender.round(inboxOf(null)) { it.alignedOn(pivot) { it.neighboring(0).local.value } }
+            sender.commit()
+            runtimes.tidy(listOf(sender, receiver))
+        }
+        val first = Pivot().let {
+            round(it)
+            WeakReference(it)
+        }
+        repeat(20_000) { round(Pivot()) }
+        repeat(10) { if (first.get() != null) System.gc() }
+        assertNull(first.get())
     }
 
     @Test

@@ -101,6 +101,8 @@ class FieldTest {
         assertEquals(f, f.mapValues { it + 1 }.mapValues { it - 1 })
         assertEquals(f.hashCode(), f.mapValues { it }.hashCode())
         assertNotEquals(f, f.mapValues { it + 1 })
+        assertNotEquals(f, f.map { if (it.id == 5) 51 else it.value }, "the local value counts")
+        assertNotEquals(f, f.map { if (it.id == 3) 51 else it.value })
         assertEquals("Field(local=5: 50, neighbors={1=10, 3=30, 1000=10000})", f.toString())
     }
 

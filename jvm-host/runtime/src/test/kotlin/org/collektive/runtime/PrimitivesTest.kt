@@ -4,6 +4,7 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchange
 import it.unibo.collektive.aggregate.api.exchanging
+import it.unibo.collektive.aggregate.api.impl.project
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
@@ -159,6 +160,19 @@ class PrimitivesTest {
         }
         repeat(2) { network.values(program = program) }
         assertEquals(1 to mapOf(2 to 1, 1 to 1), network.values(program = program)[1])
+    }
+
+    @Test
+    fun `a field kept from a former round is projected to the devices linked now`() {
+        val network = TestNetwork(1, 2, 3, 4).line(1, 2, 3).line(2, 4)
+        val program: Aggregate<Int>.() -> Any? = {
+            val now = alignedOn("now") { listOf(neighborhood()) }.single()
+            alignedOn("then") { evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef")?.neighbors?.ids?.list } } }
+        }
+        repeat(3) { network.values(program = program) }
+        assertEquals(listOf(1, 3, 4), network.values(program = program)[2])
+        network.remove(3)
+        assertEquals(listOf(1, 4), network.values(program = program)[2])
     }
 
     @Test

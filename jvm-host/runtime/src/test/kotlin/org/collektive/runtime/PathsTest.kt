@@ -1,0 +1,43 @@
+package org.collektive.runtime
+
+import it.unibo.collektive.path.DigestHashingFactory
+import it.unibo.collektive.path.FullPathFactory
+import it.unibo.collektive.path.Path
+import kotlinx.serialization.json.Json
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertNotEquals
+
+/** Equal tokens give equal paths, others give others, whichever factory makes them. */
+class PathsTest {
+    private data class Key(val name: String, val number: Int)
+
+    private val factories = listOf(FullPathFactory, DigestHashingFactory)
+
+    @Test
+    fun `equal tokens give equal paths`() {
+        for (tokens in listOf(listOf(), listOf("a", 1, null), listOf(Key("a", 1)), listOf(listOf(1, 2), 3L))) {
+            for (paths in factories) assertEquals(paths(tokens.toList()), paths(*tokens.toTypedArray()), "$tokens")
+        }
+        for (paths in factories) assertEquals(paths(Key("a", 1)), paths(Key("a", 1)))
+    }
+
+    @Test
+    fun `tokens are told apart by their borders, their order and their classes`() {
+        val others = listOf(
+            listOf("ab", "c"), listOf("a", "bc"), listOf("abc"), listOf("c", "ab"), listOf("a", "b", "c"), listOf(),
+            listOf(1), listOf(1L), listOf("1"), listOf(null), listOf("null"), listOf(""), listOf("", ""),
+            listOf(Key("a", 1)), listOf("Key(name=a, number=1)"), listOf(listOf("a", "b")), listOf("[a, b]"),
+            listOf("a 16 java.lang.String b"), listOf("a", "b"),
+        )
+        for (paths in factories) assertEquals(others.size, others.map { paths(it) }.toSet().size, paths::class.simpleName)
+    }
+
+    @Test
+    fun `a digest survives its journey`() {
+        val path = DigestHashingFactory("a", Key("b", 2))
+        val text = Json.encodeToString(Path.serializer(), path)
+        assertEquals(path, Json.decodeFromString(Path.serializer(), text))
+        assertNotEquals(DigestHashingFactory("a", Key("b", 3)), Json.decodeFromString(Path.serializer(), text))
+    }
+}
