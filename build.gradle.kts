@@ -117,7 +117,10 @@ project(":compiler-plugin") {
         // The compiler that loads the plugin brings it.
         "compileOnly"("org.jetbrains.kotlin:kotlin-compiler-embeddable:$kotlinVersion")
         "testImplementation"("org.jetbrains.kotlin:kotlin-compiler-embeddable:$kotlinVersion")
-        "testImplementation"(project(":dsl"))
+        "testImplementation"("org.jetbrains.kotlin:kotlin-serialization-compiler-plugin-embeddable:$kotlinVersion")
+        "testImplementation"(serialization.format("json"))
+        "testImplementation"(project(":runtime"))
+        "testImplementation"(project(":stdlib"))
     }
     // The tests run the Kotlin compiler in their process.
     tasks.withType<Test>().configureEach { maxHeapSize = "640m" }

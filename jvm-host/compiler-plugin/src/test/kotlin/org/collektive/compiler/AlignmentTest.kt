@@ -87,6 +87,12 @@ class AlignmentTest {
     fun `function objects of an interface`() = assertPaths("functionObjects", "work > evolve", "work > evolve")
 
     @Test
+    fun `objects that keep the Aggregate, and objects around, above and below them`() = assertPaths(
+        "keeping", "near > neighboring", "both > near > neighboring", "both > near > neighboring", "go > near > neighboring",
+        "inherited > neighboring", "viaMixin > neighboring", "all > neighboring",
+    )
+
+    @Test
     fun `context parameters`() = assertPaths("contextual", "inContext > evolve", "inContext > evolve")
 
     @Test
@@ -271,6 +277,20 @@ class AlignmentTest {
             fun Aggregate<Int>.functionObjects(): Int {
                 val job = Job { evolve(0) { it } }
                 return job.work() + job.work()
+            }
+
+            open class Keeper(protected val device: Aggregate<Int>) {
+                fun near(): Int = device.neighboring(1).local.value
+                fun both(): Int = near() + near()
+                inner class Part { fun go(): Int = near() }
+            }
+            class Below(device: Aggregate<Int>) : Keeper(device) { fun inherited(): Int = device.neighboring(1).local.value }
+            interface Mixin { val device: Aggregate<Int>; fun viaMixin(): Int = device.neighboring(1).local.value }
+            class Mixed(override val device: Aggregate<Int>) : Mixin
+            class Team(val keeper: Keeper) { fun all(): Int = keeper.near() }
+            fun Aggregate<Int>.keeping(): Int {
+                val keeper = Keeper(this)
+                return keeper.near() + keeper.both() + keeper.Part().go() + Below(this).inherited() + Mixed(this).viaMixin() + Team(keeper).all()
             }
 
             interface Task { fun work(): Int }

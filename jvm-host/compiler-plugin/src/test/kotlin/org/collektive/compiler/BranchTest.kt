@@ -34,6 +34,12 @@ class BranchTest {
     fun `a local function called in both arms does not align across them`() = assertSeen("functionInArms", 0 to setOf(2), 1 to setOf(3))
 
     @Test
+    fun `a function of an object that keeps the Aggregate does not align across the arms`() {
+        assertSeen("keeperInArms", 0 to setOf(2), 1 to setOf(3))
+        assertSeen("keeperOfKeeperInArms", 0 to setOf(2), 1 to setOf(3))
+    }
+
+    @Test
     fun `an arm that only returns does not hide the devices that go on`() = assertSeen("earlyReturn", 1 to setOf(3), 3 to setOf(1))
 
     @Test
@@ -111,6 +117,11 @@ class BranchTest {
                 fun look() = seen()
                 return if (even) look() else look()
             }
+
+            class Keeper(private val device: Aggregate<Int>) { fun look(): Set<Int> = device.seen() }
+            fun Aggregate<Int>.keeperInArms(): Set<Int> { val keeper = Keeper(this); return if (even) keeper.look() else keeper.look() }
+            class Team(private val keeper: Keeper) { fun look(): Set<Int> = keeper.look() }
+            fun Aggregate<Int>.keeperOfKeeperInArms(): Set<Int> { val team = Team(Keeper(this)); return if (even) team.look() else team.look() }
 
             fun Aggregate<Int>.earlyReturn(): Set<Int> {
                 if (even) return setOf()

@@ -192,6 +192,57 @@ class ChecksTest {
     )
 
     @Test
+    fun `a field that an arm assigns to a property of what is from outside is an error too`() = assertReports(
+        """
+        class Frame { var field: Any? = null; val next: Frame get() = this }
+        object Shared { var field: Any? = null }
+        var global: Any? = null
+        var Frame.alias: Any? get() = field; set(value) { field = value }
+        fun Aggregate<Int>.assigning(given: Frame): Any? {
+            val frame = Frame()
+            if (localId == 0) frame.field = neighboring(localId) // FIELD_FROM_BRANCH
+            if (localId == 1) { run { given.field = neighboring(localId) } } // FIELD_FROM_BRANCH
+            when (localId) { 2 -> global = neighboring(localId); 3 -> Shared.field = neighboring(localId) } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            if (localId == 4) frame.next.next.field = neighboring(localId) // FIELD_FROM_BRANCH
+            if (localId == 5) frame.alias = neighboring(localId) // FIELD_FROM_BRANCH
+            with(frame) { if (localId == 6) field = neighboring(localId) } // FIELD_FROM_BRANCH
+            return frame
+        }
+        class Keeper(private val device: Aggregate<Int>) {
+            var field: Any? = null
+            fun step() { if (device.localId == 0) this.field = device.neighboring(device.localId) } // FIELD_FROM_BRANCH
+        }
+        class Made(device: Aggregate<Int>, outer: Frame) {
+            val field: Any
+            init { if (device.localId == 0) { field = device.neighboring(device.localId) } else { field = 1; outer.field = device.neighborhood() } }
+        }
+        """,
+    )
+
+    @Test
+    fun `fields assigned to properties of what their arm made, or in no arm, are fine`() = assertReports(
+        """
+        class Frame { var field: Any? = null; val next: Frame get() = this }
+        var global: Any? = null
+        fun frame(): Frame = Frame()
+        fun Aggregate<Int>.assigning(given: Frame): Any? {
+            given.field = neighboring(localId)
+            global = neighboring(localId)
+            if (localId == 0) {
+                val inner = Frame()
+                inner.field = neighboring(localId)
+                inner.next.field = neighboring(localId)
+                Frame().apply { field = neighboring(localId) }
+                frame().field = neighboring(localId)
+                given.field = 1
+            }
+            return given
+        }
+        fun notAggregate(frame: Frame, make: () -> Field<Int, Int>, flag: Boolean) { if (flag) frame.field = make() }
+        """,
+    )
+
+    @Test
     fun `loops are found in all kinds of functions and expressions`() = assertReports(
         """
         import kotlin.reflect.KProperty
@@ -224,6 +275,13 @@ class ChecksTest {
             try { items.sumOf { helper(it) } } catch (_: IllegalStateException) { items.maxOf { helper(it) } } finally { for (i in items) helper(i) } // AGGREGATE_CALL_IN_LOOP AGGREGATE_CALL_IN_LOOP AGGREGATE_CALL_IN_LOOP
         fun Aggregate<Int>.nested(items: List<Int>): Int = run { with(items) { let { all -> all.map { also { _ -> helper(it) }.size }.sum() } } } // AGGREGATE_CALL_IN_LOOP
         context(aggregate: Aggregate<Int>) fun contextual(items: List<Int>) { for (i in items) aggregate.helper(i) } // AGGREGATE_CALL_IN_LOOP
+        class Keeper(private val device: Aggregate<Int>) {
+            fun all(items: List<Int>): List<Int> = items.map { device.helper(it) } // AGGREGATE_CALL_IN_LOOP
+            inner class Part { fun all(items: List<Int>) { for (i in items) device.helper(i) } } // AGGREGATE_CALL_IN_LOOP
+        }
+        abstract class Above(protected val device: Aggregate<Int>)
+        class Below(device: Aggregate<Int>) : Above(device) { fun all() { repeat(2) { device.helper(it) } } } // AGGREGATE_CALL_IN_LOOP
+        interface Mixin { val device: Aggregate<Int>; fun all() { repeat(2) { device.helper(it) } } } // AGGREGATE_CALL_IN_LOOP
         val function = fun Aggregate<Int>.(items: List<Int>) { for (i in items) helper(i) } // AGGREGATE_CALL_IN_LOOP
         """,
     )

@@ -3,6 +3,8 @@
 package org.collektive.compiler
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.util.Point2D
+import kotlinx.serialization.KSerializer
 import org.jetbrains.kotlin.cli.common.ExitCode
 import org.jetbrains.kotlin.cli.common.arguments.K2JVMCompilerArguments
 import org.jetbrains.kotlin.cli.common.messages.CompilerMessageSeverity
@@ -12,6 +14,7 @@ import org.jetbrains.kotlin.cli.jvm.K2JVMCompiler
 import org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar
 import org.jetbrains.kotlin.compiler.plugin.ExperimentalCompilerApi
 import org.jetbrains.kotlin.config.Services
+import org.jetbrains.kotlinx.serialization.compiler.extensions.SerializationComponentRegistrar
 import java.io.File
 import java.lang.reflect.InvocationTargetException
 import java.net.URLClassLoader
@@ -47,7 +50,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
         private const val IMPORTS = "import it.unibo.collektive.aggregate.*; import it.unibo.collektive.aggregate.api.*;"
 
         /** Compiles [source]; its first line is line 1, all names of the DSL are imported. */
-        fun of(source: String, vararg options: String): Compilation {
+        fun of(source: String, vararg options: String, module: String = "programs"): Compilation {
             val folder = Files.createTempDirectory("compilation")
             Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
             val text = source.trimIndent()
@@ -59,15 +62,15 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             val arguments = K2JVMCompilerArguments().apply {
                 freeArgs = listOf(file.path)
                 destination = folder.resolve("classes").toString()
-                classpath = listOf(placeOf(Aggregate::class.java), placeOf(Unit::class.java)).joinToString(File.pathSeparator)
+                classpath = listOf(Aggregate::class, Point2D::class, KSerializer::class, Unit::class).joinToString(File.pathSeparator) { placeOf(it.java) }
                 noStdlib = true
                 noReflect = true
-                moduleName = "programs"
+                moduleName = module
                 jvmTarget = "17"
                 renderInternalDiagnosticNames = true
                 verifyIr = "error"
                 optIn = arrayOf("it.unibo.collektive.aggregate.api.DelicateCollektiveApi")
-                pluginClasspaths = PLUGIN
+                pluginClasspaths = PLUGIN + placeOf(SerializationComponentRegistrar::class.java)
                 pluginOptions = options.map { "plugin:${CollektiveOptions.PLUGIN_ID}:$it" }.toTypedArray()
             }
             val code = K2JVMCompiler().exec(Collector(reports), Services.EMPTY, arguments)

@@ -42,6 +42,22 @@ class ProjectionTest {
     fun `elvis and when arms`() = assertSeen("elvis", 0 to setOf(2), 1 to setOf())
 
     @Test
+    fun `a field is projected wherever it comes from`() {
+        for (program in listOf("property", "pair", "element", "destructured", "delegated", "smartCast", "cast")) {
+            assertSeen(program, 0 to setOf(2), 1 to setOf(3))
+        }
+        for (program in listOf("each", "iterated")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
+    }
+
+    @Test
+    fun `a lambda sees a field as it is where the lambda is written, wherever it runs`() =
+        assertSeen("lambdaFromOutside", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
+
+    @Test
+    fun `what a function takes out of its arguments comes as they hold it`() =
+        assertSeen("takenOut", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
+
+    @Test
     fun `a field may be read in a loop inside an arm`() = assertSeen("loop", 0 to setOf(2), 1 to setOf(3), plainToo = false)
 
     @Test
@@ -94,6 +110,42 @@ class ProjectionTest {
                 val f = neighboring(localId)
                 return if (even) run { ids(f) } else listOf(1).flatMap { ids(f) }.toSet()
             }
+            class Frame(val field: Field<Int, Int>)
+            fun Aggregate<Int>.property(): Set<Int> { val f = Frame(neighboring(localId)); return if (even) ids(f.field) else ids(f.field) }
+            fun Aggregate<Int>.pair(): Set<Int> { val f = neighboring(localId) to 1; return if (even) ids(f.first) else ids(f.first) }
+            fun Aggregate<Int>.element(): Set<Int> { val f = listOf(neighboring(localId)); return if (even) ids(f[0]) else ids(f.first()) }
+            fun Aggregate<Int>.destructured(): Set<Int> {
+                val f = neighboring(localId) to 1
+                return if (even) { val (g, _) = f; ids(g) } else { val (g, _) = f; ids(g) }
+            }
+            fun Aggregate<Int>.delegated(): Set<Int> { val f by lazy { neighboring(localId) }; f.local; return if (even) ids(f) else ids(f) }
+            fun Aggregate<Int>.smartCast(): Set<Any> {
+                val f: Any = neighboring(localId)
+                if (f !is Field<*, *>) return setOf()
+                return if (even) f.neighbors.list.map { it.id }.toSet() else f.neighbors.list.map { it.id }.toSet()
+            }
+            @Suppress("UNCHECKED_CAST")
+            fun Aggregate<Int>.cast(): Set<Int> {
+                val f: Any = neighboring(localId)
+                return if (even) ids(f as Field<Int, Int>) else ids(f as Field<Int, Int>)
+            }
+            fun Aggregate<Int>.each(): Set<Int> {
+                val f = listOf(neighboring(localId))
+                return if (even) f.flatMap { ids(it) }.toSet() else f.flatMap { g -> g.let { ids(it) } }.toSet()
+            }
+            fun Aggregate<Int>.iterated(): Set<Int> {
+                val f = listOf(neighboring(localId))
+                if (even) { for (g in f) return ids(g) } else { for (g in f) return ids(g) }
+                return setOf()
+            }
+            fun Aggregate<Int>.lambdaFromOutside(): Set<Int> {
+                val f = neighboring(localId)
+                val look = { ids(f) }
+                return if (even) look() else look()
+            }
+            fun first(of: List<Field<Int, Int>>): Field<Int, Int> = of.first()
+            fun Aggregate<Int>.takenOut(): Set<Int> { val f = listOf(neighboring(localId)); return if (even) ids(first(f)) else ids(first(f)) }
+
             fun Aggregate<Int>.elvis(): Set<Int> {
                 val f = neighboring(localId)
                 return setOf<Int>().takeIf { !even } ?: ids(f)

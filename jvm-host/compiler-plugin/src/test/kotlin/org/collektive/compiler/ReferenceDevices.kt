@@ -14,13 +14,22 @@ import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import it.unibo.collektive.aggregate.api.impl.readable
 
 /**
- * Fully connected devices that keep everything in maps by whole path: slow and obviously right.
+ * Devices that keep everything in maps by whole path: slow and obviously right.
  *
+ * @param linked whether two devices are neighbours; all are unless told otherwise.
  * @param plain devices offer no [AlignmentStack].
  * @param unchecked clashes go unnoticed; for programs compiled without the plugin.
  */
-internal class ReferenceDevices(vararg ids: Int, plain: Boolean = false, val unchecked: Boolean = false) {
+internal class ReferenceDevices(
+    vararg ids: Int,
+    plain: Boolean = false,
+    val unchecked: Boolean = false,
+    private val linked: (Int, Int) -> Boolean = { _, _ -> true },
+) {
     val devices = ids.associateWith { if (plain) PlainDevice(it, this) else ReferenceDevice(it, this) }
+
+    /** The neighbours of [id], ascending. */
+    fun neighbors(id: Int): List<PlainDevice> = devices.values.filter { it.localId != id && linked(it.localId, id) }.sortedBy { it.localId }
 
     /** One round of all, who read what was sent in the round before. */
     fun round(program: Aggregate<Int>.() -> Any?): Map<Int, Any?> {
@@ -135,10 +144,10 @@ internal open class PlainDevice(override val localId: Int, private val network: 
         newSent.putIfAbsent(stack.toList(), mapOf(null to null))
     }
 
-    protected fun alignedHere(): Set<Int> = network.devices.filter { (id, device) -> id != localId && stack.toList() in device.sent }.keys
+    protected fun alignedHere(): Set<Int> = network.neighbors(localId).filter { stack.toList() in it.sent }.map { it.localId }.toSet()
 
     private fun <T> received(path: List<Any?>, local: T): Field<Int, T> {
-        val senders = network.devices.values.filter { it !== this && path in it.sent }.sortedBy { it.localId }
+        val senders = network.neighbors(localId).filter { path in it.sent }
         val values = senders.map { sender ->
             val message = sender.sent.getValue(path)
             if (localId in message) message[localId] else message[null]

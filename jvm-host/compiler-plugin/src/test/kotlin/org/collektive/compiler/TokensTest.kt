@@ -20,6 +20,12 @@ class TokensTest {
     fun `builds in different folders agree`() = assertEquals(tokens(compiled), tokens(Compilation.of(SOURCE)))
 
     @Test
+    fun `modules do not share tokens, so that two jars with files of one name can meet in one program`() {
+        val elsewhere = tokens(Compilation.of(SOURCE, module = "elsewhere"))
+        assertEquals(emptySet(), tokens(compiled).flatten().toSet() intersect elsewhere.flatten().toSet())
+    }
+
+    @Test
     fun `each place has its own token`() {
         val places = tokens(compiled).flatten()
         // Calls of first and twice in main, of first in the lambda, of neighboring in both overloads.

@@ -6,6 +6,7 @@ import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.builtins.StandardNames
 import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.declarations.IrConstructor
+import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
 import org.jetbrains.kotlin.ir.declarations.IrFunction
 import org.jetbrains.kotlin.ir.declarations.IrVariable
 import org.jetbrains.kotlin.ir.expressions.IrCallableReference
@@ -40,7 +41,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
         val callee = call.symbol.owner
         return when {
-            dsl.isManualAlignment(callee) -> false
+            dsl.isManualAlignment(callee) || callee.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR -> false
             // An object literal is code of this very place.
             callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionsGivenTo(call).any()
@@ -55,7 +56,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
 
     /** The standard library, and operators such as `==` and `!!`. */
-    private fun isKotlins(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
+    fun isKotlins(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
 
     private fun carries(value: IrExpression): Boolean = when (value) {
         is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)

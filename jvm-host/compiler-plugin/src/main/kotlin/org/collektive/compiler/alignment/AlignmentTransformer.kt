@@ -13,6 +13,7 @@ import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
 import org.jetbrains.kotlin.ir.builders.irBlock
 import org.jetbrains.kotlin.ir.builders.irCall
 import org.jetbrains.kotlin.ir.builders.irGet
+import org.jetbrains.kotlin.ir.builders.irGetField
 import org.jetbrains.kotlin.ir.builders.irString
 import org.jetbrains.kotlin.ir.builders.irTemporary
 import org.jetbrains.kotlin.ir.builders.irTry
@@ -75,8 +76,11 @@ internal class AlignmentTransformer(
     private val reach: AggregateReach,
     private val tokens: Tokens,
 ) : IrElementTransformerVoidWithContext() {
-    /** The parameter that gives the running Aggregate; `null` outside aggregate functions. */
-    private var source: IrValueParameter? = null
+    /** What gives the running Aggregate; `null` outside aggregate functions. */
+    private var source: Source? = null
+
+    /** The parameter [given] itself, or what that object keeps in [property]. */
+    private class Source(val given: IrValueParameter, val property: IrProperty? = null)
 
     /** Where neighbours are aligned alike: a function's body, an arm, the body of an `alignedOn`. */
     private class Region(val outer: Region?)
@@ -84,6 +88,9 @@ internal class AlignmentTransformer(
     private var region: Region? = null
     private val regionOf = HashMap<IrValueDeclaration, Region?>()
     private val alignedBodies = HashSet<IrFunction>()
+
+    /** Functions that run for what a container holds, such as the one of `map`: their parameters come from outside. */
+    private val eachBodies = HashSet<IrFunction>()
 
     /** Whether the arm being rewritten depends on its path. */
     private var dependsOnPath = false
@@ -116,7 +123,7 @@ internal class AlignmentTransformer(
         val outerRegion = region
         source = sourceIn(declaration) ?: outerSource
         if (declaration in alignedBodies) region = Region(outerRegion)
-        for (parameter in declaration.parameters) regionOf[parameter] = region
+        if (declaration !in eachBodies) for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
         source = outerSource
         region = outerRegion
@@ -171,19 +178,35 @@ internal class AlignmentTransformer(
     }
 
     override fun visitGetValue(expression: IrGetValue): IrExpression {
-        val variable = expression.symbol.owner
-        val isOutside = region != null && regionOf[variable] !== region
-        if (source == null || !isOutside || !dsl.isField(expression.type)) return expression
+        val isOutside = source != null && region != null && regionOf[expression.symbol.owner] !== region
+        return if (isOutside && dsl.isField(expression.type)) projected(expression, nameOf(expression)) else expression
+    }
+
+    /** A variable of another type that is read as a field, after `is` or with `as`. */
+    override fun visitTypeOperator(expression: IrTypeOperatorCall): IrExpression {
+        val read = expression.argument as? IrGetValue
+        val becomesField = read != null && dsl.isField(expression.type) && !dsl.isField(read.type)
+        if (!becomesField || source == null || region == null) return super.visitTypeOperator(expression)
+        return projected(expression, nameOf(read))
+    }
+
+    /** Whether [call] gives a field that is not made by it: one from a property, a list, a pair. */
+    private fun handsOut(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
+        !dsl.isFieldMember(call.symbol.owner) && !reach.mustAlign(call) && call.arguments.none { it != null && dsl.isField(it.type) }
+
+    private fun projected(field: IrExpression, name: String): IrExpression {
         dependsOnPath = true
-        return builderAt(expression).run {
-            irCall(dsl.project, expression.type).apply {
-                val given = (expression.type as? IrSimpleType)?.arguments.orEmpty()
+        return builderAt(field).run {
+            irCall(dsl.project, field.type).apply {
+                val given = (field.type as? IrSimpleType)?.arguments.orEmpty()
                 for (index in typeArguments.indices) typeArguments[index] = given.getOrNull(index)?.typeOrNull ?: plugin.irBuiltIns.anyType
-                arguments[0] = expression
-                arguments[1] = irString(token(variable.name.asString().trim('<', '>'), expression))
+                arguments[0] = field
+                arguments[1] = irString(token(name, field))
             }
         }
     }
+
+    private fun nameOf(read: IrGetValue) = read.symbol.owner.name.asString().trim('<', '>')
 
     override fun visitCall(expression: IrCall): IrExpression {
         val callee = expression.symbol.owner
@@ -193,17 +216,22 @@ internal class AlignmentTransformer(
             (expression.dispatchReceiver as? IrGetValue)?.let { return expression }
         }
         if (callee.name == DslNames.alignedOn && dsl.isAggregateMember(callee)) {
-            expression.arguments.forEach { (it as? IrFunctionExpression)?.let { body -> alignedBodies += body.function } }
+            functionsGivenTo(expression).forEach { alignedBodies += it.function }
         }
         if (dsl.isManualAlignment(callee)) dependsOnPath = true
-        return visitAccess(expression)
+        val handsOut = handsOut(expression)
+        val result = visitAccess(expression)
+        return if (handsOut) projected(result, callName(expression)) else result
     }
 
     override fun visitConstructorCall(expression: IrConstructorCall): IrExpression =
         if (source == null) super.visitConstructorCall(expression) else visitAccess(expression)
 
+    private fun functionsGivenTo(call: IrFunctionAccessExpression) = call.arguments.filterIsInstance<IrFunctionExpression>()
+
     private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
         val mustAlign = reach.mustAlign(call)
+        if (reach.isKotlins(call.symbol.owner)) functionsGivenTo(call).forEach { eachBodies += it.function }
         call.transformChildren(this, null)
         return if (mustAlign) aligned(call) else call
     }
@@ -258,9 +286,17 @@ internal class AlignmentTransformer(
 
     /** The Aggregate of the enclosing function. */
     private fun IrBlockBuilder.current(): IrExpression {
-        val parameter = checkNotNull(source)
-        if (dsl.isAggregate(parameter.type)) return irGet(parameter)
-        return irCall(dsl.fieldContext, dsl.aggregate.starProjectedType).apply { arguments[0] = irGet(parameter) }
+        val source = checkNotNull(source)
+        val given = irGet(source.given)
+        val property = source.property
+        val getter = property?.getter
+        val field = property?.backingField
+        return when {
+            field != null -> irGetField(given, field)
+            getter != null -> irCall(getter).apply { arguments[0] = given }
+            dsl.isAggregate(source.given.type) -> given
+            else -> irCall(dsl.fieldContext, dsl.aggregate.starProjectedType).apply { arguments[0] = given }
+        }
     }
 
     /** A lambda here is put into the callee's body by the compiler, so it must stay a literal. */
@@ -275,11 +311,18 @@ internal class AlignmentTransformer(
         else -> argument.type.isNothing()
     }
 
-    private fun sourceIn(function: IrFunction): IrValueParameter? {
+    private fun sourceIn(function: IrFunction): Source? {
         val (self, given) = function.parameters.partition { it.kind == IrParameterKind.DispatchReceiver }
-        return given.firstOrNull { dsl.isAggregate(it.type) }
+        val parameter = given.firstOrNull { dsl.isAggregate(it.type) }
             ?: given.firstOrNull { dsl.isField(it.type) && !it.type.isNullable() }
             ?: self.firstOrNull { function.parentClassOrNull?.let(dsl::isAggregateByDelegation) == true }
+        return if (parameter != null) Source(parameter) else self.firstOrNull()?.let { keptBy(it, function.parentAsClass) }
+    }
+
+    /** What [self], of [type], or an object around it keeps. */
+    private fun keptBy(self: IrValueParameter, type: IrClass): Source? {
+        dsl.keptAggregate(type)?.let { return Source(self, it) }
+        return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { keptBy(it, outer) } } else null
     }
 
     private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&

@@ -4,20 +4,29 @@ package org.collektive.compiler.alignment
 
 import org.collektive.compiler.DslNames
 import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
+import org.jetbrains.kotlin.descriptors.DescriptorVisibilities
 import org.jetbrains.kotlin.ir.declarations.IrClass
 import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
 import org.jetbrains.kotlin.ir.declarations.IrFunction
+import org.jetbrains.kotlin.ir.declarations.IrParameterKind
+import org.jetbrains.kotlin.ir.declarations.IrProperty
 import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
 import org.jetbrains.kotlin.ir.symbols.IrClassSymbol
 import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
 import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.getClass
 import org.jetbrains.kotlin.ir.types.typeOrNull
 import org.jetbrains.kotlin.ir.util.functions
+import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.getPropertyGetter
+import org.jetbrains.kotlin.ir.util.isFakeOverride
+import org.jetbrains.kotlin.ir.util.isNullable
 import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
+import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
+import org.jetbrains.kotlin.ir.util.properties
 import org.jetbrains.kotlin.ir.util.resolveFakeOverride
 
 /** The declarations of the DSL as the module under compilation sees them. */
@@ -36,7 +45,43 @@ internal class DslSymbols private constructor(
 
     /** Whether values of [type] are, or may hold, an Aggregate or a Field. */
     fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
-        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true }
+        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true } ||
+        type.getClass()?.let(::keepsAggregate) == true
+
+    private val keepers = HashMap<IrClass, Boolean>()
+
+    /** Whether objects of [type], or others that they keep, keep an Aggregate. */
+    private fun keepsAggregate(type: IrClass): Boolean {
+        if (type.getPackageFragment().packageFqName.asString().let { it.startsWith("kotlin") || it.startsWith("java") }) return false
+        keepers[type]?.let { return it }
+        keepers[type] = false // for classes that keep each other
+        val found = keptAggregate(type) != null || type.properties.any { property ->
+            property.backingField?.type?.getClass()?.let(::keepsAggregate) == true
+        } || type.isInner && keepsAggregate(type.parentAsClass)
+        keepers[type] = found
+        return found
+    }
+
+    /**
+     * The property in which objects of [type] keep the Aggregate that they were made with. Implementations of Aggregate keep another
+     * one for other reasons.
+     */
+    fun keptAggregate(type: IrClass): IrProperty? =
+        if (type.symbol.isSubtypeOfClass(aggregate)) null else type.properties.firstOrNull(::isKeptAggregate)
+
+    private fun isKeptAggregate(property: IrProperty): Boolean {
+        if (property.isVar || property.isDelegated) return false
+        val getter = property.getter
+        val kept = property.backingField?.type ?: getter?.takeIf(::isInheritedOrAbstract)?.returnType ?: return false
+        return isAggregate(kept) && !kept.isNullable()
+    }
+
+    /** Whether [getter] can be called for what the class above, or below, keeps. */
+    private fun isInheritedOrAbstract(getter: IrSimpleFunction): Boolean {
+        val real = generateSequence(getter) { it.overriddenSymbols.firstOrNull()?.owner }.firstOrNull { !it.isFakeOverride } ?: return false
+        return real.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR && !DescriptorVisibilities.isPrivate(real.visibility) &&
+            getter.parameters.all { it.kind == IrParameterKind.DispatchReceiver }
+    }
 
     /** Whether [function] is a member of Aggregate, or overrides one. */
     fun isAggregateMember(function: IrFunction): Boolean = function.parentClassOrNull?.symbol == aggregate ||

@@ -1,8 +1,16 @@
 package org.collektive.compiler.checks
 
 import org.collektive.compiler.DslNames
+import org.jetbrains.kotlin.descriptors.Visibilities
+import org.jetbrains.kotlin.fir.FirSession
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
+import org.jetbrains.kotlin.fir.declarations.declaredProperties
 import org.jetbrains.kotlin.fir.declarations.hasAnnotation
+import org.jetbrains.kotlin.fir.declarations.utils.hasBackingField
+import org.jetbrains.kotlin.fir.declarations.utils.isAbstract
+import org.jetbrains.kotlin.fir.declarations.utils.visibility
+import org.jetbrains.kotlin.fir.resolve.toRegularClassSymbol
+import org.jetbrains.kotlin.fir.symbols.impl.FirClassSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirFunctionSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 
@@ -12,7 +20,25 @@ internal fun isAggregateCode(): Boolean {
     val session = context.session
     if (context.containingFileSymbol?.hasAnnotation(DslNames.ignore, session) == true) return false
     if (context.containingDeclarations.any { it.hasAnnotation(DslNames.ignore, session) }) return false
-    return context.containingDeclarations.any { it is FirFunctionSymbol<*> && isAggregateFunction(it) }
+    return context.containingDeclarations.any {
+        it is FirFunctionSymbol<*> && isAggregateFunction(it) || it is FirClassSymbol<*> && keepsAggregate(it)
+    }
+}
+
+/** Whether objects of [type] keep the Aggregate that they were made with; implementations of Aggregate keep another one for other reasons. */
+context(context: CheckerContext)
+private fun keepsAggregate(type: FirClassSymbol<*>): Boolean = with(context.session) {
+    type.resolvedSuperTypes.none { it.isAggregate() } && (keptIn(type) || inherited(type).any { keptIn(it, isInherited = true) })
+}
+
+context(session: FirSession)
+private fun inherited(type: FirClassSymbol<*>): Sequence<FirClassSymbol<*>> = type.resolvedSuperTypes.asSequence()
+    .mapNotNull { it.toRegularClassSymbol(session) }.flatMap { sequenceOf(it) + inherited(it) }
+
+context(session: FirSession)
+private fun keptIn(type: FirClassSymbol<*>, isInherited: Boolean = false): Boolean = type.declaredProperties(session).any {
+    !it.isVar && !it.hasDelegate && (it.hasBackingField || it.isAbstract) && !(isInherited && it.visibility == Visibilities.Private) &&
+        it.resolvedReturnType.isAggregate()
 }
 
 context(context: CheckerContext)

@@ -6,20 +6,27 @@ import org.jetbrains.kotlin.fir.FirElement
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
 import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
-import org.jetbrains.kotlin.fir.declarations.FirProperty
+import org.jetbrains.kotlin.fir.declarations.FirClass
+import org.jetbrains.kotlin.fir.declarations.FirFunction
+import org.jetbrains.kotlin.fir.declarations.FirVariable
 import org.jetbrains.kotlin.fir.expressions.FirBlock
 import org.jetbrains.kotlin.fir.expressions.FirBooleanOperatorExpression
 import org.jetbrains.kotlin.fir.expressions.FirElvisExpression
 import org.jetbrains.kotlin.fir.expressions.FirExpression
+import org.jetbrains.kotlin.fir.expressions.FirPropertyAccessExpression
+import org.jetbrains.kotlin.fir.expressions.FirResolvedQualifier
 import org.jetbrains.kotlin.fir.expressions.FirReturnExpression
 import org.jetbrains.kotlin.fir.expressions.FirStatement
+import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
 import org.jetbrains.kotlin.fir.expressions.FirTryExpression
 import org.jetbrains.kotlin.fir.expressions.FirVariableAssignment
 import org.jetbrains.kotlin.fir.expressions.FirWhenBranch
 import org.jetbrains.kotlin.fir.expressions.FirWhenExpression
 import org.jetbrains.kotlin.fir.expressions.unwrapLValue
+import org.jetbrains.kotlin.fir.expressions.unwrapSmartcastExpression
 import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
+import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
 /** Fields must not leave `if` and `when`: outside, devices that chose other arms are aligned too. */
@@ -48,14 +55,29 @@ internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpressi
     }
 }
 
-/** The same for an assignment inside an arm to a local variable from outside. */
+/** The same for an assignment inside an arm to a variable from outside, or to a property of what is from outside. */
 internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignment>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirVariableAssignment) {
         if (!expression.rValue.isField()) return
-        val variable = expression.unwrapLValue()?.calleeReference?.toResolvedVariableSymbol() as? FirLocalPropertySymbol ?: return
-        val isOutside = { element: FirElement -> element.contains { it is FirProperty && it.symbol == variable } }
+        val isOutside = expression.unwrapLValue()?.let(::declares) ?: return
         if (isInArm(expression, isOutside)) reportField(expression.rValue)
+    }
+
+    /** Tells the elements in which the variable or object exists that [read] begins with; `null` when it begins with a call. */
+    private fun declares(read: FirExpression): ((FirElement) -> Boolean)? {
+        val start = read.unwrapSmartcastExpression()
+        if (start is FirThisReceiverExpression) {
+            val owner = start.calleeReference.boundSymbol
+            return { it is FirClass && it.symbol == owner || it is FirFunction && it.receiverParameter?.symbol == owner }
+        }
+        if (start is FirResolvedQualifier) return { false }
+        val variable = (start as? FirPropertyAccessExpression)?.calleeReference?.toResolvedVariableSymbol() ?: return null
+        if (variable is FirLocalPropertySymbol || variable is FirValueParameterSymbol) {
+            return { element -> element.contains { it is FirVariable && it.symbol == variable } }
+        }
+        val receiver = start.dispatchReceiver ?: start.extensionReceiver ?: return { false }
+        return declares(receiver)
     }
 }
 

@@ -13,6 +13,10 @@ import it.unibo.collektive.aggregate.api.impl.told
  * per entry, neighbours first, and primitives in them are aligned on the entry's id. Two fields are equal when their maps from id to value are, the local
  * one included.
  *
+ * Inside a branch (an arm of `if` or `when`, the right of `?:`, `&&`, `||`) and inside `alignedOn`, a field from outside has only the neighbours that went the
+ * same way. So what all need is taken from it before: `val near = seen.neighbors.values.list.min(); if (source) 0 else near + 1`, since inside
+ * `else` the sources, which went the other way, are not seen.
+ *
  * @property context the device and round that the field belongs to.
  */
 public class Field<ID : Any, out T> private constructor(
