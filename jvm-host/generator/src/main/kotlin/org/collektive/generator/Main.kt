@@ -50,8 +50,10 @@ private fun generate(arguments: Arguments, work: Path) {
         reader.files.forEach { flatc.java(it, work.resolve("java")) }
         output.copy(work.resolve("java")) { path, text -> Java.keepZeros(schema, path, text) }
         output.write("${path(schema.name)}.java", Templates.render("Schema.java", Java.model(schema)))
-        output.write("META-INF/services/org.collektive.api.schema.DataSchema", "${schema.name}\n")
+        output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.java") }
     }
 }
+
+private const val SERVICES = "META-INF/services/org.collektive.api.schema.DataSchema"
 
 private fun path(name: TypeName): String = name.toString().replace('.', '/')

@@ -12,6 +12,15 @@ internal class OutputFolder(private val root: Path) {
         Files.writeString(file, text)
     }
 
+    fun holds(path: String): Boolean = Files.exists(root.resolve(path))
+
+    /** Adds [line] to a file of sorted lines, of which those stay that [isWanted]: other schemas may have written theirs. */
+    fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
+        val file = root.resolve(path)
+        val others = if (Files.exists(file)) Files.readAllLines(file).map(String::trim).filter { it.isNotEmpty() && isWanted(it) } else emptyList()
+        write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
+    }
+
     /** Takes over all files of [folder]; [edit] gets the path and the text of each and gives its new text. */
     fun copy(folder: Path, edit: (String, String) -> String) {
         if (!Files.exists(folder)) return

@@ -44,6 +44,24 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `schemas generated into one folder are all announced, in any order, and one that is gone is not`() {
+        val work = Workshop.newFolder()
+        fun generate(namespace: String, output: String) {
+            val schema = work.resolve("$namespace.fbs")
+            Files.writeString(schema, "namespace $namespace; struct SensorData { x: float; } struct ActuatorData { x: float; }")
+            Workshop.generate(schema, work.resolve(output))
+        }
+        fun announced(output: String) = texts(work.resolve(output))["java/META-INF/services/org.collektive.api.schema.DataSchema"]
+        listOf("b", "a", "c", "a").forEach { generate(it, "one") }
+        listOf("c", "a", "b").forEach { generate(it, "other") }
+        assertEquals("a.ASchema\nb.BSchema\nc.CSchema\n", announced("one"))
+        assertEquals(announced("one"), announced("other"))
+        Files.delete(work.resolve("one/java/b/BSchema.java"))
+        generate("c", "one")
+        assertEquals("a.ASchema\nc.CSchema\n", announced("one"))
+    }
+
+    @Test
     fun `comments of the schema become documentation, made safe for XML`() {
         val output = Workshop.generate("namespace a;\n/// All & <more>\n/// of it.\ntable SensorData {\n/// In metres.\nx: float; } struct ActuatorData { x: float; }")
         val text = texts(output).getValue("csharp/a/UserSchema.cs")
