@@ -136,12 +136,13 @@ namespace Collektive.Unity
 
         internal LinkTable Links { get; } = new LinkTable();
 
-        /// <summary>The links between nodes that take part; those of nodes that left are otherwise dropped at the next tick, all at once.</summary>
+        /// <summary>The links between nodes that take part, with their values; otherwise they are brought up to date at the next tick, all at once.</summary>
         internal LinkTable PresentLinks
         {
             get
             {
                 if (anyGone) DropLinksOfGone();
+                Links.Settle();
                 return Links;
             }
         }

@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Components
                     case 1:
                     case 2:
                     case 3:
-                        holds.Add((from, to, table.Hold(from, to, 1, 0)));
+                        holds.Add((from, to, table.Hold(from, to, false, 1, 0)));
                         model[(from, to)] = model.TryGetValue((from, to), out var count) ? count + 1 : 1;
                         break;
                     case 4:
@@ -75,16 +75,17 @@ namespace Collektive.Headless.Tests.Components
         public void New_values_are_sent_once()
         {
             var table = new LinkTable();
-            var handle = table.Hold(0, 1, 10, 0);
+            var handle = table.Hold(0, 1, false, 10, 0);
             var known = new[] { true, true };
             Assert.That(Sent(table, known), Is.EqualTo(1));
             Assert.That(Sent(table, known), Is.EqualTo(0));
-            Assert.That(table.Update(handle, 12, 0), Is.True);
+            table.Update(handle, 12, 0);
             Assert.That(Sent(table, known), Is.EqualTo(1));
-            Assert.That(table.Update(handle, 12, 0), Is.True);
+            table.Update(handle, 12, 0);
             Assert.That(Sent(table, known), Is.EqualTo(0));
+            Assert.That(table.IsAlive(handle), Is.True);
             table.Release(handle);
-            Assert.That(table.Update(handle, 1, 0), Is.False);
+            Assert.That(table.IsAlive(handle), Is.False);
         }
 
         [Test]

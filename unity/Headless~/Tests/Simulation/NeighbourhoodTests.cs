@@ -24,6 +24,51 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Links(), Is.EqualTo("0>1 0>3 1>0 1>2 2>1 3>0"));
         }
 
+        [TestCase(1)]
+        [TestCase(2)]
+        [TestCase(3)]
+        public void Radius_rules_link_those_that_looking_at_every_pair_finds_whatever_happens(int seed)
+        {
+            var random = new RandomStream((ulong)seed, 0, RandomPurpose.Scene);
+            var nodes = new List<Node>();
+            for (var i = 0; i < 40; i++) nodes.Add(MakeReaching(random));
+            for (var tick = 0; tick < 150; tick++)
+            {
+                foreach (var node in nodes) node.transform.position += 0.1f * Place(random);
+                var one = nodes[random.Range(0, nodes.Count)];
+                switch (random.Range(0, 7))
+                {
+                    case 0:
+                        one.transform.position = 10 * Place(random);
+                        break;
+                    case 1:
+                        one.enabled = !one.enabled;
+                        break;
+                    case 2:
+                        one.gameObject.SetActive(false);
+                        Object.Destroy(one.gameObject);
+                        nodes.Remove(one);
+                        break;
+                    case 3:
+                        nodes.Add(MakeReaching(random));
+                        break;
+                    case 4:
+                        one.GetComponent<RadiusNeighbourhood>().Radius = random.Range(0f, 5f);
+                        break;
+                    case 5:
+                        one.transform.localScale = random.Range(0, 2) == 0 ? new Vector3(-3, 0.1f, 3) : Vector3.one;
+                        break;
+                    default:
+                        one.GetComponent<RadiusNeighbourhood>().enabled ^= true;
+                        break;
+                }
+                Play(1);
+                Assert.That(Links(), Is.EqualTo(LinksOfEveryPair(nodes)), "tick " + tick);
+                AssertLengths();
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
         [Test]
         public void A_directed_rule_lets_only_the_neighbours_hear()
         {
@@ -220,6 +265,48 @@ namespace Collektive.Headless.Tests.Simulation
             var rule = node.Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
             rule.Radius = radius;
             return rule;
+        }
+
+        private static Vector3 Place(RandomStream random) => new Vector3(random.Range(-5f, 5f), random.Range(-1f, 1f), random.Range(-5f, 5f));
+
+        private static Node MakeReaching(RandomStream random)
+        {
+            var node = MakeNode(1, Place(random)).Node;
+            node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = random.Range(1f, 3f);
+            return node;
+        }
+
+        private static string LinksOfEveryPair(List<Node> nodes)
+        {
+            var sorted = nodes.FindAll(node => node.enabled);
+            sorted.Sort((a, b) => a.Id.CompareTo(b.Id));
+            var links = new List<string>();
+            foreach (var from in sorted)
+            {
+                foreach (var to in sorted)
+                {
+                    if (from != to && (Reaches(from, to) || Reaches(to, from))) links.Add(from.Id + ">" + to.Id);
+                }
+            }
+            return string.Join(" ", links);
+        }
+
+        private static bool Reaches(Node node, Node other)
+        {
+            var rule = node.GetComponent<RadiusNeighbourhood>();
+            return rule.enabled && (other.transform.position - node.transform.position).sqrMagnitude <= rule.Radius * rule.Radius;
+        }
+
+        /// <summary>They may be off by the rules' tolerance; twice as much when the rule that gave the length left the link to another.</summary>
+        private void AssertLengths()
+        {
+            var links = new List<LinkRecord>();
+            Manager.CopyLinks(links);
+            foreach (var link in links)
+            {
+                var distance = Vector3.Distance(Manager.Find(link.From).transform.position, Manager.Find(link.To).transform.position);
+                Assert.That(link.Length, Is.EqualTo(distance).Within(0.5001f), link.From + ">" + link.To);
+            }
         }
 
         private static GameObject MakeWall(float place)

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using Collektive.Bridge;
 
 namespace Collektive.Unity
@@ -6,26 +7,54 @@ namespace Collektive.Unity
     /// <summary>
     /// All directed links of the scene, each with the number of rules that hold it, and what of them the JVM does not know yet.
     /// A link exists while somebody holds it. No allocation once its capacity is reached.
+    ///
+    /// In a large scene fetching links from memory is what they cost. So the two of a pair of nodes stand side by side, since most are held and released
+    /// together, and values are collected and then given to all links in one go.
     /// </summary>
     internal sealed class LinkTable
     {
         private const int None = -1;
 
-        private struct Entry
+        private struct Way
         {
-            internal LinkRecord Link;
+            internal float Length;
+            internal float Attenuation;
             internal int Holders;
-            internal int Generation;
-            internal int NextInBucket;
             internal bool Sent;
             internal bool Dirty;
             internal bool ByScript;
         }
 
-        private Entry[] entries = new Entry[64];
+        private struct Pair
+        {
+            internal int Low;
+            internal int High;
+            internal int Generation;
+            internal int NextInBucket;
+            // From the lower id to the higher, and back.
+            internal Way Up;
+            internal Way Down;
+
+            internal bool IsHeld => Up.Holders > 0 || Down.Holders > 0;
+
+            internal bool IsDirty => Up.Dirty || Down.Dirty;
+        }
+
+        private struct Change
+        {
+            internal LinkHandle Handle;
+            internal float Length;
+            internal float Attenuation;
+        }
+
+        private Pair[] pairs = new Pair[64];
         private int[] buckets = new int[64];
+        // Pairs with a way that is.
         private readonly GrowingArray<int> dirty = new GrowingArray<int>();
+        // Values that links do not have yet, in the order in which they were given.
+        private readonly GrowingArray<Change> changes = new GrowingArray<Change>();
         private int firstFree = None;
+        private int used;
 
         internal LinkTable()
         {
@@ -33,74 +62,91 @@ namespace Collektive.Unity
         }
 
         /// <summary>Entries ever used; the argument of <see cref="TryGet"/> is below it.</summary>
-        internal int Capacity { get; private set; }
+        internal int Capacity => 2 * used;
 
         /// <summary>Links that exist.</summary>
         internal int Count { get; private set; }
 
-        /// <summary>A link that exists, by entry; false for a free entry.</summary>
+        /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
+        internal int Drops { get; private set; }
+
+        /// <summary>A link that exists, by entry; false for a free entry. Its values are those of the last <see cref="Settle"/>.</summary>
         internal bool TryGet(int entry, out LinkRecord link)
         {
-            link = entries[entry].Link;
-            return entries[entry].Holders > 0;
+            ref var pair = ref pairs[entry / 2];
+            link = entry % 2 == 0 ? Record(pair.Low, pair.High, pair.Up) : Record(pair.High, pair.Low, pair.Down);
+            return (entry % 2 == 0 ? pair.Up : pair.Down).Holders > 0;
         }
 
         /// <summary>Whether a link exists.</summary>
         internal bool Contains(int from, int to)
         {
             var index = Find(from, to);
-            return index != None && entries[index].Holders > 0;
+            return index != None && WayOf(index, from, to).Holders > 0;
         }
 
-        /// <summary>Holds a link, made if need be, and returns the handle for <see cref="Release"/>.</summary>
-        internal LinkHandle Hold(int from, int to, float length, float attenuation)
+        /// <summary>Holds a link, made if need be, or those of both ways, and returns the handle for <see cref="Release"/>.</summary>
+        internal LinkHandle Hold(int from, int to, bool bothWays, float length, float attenuation)
         {
             var index = Find(from, to);
             if (index == None) index = Insert(from, to);
-            ref var entry = ref entries[index];
-            if (entry.Holders++ == 0)
-            {
-                Count++;
-                Touch(index);
-            }
-            SetValues(index, length, attenuation);
-            return new LinkHandle(index, entry.Generation);
+            var handle = new LinkHandle(index, pairs[index].Generation, bothWays || from <= to, bothWays || from > to);
+            ref var pair = ref pairs[index];
+            if (handle.Up) Hold(index, ref pair, ref pair.Up);
+            if (handle.Down) Hold(index, ref pair, ref pair.Down);
+            Update(handle, length, attenuation);
+            return handle;
         }
 
-        /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
-        internal int Drops { get; private set; }
+        /// <summary>Whether a hold is not stale: the link of a node that left is gone.</summary>
+        internal bool IsAlive(in LinkHandle handle) => IsAlive(pairs[handle.Pair], handle);
 
-        /// <summary>Gives a held link new values.</summary>
-        /// <returns>False when the link is gone, because one of its nodes left.</returns>
-        internal bool Update(LinkHandle handle, float length, float attenuation)
+        /// <summary>Gives what is held new values.</summary>
+        internal void Update(in LinkHandle handle, float length, float attenuation)
         {
-            if (!Alive(handle)) return false;
-            SetValues(handle.Index, length, attenuation);
-            return true;
+            ref var change = ref changes.Add();
+            change.Handle = handle;
+            change.Length = length;
+            change.Attenuation = attenuation;
+        }
+
+        /// <summary>Lets links have the values that they were given.</summary>
+        internal void Settle()
+        {
+            var all = changes.Items;
+            for (var i = 0; i < changes.Count; i++)
+            {
+                ref var change = ref all[i];
+                ref var handle = ref change.Handle;
+                ref var pair = ref pairs[handle.Pair];
+                if (!IsAlive(pair, handle)) continue;
+                if (handle.Up) SetValues(handle.Pair, ref pair, ref pair.Up, change.Length, change.Attenuation);
+                if (handle.Down) SetValues(handle.Pair, ref pair, ref pair.Down, change.Length, change.Attenuation);
+            }
+            changes.Clear();
         }
 
         /// <summary>Ends one hold. Nothing happens when the link is gone already.</summary>
-        internal void Release(LinkHandle handle)
+        internal void Release(in LinkHandle handle)
         {
-            if (!Alive(handle)) return;
-            ref var entry = ref entries[handle.Index];
-            if (--entry.Holders > 0) return;
-            Count--;
-            Touch(handle.Index);
+            ref var pair = ref pairs[handle.Pair];
+            if (!IsAlive(pair, handle)) return;
+            if (handle.Up) Release(handle.Pair, ref pair, ref pair.Up);
+            if (handle.Down) Release(handle.Pair, ref pair, ref pair.Down);
         }
 
         /// <summary>Holds a link for scripts, at most once.</summary>
         internal void HoldForScripts(int from, int to, float length, float attenuation)
         {
             var index = Find(from, to);
-            if (index != None && entries[index].ByScript)
+            if (index == None || !WayOf(index, from, to).ByScript)
             {
-                SetValues(index, length, attenuation);
+                // Not in one expression: holding may replace the array.
+                index = Hold(from, to, false, length, attenuation).Pair;
+                WayOf(index, from, to).ByScript = true;
                 return;
             }
-            // Not in one expression: holding may replace the array.
-            var handle = Hold(from, to, length, attenuation);
-            entries[handle.Index].ByScript = true;
+            Update(new LinkHandle(index, pairs[index].Generation, from <= to, from > to), length, attenuation);
         }
 
         /// <summary>Ends the scripts' hold.</summary>
@@ -108,9 +154,10 @@ namespace Collektive.Unity
         internal bool ReleaseForScripts(int from, int to)
         {
             var index = Find(from, to);
-            if (index == None || !entries[index].ByScript) return false;
-            entries[index].ByScript = false;
-            Release(new LinkHandle(index, entries[index].Generation));
+            if (index == None || !WayOf(index, from, to).ByScript) return false;
+            ref var way = ref WayOf(index, from, to);
+            way.ByScript = false;
+            Release(index, ref pairs[index], ref way);
             return true;
         }
 
@@ -118,17 +165,15 @@ namespace Collektive.Unity
         internal void DropLinksOf(bool[] isGone)
         {
             Drops++;
-            for (var index = 0; index < Capacity; index++)
+            for (var index = 0; index < used; index++)
             {
-                ref var entry = ref entries[index];
-                if (entry.NextInBucket < None) continue;
-                if (!isGone[entry.Link.From] && !isGone[entry.Link.To]) continue;
-                if (entry.Holders > 0) Count--;
-                entry.Sent = false;
-                entry.Holders = 0;
-                entry.ByScript = false;
-                entry.Generation++;
-                if (!entry.Dirty) Free(index);
+                ref var pair = ref pairs[index];
+                if (pair.NextInBucket < None) continue;
+                if (!isGone[pair.Low] && !isGone[pair.High]) continue;
+                Drop(ref pair.Up);
+                Drop(ref pair.Down);
+                pair.Generation++;
+                if (!pair.IsDirty) Free(index);
             }
         }
 
@@ -138,62 +183,100 @@ namespace Collektive.Unity
         /// </summary>
         internal void Flush(StepRequest request, bool[] isKnown)
         {
+            Settle();
             var waiting = 0;
             for (var i = 0; i < dirty.Count; i++)
             {
                 var index = dirty.Items[i];
-                ref var entry = ref entries[index];
-                if (entry.Holders > 0 && !(isKnown[entry.Link.From] && isKnown[entry.Link.To]))
+                ref var pair = ref pairs[index];
+                if (pair.IsHeld && !(isKnown[pair.Low] && isKnown[pair.High]))
                 {
                     dirty.Items[waiting++] = index;
                     continue;
                 }
-                entry.Dirty = false;
-                if (entry.Holders > 0)
-                {
-                    request.SetLink(entry.Link);
-                    entry.Sent = true;
-                    continue;
-                }
-                if (entry.Sent) request.RemoveLink(new LinkEnds { From = entry.Link.From, To = entry.Link.To });
-                Free(index);
+                if (pair.Up.Dirty) Flush(request, pair.Low, pair.High, ref pair.Up);
+                if (pair.Down.Dirty) Flush(request, pair.High, pair.Low, ref pair.Down);
+                if (!pair.IsHeld) Free(index);
             }
             dirty.Truncate(waiting);
         }
 
-        private static int Hash(int from, int to)
+        private static void Flush(StepRequest request, int from, int to, ref Way way)
         {
-            var mixed = unchecked((uint)from * 0x9E3779B1u ^ (uint)to * 0x85EBCA77u);
+            way.Dirty = false;
+            if (way.Holders > 0) request.SetLink(Record(from, to, way));
+            else if (way.Sent) request.RemoveLink(new LinkEnds { From = from, To = to });
+            way.Sent = way.Holders > 0;
+        }
+
+        private static LinkRecord Record(int from, int to, in Way way) =>
+            new LinkRecord { From = from, To = to, Length = way.Length, Attenuation = way.Attenuation };
+
+        private static int Hash(int low, int high)
+        {
+            var mixed = unchecked((uint)low * 0x9E3779B1u ^ (uint)high * 0x85EBCA77u);
             return unchecked((int)(mixed ^ mixed >> 15));
         }
 
-        private bool Alive(LinkHandle handle)
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static bool IsAlive(in Pair pair, in LinkHandle handle) =>
+            pair.Generation == handle.Generation && (handle.Up ? pair.Up : pair.Down).Holders > 0;
+
+        private ref Way WayOf(int index, int from, int to)
         {
-            ref var entry = ref entries[handle.Index];
-            return entry.Generation == handle.Generation && entry.Holders > 0;
+            ref var pair = ref pairs[index];
+            if (from <= to) return ref pair.Up;
+            return ref pair.Down;
         }
 
-        private void SetValues(int index, float length, float attenuation)
+        private void Hold(int index, ref Pair pair, ref Way way)
         {
-            ref var link = ref entries[index].Link;
-            if (link.Length == length && link.Attenuation == attenuation) return;
-            link.Length = length;
-            link.Attenuation = attenuation;
-            Touch(index);
+            if (way.Holders++ > 0) return;
+            Count++;
+            Touch(index, ref pair, ref way);
         }
 
-        private void Touch(int index)
+        private void Release(int index, ref Pair pair, ref Way way)
         {
-            if (entries[index].Dirty) return;
-            entries[index].Dirty = true;
-            dirty.Add(index);
+            if (--way.Holders > 0) return;
+            Count--;
+            Touch(index, ref pair, ref way);
+        }
+
+        private void Drop(ref Way way)
+        {
+            if (way.Holders > 0) Count--;
+            way.Holders = 0;
+            way.Sent = false;
+            way.ByScript = false;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private void SetValues(int index, ref Pair pair, ref Way way, float length, float attenuation)
+        {
+            if (way.Length == length && way.Attenuation == attenuation) return;
+            way.Length = length;
+            way.Attenuation = attenuation;
+            Touch(index, ref pair, ref way);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private void Touch(int index, ref Pair pair, ref Way way)
+        {
+            if (!pair.IsDirty) dirty.Add(index);
+            way.Dirty = true;
         }
 
         private int Find(int from, int to)
         {
-            for (var index = buckets[Hash(from, to) & buckets.Length - 1]; index != None; index = entries[index].NextInBucket)
+            var low = Math.Min(from, to);
+            var high = Math.Max(from, to);
+            var all = pairs;
+            for (var index = buckets[Hash(low, high) & buckets.Length - 1]; index != None;)
             {
-                if (entries[index].Link.From == from && entries[index].Link.To == to) return index;
+                ref var pair = ref all[index];
+                if (pair.Low == low && pair.High == high) return index;
+                index = pair.NextInBucket;
             }
             return None;
         }
@@ -204,74 +287,78 @@ namespace Collektive.Unity
             if (firstFree != None)
             {
                 index = firstFree;
-                firstFree = FreeLink(entries[index].NextInBucket);
+                firstFree = FreeLink(pairs[index].NextInBucket);
             }
             else
             {
-                if (Capacity == entries.Length) Grow();
-                index = Capacity++;
+                if (used == pairs.Length) Grow();
+                index = used++;
             }
-            ref var entry = ref entries[index];
-            entry.Link = new LinkRecord { From = from, To = to };
-            entry.Holders = 0;
-            entry.Sent = false;
-            entry.ByScript = false;
+            ref var pair = ref pairs[index];
+            pair.Low = Math.Min(from, to);
+            pair.High = Math.Max(from, to);
+            pair.Up = default;
+            pair.Down = default;
             Chain(index);
             return index;
         }
 
-        /// <summary>A free entry's next one is kept below -1, so that free entries can be told from chained ones.</summary>
+        /// <summary>A free pair's next one is kept below -1, so that free pairs can be told from chained ones.</summary>
         private static int FreeLink(int next) => -3 - next;
 
         private void Free(int index)
         {
-            ref var entry = ref entries[index];
-            ref var head = ref buckets[Hash(entry.Link.From, entry.Link.To) & buckets.Length - 1];
+            ref var pair = ref pairs[index];
+            ref var head = ref buckets[Hash(pair.Low, pair.High) & buckets.Length - 1];
             if (head == index)
             {
-                head = entry.NextInBucket;
+                head = pair.NextInBucket;
             }
             else
             {
                 var previous = head;
-                while (entries[previous].NextInBucket != index) previous = entries[previous].NextInBucket;
-                entries[previous].NextInBucket = entry.NextInBucket;
+                while (pairs[previous].NextInBucket != index) previous = pairs[previous].NextInBucket;
+                pairs[previous].NextInBucket = pair.NextInBucket;
             }
-            entry.Generation++;
-            entry.Holders = 0;
-            entry.NextInBucket = FreeLink(firstFree);
+            pair.Generation++;
+            pair.NextInBucket = FreeLink(firstFree);
             firstFree = index;
         }
 
         private void Chain(int index)
         {
-            ref var head = ref buckets[Hash(entries[index].Link.From, entries[index].Link.To) & buckets.Length - 1];
-            entries[index].NextInBucket = head;
+            ref var pair = ref pairs[index];
+            ref var head = ref buckets[Hash(pair.Low, pair.High) & buckets.Length - 1];
+            pair.NextInBucket = head;
             head = index;
         }
 
         private void Grow()
         {
-            Array.Resize(ref entries, entries.Length * 2);
-            buckets = new int[entries.Length];
+            Array.Resize(ref pairs, pairs.Length * 2);
+            buckets = new int[pairs.Length];
             Array.Fill(buckets, None);
-            for (var index = 0; index < Capacity; index++)
+            for (var index = 0; index < used; index++)
             {
-                if (entries[index].NextInBucket >= None) Chain(index);
+                if (pairs[index].NextInBucket >= None) Chain(index);
             }
         }
     }
 
-    /// <summary>A hold on a link; stale once the link is gone.</summary>
+    /// <summary>A hold on the links of a pair of nodes, one way or both; stale once they are gone.</summary>
     internal readonly struct LinkHandle
     {
-        internal readonly int Index;
+        internal readonly int Pair;
         internal readonly int Generation;
+        internal readonly bool Up;
+        internal readonly bool Down;
 
-        internal LinkHandle(int index, int generation)
+        internal LinkHandle(int pair, int generation, bool up, bool down)
         {
-            Index = index;
+            Pair = pair;
             Generation = generation;
+            Up = up;
+            Down = down;
         }
     }
 }

@@ -26,7 +26,7 @@ namespace Collektive.Unity
 
         // What is looked at in each tick, and place for place what is needed when a link changes.
         private Neighbour[] held = Array.Empty<Neighbour>();
-        private HeldLinks[] links = Array.Empty<HeldLinks>();
+        private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
         private int drops;
         private bool isAttached;
@@ -36,13 +36,6 @@ namespace Collektive.Unity
             internal int Id;
             internal float Length;
             internal float Attenuation;
-        }
-
-        private struct HeldLinks
-        {
-            internal LinkHandle Out;
-            internal LinkHandle In;
-            internal bool BothWays;
         }
 
         /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
@@ -96,7 +89,7 @@ namespace Collektive.Unity
 
         internal void ReleaseAll(LinkTable table)
         {
-            for (var i = 0; i < heldCount; i++) Release(table, links[i]);
+            for (var i = 0; i < heldCount; i++) table.Release(links[i]);
             heldCount = 0;
         }
 
@@ -186,7 +179,7 @@ namespace Collektive.Unity
                 var place = marks[old.Id] - 1;
                 if (place < 0)
                 {
-                    Release(table, links[h]);
+                    table.Release(links[h]);
                     old = kept[--left];
                     links[h] = links[left];
                     continue;
@@ -195,7 +188,7 @@ namespace Collektive.Unity
                 ref var now = ref all[place];
                 var change = now.Length - old.Length;
                 // Most links of most ticks go this way: nothing to look up, nothing to send.
-                if (dropped || change > tolerance || -change > tolerance || now.Attenuation != old.Attenuation) Change(table, h, now);
+                if (dropped || change > tolerance || -change > tolerance || now.Attenuation != old.Attenuation) Change(table, h, now, dropped);
                 h++;
             }
             heldCount = left;
@@ -217,33 +210,23 @@ namespace Collektive.Unity
         private void Hold(LinkTable table, int place, in Neighbour now)
         {
             held[place] = now;
-            ref var made = ref links[place];
-            made.Out = table.Hold(Node.Id, now.Id, now.Length, now.Attenuation);
-            made.BothWays = !directed;
-            if (made.BothWays) made.In = table.Hold(now.Id, Node.Id, now.Length, now.Attenuation);
+            links[place] = table.Hold(Node.Id, now.Id, !directed, now.Length, now.Attenuation);
         }
 
-        private void Change(LinkTable table, int place, in Neighbour now)
+        private void Change(LinkTable table, int place, in Neighbour now, bool dropped)
         {
-            ref var old = ref held[place];
-            if (Math.Abs(now.Length - old.Length) > lengthTolerance) old.Length = now.Length;
-            old.Attenuation = now.Attenuation;
-            ref var made = ref links[place];
-            if (!table.Update(made.Out, old.Length, old.Attenuation))
+            // The link is gone when the other node left and came back.
+            if (dropped && !table.IsAlive(links[place]))
             {
-                // The link is gone, because the other node left and came back.
                 Hold(table, place, now);
+                return;
             }
-            else if (made.BothWays)
-            {
-                table.Update(made.In, old.Length, old.Attenuation);
-            }
-        }
-
-        private static void Release(LinkTable table, in HeldLinks made)
-        {
-            table.Release(made.Out);
-            if (made.BothWays) table.Release(made.In);
+            ref var old = ref held[place];
+            var length = Math.Abs(now.Length - old.Length) > lengthTolerance ? now.Length : old.Length;
+            if (length == old.Length && now.Attenuation == old.Attenuation) return;
+            old.Length = length;
+            old.Attenuation = now.Attenuation;
+            table.Update(links[place], length, now.Attenuation);
         }
     }
 }
