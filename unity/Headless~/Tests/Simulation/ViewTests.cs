@@ -174,6 +174,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_title_and_colours_that_are_changed_during_play_are_shown()
+        {
+            var view = new GameObject("View").AddComponent<DoubleView>();
+            var nodes = new[] { MakeBall(1), MakeBall(2) };
+            Play(1);
+            Assert.That(view.Legend, Is.StringStarting("value "));
+            view.Title = "twice";
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            Play(1);
+            Assert.That(view.Legend, Is.StringStarting("twice ").And.StringContaining("<color=#FFFFFF>"));
+            Assert.That(ColorOf(nodes[0]), Is.EqualTo(Color.black));
+            Assert.That(ColorOf(nodes[1]), Is.EqualTo(Color.white));
+        }
+
+        [Test]
         public void A_fixed_scale_stays_and_a_node_without_an_answer_keeps_its_colour()
         {
             Configure("trouble");

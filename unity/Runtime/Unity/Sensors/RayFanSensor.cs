@@ -69,7 +69,8 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            if (directions.Length != rays || angleOfDirections != angle) Spread();
+            // By the hits: when scripts are compiled during play, Unity keeps the directions alone.
+            if (hits.Length != rays || angleOfDirections != angle) Spread();
             var centre = Node.Body.position;
             var turn = Node.Body.rotation;
             for (var i = 0; i < directions.Length; i++) hits[i] = Cast(centre, turn * directions[i]);

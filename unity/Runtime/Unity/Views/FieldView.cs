@@ -28,9 +28,10 @@ namespace Collektive.Unity
         private Painted[] painted = Array.Empty<Painted>();
         private SimulationManager shown;
         private ulong tick;
+        private Color paintedLow;
+        private Color paintedHigh;
         private string text;
-        private float lowestInLegend = float.NaN;
-        private float highestInLegend = float.NaN;
+        private (string Title, Color Low, Color High, float Lowest, float Highest) inLegend;
 
         private struct Painted
         {
@@ -51,12 +52,14 @@ namespace Collektive.Unity
         /// <summary>The colours.</summary>
         public ColorScale Scale => scale;
 
-        /// <summary>What the legend says, in Unity's rich text. Made anew only when it is asked for and the scale has changed.</summary>
+        /// <summary>What the legend says, in Unity's rich text. Made anew only when it is asked for and the title or the scale has changed.</summary>
         public string Legend
         {
             get
             {
-                if (lowestInLegend != scale.lowest || highestInLegend != scale.highest) Describe();
+                var wanted = (title, scale.low, scale.high, scale.lowest, scale.highest);
+                if (text == null || !wanted.Equals(inLegend)) Describe();
+                inLegend = wanted;
                 return text;
             }
         }
@@ -102,12 +105,15 @@ namespace Collektive.Unity
 
         private void Paint(SimulationManager manager)
         {
+            var isRecoloured = paintedLow != scale.low || paintedHigh != scale.high;
+            paintedLow = scale.low;
+            paintedHigh = scale.high;
             for (var i = 0; i < manager.Nodes.Count; i++)
             {
                 ref var entry = ref painted[manager.Nodes[i].Id];
                 if (!entry.IsNew) continue;
                 var step = scale.StepOf(entry.Number);
-                if (step == entry.Step) continue;
+                if (step == entry.Step && !isRecoloured) continue;
                 entry.Step = step;
                 entry.Renderer.Paint(scale.At(step));
             }
@@ -115,8 +121,6 @@ namespace Collektive.Unity
 
         private void Describe()
         {
-            lowestInLegend = scale.lowest;
-            highestInLegend = scale.highest;
             var made = new StringBuilder(title).Append("  ").Append(Text(scale.lowest)).Append(' ');
             for (var step = 0; step < ColorScale.Steps; step++) made.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
             text = made.Append(' ').Append(Text(scale.highest)).ToString();
