@@ -8,6 +8,7 @@ namespace Collektive.Unity
     public sealed class JvmSettingsAsset : ScriptableObject
     {
         /// <summary>The settings; <see cref="JvmSetting.All"/> has their labels, units, ranges and tooltips.</summary>
+        [Tooltip("What the JVM is started with.")]
         public JvmSettings settings = new JvmSettings();
     }
 }

@@ -28,6 +28,9 @@ namespace UnityEngine.Headless
 
         public static IReadOnlyList<Draw> Draws => Recorded;
 
+        /// Gizmos as text, "line (from) (to)", "ray (from) (direction)", "sphere (centre) radius"; for the test to empty.
+        public static List<string> Gizmos { get; } = new List<string>();
+
         internal static void Add(Material material, Mesh mesh, int instances, object data = null, int start = 0) =>
             Recorded.Add(new Draw(material, mesh, instances, data, start));
 

@@ -37,11 +37,11 @@ namespace UnityEngine
     {
         public static Color color { get; set; } = Color.white;
         public static Matrix4x4 matrix { get; set; } = Matrix4x4.identity;
-        public static void DrawLine(Vector3 from, Vector3 to) { }
+        public static void DrawLine(Vector3 from, Vector3 to) => Headless.DrawLog.Gizmos.Add("line " + from + " " + to);
         public static void DrawRay(Ray r) { }
-        public static void DrawRay(Vector3 from, Vector3 direction) { }
+        public static void DrawRay(Vector3 from, Vector3 direction) => Headless.DrawLog.Gizmos.Add("ray " + from + " " + direction);
         public static void DrawSphere(Vector3 center, float radius) { }
-        public static void DrawWireSphere(Vector3 center, float radius) { }
+        public static void DrawWireSphere(Vector3 center, float radius) => Headless.DrawLog.Gizmos.Add("sphere " + center + " " + radius);
         public static void DrawCube(Vector3 center, Vector3 size) { }
         public static void DrawWireCube(Vector3 center, Vector3 size) { }
     }
