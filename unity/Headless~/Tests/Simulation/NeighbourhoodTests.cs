@@ -31,7 +31,8 @@ namespace Collektive.Headless.Tests.Simulation
         {
             var random = new RandomStream((ulong)seed, 0, RandomPurpose.Scene);
             var nodes = new List<Node>();
-            for (var i = 0; i < 40; i++) nodes.Add(MakeReaching(random));
+            var made = 0;
+            while (made < 40) nodes.Add(MakeReaching(random, made++));
             for (var tick = 0; tick < 150; tick++)
             {
                 foreach (var node in nodes) node.transform.position += 0.1f * Place(random);
@@ -43,6 +44,8 @@ namespace Collektive.Headless.Tests.Simulation
                         break;
                     case 1:
                         one.enabled = !one.enabled;
+                        // Some come back under their id before anybody notices.
+                        if (random.Range(0, 2) == 0) one.enabled = !one.enabled;
                         break;
                     case 2:
                         one.gameObject.SetActive(false);
@@ -50,7 +53,7 @@ namespace Collektive.Headless.Tests.Simulation
                         nodes.Remove(one);
                         break;
                     case 3:
-                        nodes.Add(MakeReaching(random));
+                        nodes.Add(MakeReaching(random, made++));
                         break;
                     case 4:
                         one.GetComponent<RadiusNeighbourhood>().Radius = random.Range(0f, 5f);
@@ -269,9 +272,9 @@ namespace Collektive.Headless.Tests.Simulation
 
         private static Vector3 Place(RandomStream random) => new Vector3(random.Range(-5f, 5f), random.Range(-1f, 1f), random.Range(-5f, 5f));
 
-        private static Node MakeReaching(RandomStream random)
+        private static Node MakeReaching(RandomStream random, int id)
         {
-            var node = MakeNode(1, Place(random)).Node;
+            var node = MakeNode(1, Place(random), id).Node;
             node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = random.Range(1f, 3f);
             return node;
         }
