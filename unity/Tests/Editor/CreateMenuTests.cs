@@ -59,6 +59,18 @@ namespace Collektive.Unity.Editor.Tests
             Assert.That(parent.transform.GetChild(0).name, Is.EqualTo("Node"));
         }
 
+        [Test]
+        public void Siblings_have_names_of_their_own()
+        {
+            var parent = new GameObject("Parent");
+            for (var i = 0; i < 2; i++)
+            {
+                Selection.activeGameObject = parent;
+                EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            }
+            Assert.That(parent.transform.GetChild(0).name, Is.Not.EqualTo(parent.transform.GetChild(1).name));
+        }
+
         private static int ManagersRemoved()
         {
             var count = 0;
