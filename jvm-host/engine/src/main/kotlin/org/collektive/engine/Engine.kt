@@ -249,10 +249,10 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     private companion object {
-        // Ranges small enough to share uneven rounds among threads, large enough that taking one costs nothing.
-        const val RANGES_PER_THREAD = 8
+        // Ranges small enough that no thread waits long for another's last one, large enough that taking one costs nothing.
+        const val RANGES_PER_THREAD = 32
         const val MIN_RANGE = 16
-        const val MAX_RANGE = 512
+        const val MAX_RANGE = 128
 
         // Enough for the processor to wait for many reads at once, few enough to stay in its nearest caches.
         const val TOUCHED_TOGETHER = 64
