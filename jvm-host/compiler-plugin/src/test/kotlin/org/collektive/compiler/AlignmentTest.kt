@@ -130,6 +130,19 @@ class AlignmentTest {
     fun `implementations of Aggregate are not programs`() = assertPaths("wrapped", "neighboring")
 
     @Test
+    fun `a package whose name only begins like Kotlin's is the user's`() {
+        val compiled = Compilation.of(
+            """
+            @file:Suppress("unused") package kotlinswarm;
+            class Keeper(val device: Aggregate<Int>) { fun near(): Int = device.neighboring(1).local.value }
+            class Team(val keeper: Keeper) { fun all(): Int = keeper.near() }
+            fun Aggregate<Int>.keeping(): Int = Team(Keeper(this)).all() + Team(Keeper(this)).all()
+            """,
+        )
+        assertEquals(listOf("all > neighboring", "all > neighboring"), trace(compiled.program("kotlinswarm.keeping")).second)
+    }
+
+    @Test
     fun `CollektiveIgnore keeps the plugin away from functions, classes and properties`() {
         for (name in listOf("ignored", "ignoredMember", "ignoredGetter")) {
             assertFailsWith<AlignmentClashException>(name) { trace(compiled.program(name)) }

@@ -31,10 +31,10 @@ internal data class Report(val severity: CompilerMessageSeverity, val line: Int,
 internal class Compilation private constructor(val succeeded: Boolean, val reports: List<Report>, private val classes: Path) {
     private val loader by lazy { URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader) }
 
-    /** The top-level function [name] of the source as a program; its further parameters get [arguments]. */
+    /** The top-level function [name] of the source, after its package if it has one, as a program; its further parameters get [arguments]. */
     fun program(name: String, vararg arguments: Any?): Aggregate<Int>.() -> Any? {
         check(succeeded) { "the source does not compile: $reports" }
-        val method = loader.loadClass("${FILE}Kt").methods.single { it.name == name }
+        val method = loader.loadClass(name.replaceAfterLast('.', "${FILE}Kt", "${FILE}Kt")).methods.single { it.name == name.substringAfterLast('.') }
         return {
             try {
                 method.invoke(null, this, *arguments)

@@ -28,6 +28,7 @@ import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
 import org.jetbrains.kotlin.ir.util.properties
 import org.jetbrains.kotlin.ir.util.resolveFakeOverride
+import org.jetbrains.kotlin.name.Name
 
 /** The declarations of the DSL as the module under compilation sees them. */
 internal class DslSymbols private constructor(
@@ -52,7 +53,7 @@ internal class DslSymbols private constructor(
 
     /** Whether objects of [type], or others that they keep, keep an Aggregate. */
     private fun keepsAggregate(type: IrClass): Boolean {
-        if (type.getPackageFragment().packageFqName.asString().let { it.startsWith("kotlin") || it.startsWith("java") }) return false
+        if (PLATFORM.any(type.getPackageFragment().packageFqName::startsWith)) return false
         keepers[type]?.let { return it }
         keepers[type] = false // for classes that keep each other
         val found = keptAggregate(type) != null || type.properties.any { property ->
@@ -101,6 +102,9 @@ internal class DslSymbols private constructor(
         isAggregateMember(function) && (function.name == DslNames.align || function.name == DslNames.dealign)
 
     companion object {
+        /** First names of packages that no program is in. */
+        private val PLATFORM = listOf("kotlin", "kotlinx", "java", "javax").map(Name::identifier)
+
         /** `null` when the DSL is not on the class path: there is nothing to align. */
         fun find(finder: DeclarationFinder): DslSymbols? {
             val field = finder.findClass(DslNames.field) ?: return null
