@@ -44,23 +44,23 @@ extern "C" {
 /* Major << 16 | minor << 8 | patch. Another major version has another ABI. */
 #define CLK_VERSION 0x000100
 
-#define CLK_ERRORS(X)                                                                                     \
-    X(OK, 0, "success")                                                                                   \
-    X(ARGUMENT, -1, "an argument is out of range")                                                        \
-    X(MEMORY, -2, "out of native memory")                                                                 \
-    X(HANDLE, -3, "the handle is stale or was never given out")                                           \
-    X(TIMEOUT, -4, "the time limit passed before the engine answered")                                    \
-    X(JVM_NOT_FOUND, -5, "no usable JVM at the given place")                                              \
-    X(JVM_OPTIONS, -6, "the JVM refuses these options")                                                   \
-    X(JVM_START, -7, "the JVM could not be created")                                                      \
-    X(JVM_LOST, -8, "the JVM is lost; restart the process to get a new one")                              \
-    X(JVM_NOT_RUNNING, -9, "no JVM is running")                                                           \
-    X(JVM_RUNNING, -10, "a JVM runs already with other settings")                                         \
-    X(HOST, -11, "the host classes are missing or do not fit this shim")                                  \
-    X(FRAME, -12, "the frame is damaged or breaks a rule; it changed nothing")                            \
-    X(SCHEMA, -13, "the two sides were generated from different schemas")                                 \
-    X(PROGRAM, -14, "a program cannot be loaded")                                                         \
-    X(SESSION_FAILED, -15, "the session ended after a round that did not finish; open a new one")         \
+#define CLK_ERRORS(X)                                                                             \
+    X(OK, 0, "success")                                                                           \
+    X(ARGUMENT, -1, "an argument is out of range")                                                \
+    X(MEMORY, -2, "out of native memory")                                                         \
+    X(HANDLE, -3, "the handle is stale or was never given out")                                   \
+    X(TIMEOUT, -4, "the time limit passed before the engine answered")                            \
+    X(JVM_NOT_FOUND, -5, "no usable JVM at the given place")                                      \
+    X(JVM_OPTIONS, -6, "the JVM refuses these options")                                           \
+    X(JVM_START, -7, "the JVM could not be created")                                              \
+    X(JVM_LOST, -8, "the JVM is lost; restart the process to get a new one")                      \
+    X(JVM_NOT_RUNNING, -9, "no JVM is running")                                                   \
+    X(JVM_RUNNING, -10, "a JVM runs already with other settings")                                 \
+    X(HOST, -11, "the host classes are missing or do not fit this shim")                          \
+    X(FRAME, -12, "the frame is damaged or breaks a rule; it changed nothing")                    \
+    X(SCHEMA, -13, "the two sides were generated from different schemas")                         \
+    X(PROGRAM, -14, "a program cannot be loaded")                                                 \
+    X(SESSION_FAILED, -15, "the session ended after a round that did not finish; open a new one") \
     X(JAVA, -16, "the host threw an unexpected exception; the session goes on from its last good tick")
 
 enum clk_error {
@@ -70,10 +70,10 @@ enum clk_error {
 };
 
 enum clk_jvm_state {
-    CLK_STATE_NONE = 0,    /* never started in this process */
+    CLK_STATE_NONE = 0, /* never started in this process */
     CLK_STATE_RUNNING = 1,
-    CLK_STATE_LOST = 2,    /* exited, aborted or does not answer: every later call of the JVM returns CLK_JVM_LOST */
-    CLK_STATE_STOPPED = 3  /* destroyed in order; cannot be started again in this process */
+    CLK_STATE_LOST = 2,   /* exited, aborted or does not answer: every later call of the JVM returns CLK_JVM_LOST */
+    CLK_STATE_STOPPED = 3 /* destroyed in order; cannot be started again in this process */
 };
 
 /* ---- Version and errors ---------------------------------------------------------------------------------------------- */
@@ -96,11 +96,11 @@ CLK_API int32_t clk_last_error(char *buffer, int32_t capacity);
 typedef struct clk_jvm_config {
     uint32_t size;
     int32_t option_count;
-    const char *home;            /* root of a JRE or JDK: its lib/server/libjvm.so (bin/server/jvm.dll on Windows) is loaded */
-    const char *class_path;      /* jars of the host, separated as the platform does */
-    const char *const *options;  /* JVM options, each one word, in order; may be NULL when option_count is 0 */
-    int32_t start_limit_ms;      /* for the whole start; 1 or greater */
-    int32_t check_options;       /* not 0: try the options in a child process first (recommended: some end the process) */
+    const char *home;           /* root of a JRE or JDK: its lib/server/libjvm.so (bin/server/jvm.dll on Windows) is loaded */
+    const char *class_path;     /* jars of the host, separated as the platform does */
+    const char *const *options; /* JVM options, each one word, in order; may be NULL when option_count is 0 */
+    int32_t start_limit_ms;     /* for the whole start; 1 or greater */
+    int32_t check_options;      /* not 0: try the options in a child process first (recommended: some end the process) */
 } clk_jvm_config;
 
 /* Starts the JVM; CLK_OK too when one runs with an equal configuration, CLK_JVM_RUNNING when its configuration differs.
@@ -132,8 +132,8 @@ typedef uint64_t clk_slot; /* 0 is never a slot; the upper half is the generatio
 
 typedef struct clk_memory {
     uint32_t size;
-    int32_t capacity;  /* bytes */
-    uint8_t *address;  /* aligned to 64 bytes */
+    int32_t capacity; /* bytes */
+    uint8_t *address; /* aligned to 64 bytes */
 } clk_memory;
 
 /* Takes a slot of at least `capacity` bytes (1..2^30) from the pool. The caller owns it until clk_slot_release.
@@ -159,18 +159,16 @@ typedef struct clk_answer {
     int32_t offset;
     int32_t length;
     int32_t capacity;
-    uint8_t *address;  /* of the slot's first byte: the answer begins at address + offset */
+    uint8_t *address; /* of the slot's first byte: the answer begins at address + offset */
 } clk_answer;
 
 /* Opens a session with the OpenRequest in the slot; the answer holds an OpenResponse. At most 256 are open at a time. */
-CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
-                                 clk_answer *answer);
+CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer);
 
 /* Runs one tick with the StepRequest in the slot; the answer holds a StepResponse. After any error but CLK_SESSION_FAILED and
  * CLK_JVM_LOST the session is as before the call. After these two the slot counts as in use for ever, as a round that does not
  * end may read it: release it and acquire another. */
-CLK_API int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms,
-                         clk_answer *answer);
+CLK_API int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer);
 
 /* Closes a session and gives its answer slot back. CLK_HANDLE when it is closed already. */
 CLK_API int32_t clk_session_close(clk_session session, int32_t limit_ms);
@@ -192,12 +190,12 @@ CLK_API int32_t clk_log_read(int32_t *level, char *buffer, int32_t capacity);
 
 typedef struct clk_stats {
     uint32_t size;
-    int32_t sessions;        /* open now */
-    int32_t slots;           /* taken from the pool now, the sessions' own included */
-    int32_t reserved;        /* always 0 */
-    uint64_t steps;          /* calls of clk_step that reached the host */
-    uint64_t slot_bytes;     /* memory that the pool holds */
-    uint64_t wrapped;        /* direct ByteBuffers made since the start */
+    int32_t sessions;    /* open now */
+    int32_t slots;       /* taken from the pool now, the sessions' own included */
+    int32_t reserved;    /* always 0 */
+    uint64_t steps;      /* calls of clk_step that reached the host */
+    uint64_t slot_bytes; /* memory that the pool holds */
+    uint64_t wrapped;    /* direct ByteBuffers made since the start */
     uint64_t logs_dropped;
     uint64_t signal_repairs; /* times that HotSpot's signal handlers had to be put back */
 } clk_stats;

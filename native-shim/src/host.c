@@ -177,9 +177,7 @@ static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray u
 
 /* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */
 
-static void refuse_exit(JNIEnv *env) {
-    (*env)->ThrowNew(env, java.security_exception, "a program inside another process must not end it");
-}
+static void refuse_exit(JNIEnv *env) { (*env)->ThrowNew(env, java.security_exception, "a program inside another process must not end it"); }
 
 static void JNICALL shutdown_before_halt(JNIEnv *env, jclass class) {
     (void)class;
@@ -196,7 +194,7 @@ static void JNICALL shutdown_halt(JNIEnv *env, jclass class, jint status) {
 
 /* JNI's structs want writable strings and object pointers for what are constants and functions. */
 #define NATIVE(function_name, type, function) \
-    { .name = (char[]){function_name}, .signature = (char[]){type}, .fnPtr = (void *)(uintptr_t)(function) }
+    {.name = (char[]){function_name}, .signature = (char[]){type}, .fnPtr = (void *)(uintptr_t)(function)}
 
 static jclass find_class(JNIEnv *env, const char *name) {
     jclass local = (*env)->FindClass(env, name);
@@ -209,8 +207,8 @@ bool host_refuse_exit(JNIEnv *env) {
     const JNINativeMethod natives[] = {NATIVE("beforeHalt", "()V", shutdown_before_halt), NATIVE("halt0", "(I)V", shutdown_halt)};
     java.security_exception = find_class(env, "java/lang/SecurityException");
     jclass shutdown = (*env)->FindClass(env, "java/lang/Shutdown");
-    bool registered = java.security_exception != NULL && shutdown != NULL &&
-                      (*env)->RegisterNatives(env, shutdown, natives, COUNT(natives)) == JNI_OK;
+    bool registered =
+        java.security_exception != NULL && shutdown != NULL && (*env)->RegisterNatives(env, shutdown, natives, COUNT(natives)) == JNI_OK;
     (*env)->ExceptionClear(env);
     (*env)->DeleteLocalRef(env, shutdown);
     return registered;
@@ -268,7 +266,8 @@ int32_t host_start(char *version, int32_t capacity) {
     if ((*env)->ExceptionCheck(env)) {
         char text[2048];
         take_exception(env, text, sizeof text);
-        return error_set(CLK_HOST, "Host.start threw %s; if that speaks of classes, files of the JVM or the host jar are damaged: reinstall them", text);
+        return error_set(
+            CLK_HOST, "Host.start threw %s; if that speaks of classes, files of the JVM or the host jar are damaged: reinstall them", text);
     }
     if (string == NULL) return error_set(CLK_HOST, "Host.start gave no version");
     string_text(env, string, version, capacity);
@@ -298,9 +297,8 @@ int32_t host_run(struct host_call *call) {
     const char *where = names[call->entry];
     free_surplus(env);
     if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");
-    const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},
-                                {.i = call->length},         {.j = (jlong)call->slot},      {.l = call->answer->wrapper},
-                                {.i = call->limit_ms}};
+    const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},  {.i = call->length},
+                                {.j = (jlong)call->slot},    {.l = call->answer->wrapper},  {.i = call->limit_ms}};
     java.error_given = false;
     java.running = call;
     jlong result = (*env)->CallStaticLongMethodA(env, java.host, java.calls[call->entry], arguments);

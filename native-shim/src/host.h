@@ -19,11 +19,11 @@ struct host_call {
     struct block *request;
     int32_t offset;
     int32_t length;
-    clk_slot slot;              /* for the answer */
-    struct block *answer;       /* of this slot; another one after Shim.grow */
-    struct block *retired;      /* what it had before, still pinned */
+    clk_slot slot;         /* for the answer */
+    struct block *answer;  /* of this slot; another one after Shim.grow */
+    struct block *retired; /* what it had before, still pinned */
     int32_t limit_ms;
-    int32_t answer_offset;      /* result */
+    int32_t answer_offset; /* result */
     int32_t answer_length;
 };
 

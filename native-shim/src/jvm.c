@@ -27,16 +27,16 @@ typedef void(JNICALL halt_function)(jint);
 /* What a JVM is to be started with, in one piece of words. */
 struct launch {
     char *home;
-    char *configuration;   /* home, class path and options, to compare with */
-    char **options;        /* all words for the JVM */
+    char *configuration; /* home, class path and options, to compare with */
+    char **options;      /* all words for the JVM */
     int32_t option_count;
-    int32_t own_count;     /* how many of these are ours, at the begin */
+    int32_t own_count; /* how many of these are ours, at the begin */
 };
 
 /* By the turn, but for the atomics. */
 static struct {
-    struct launch launch;  /* of the last start: what the JVM was given stays for ever */
-    char *checked;         /* the configuration that was last found good by a child process */
+    struct launch launch; /* of the last start: what the JVM was given stays for ever */
+    char *checked;        /* the configuration that was last found good by a child process */
     JavaVM *vm;
     char version[256];
     int32_t stop_limit_ms;
@@ -274,7 +274,8 @@ static int32_t load(create_function **create) {
     JavaVM *other;
     jsize count = 0;
     if (created(&other, 1, &count) == JNI_OK && count > 0) {
-        return error_set(CLK_JVM_START, "another library has started a JVM in this process, and there can be only one; remove that library");
+        return error_set(CLK_JVM_START,
+                         "another library has started a JVM in this process, and there can be only one; remove that library");
     }
     return CLK_OK;
 }
@@ -401,12 +402,10 @@ static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) 
     free(configuration);
     return equal ? CLK_OK
                  : error_set(CLK_JVM_RUNNING, "a JVM runs already with another home, class path or options; restart the process "
-                                                   "to change them");
+                                              "to change them");
 }
 
-static int32_t check_without_start(const clk_jvm_config *config, int64_t deadline) {
-    return without_smuggling(try_only, config, deadline);
-}
+static int32_t check_without_start(const clk_jvm_config *config, int64_t deadline) { return without_smuggling(try_only, config, deadline); }
 
 static int32_t take_turn(configured *work, const clk_jvm_config *config) {
     if (check_config(config) != CLK_OK) return CLK_ARGUMENT;

@@ -91,8 +91,8 @@ uint64_t log_dropped(void) {
 static struct {
     prim_mutex mutex; /* taken before the ring's */
     int32_t used;
-    char line[1024];  /* the begun line */
-    char last[1024];  /* the latest whole lines, for error texts */
+    char line[1024]; /* the begun line */
+    char last[1024]; /* the latest whole lines, for error texts */
 } jvm_output = {.mutex = PRIM_MUTEX_INIT};
 
 static void keep_last(const char *line, size_t length) {

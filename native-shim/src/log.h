@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include "collektive_shim.h"
 
-#define LOG_LINE_CAPACITY 8192  /* bytes of one line, NUL included; longer ones are cut at a character */
+#define LOG_LINE_CAPACITY 8192 /* bytes of one line, NUL included; longer ones are cut at a character */
 #define LOG_RING_BYTES (256 * 1024)
 
 /* Any thread. Takes no JNI call and no other lock. */

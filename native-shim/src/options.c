@@ -37,6 +37,7 @@ static const struct rule refused[] = {
     {"-Xdiag*", "only the java command knows it"},
 };
 
+/* clang-format off */
 static const char *const known[] = {
     "-X*", "-D*", "-verbose", "-verbose:*", "-ea", "-ea:*", "-da", "-da:*", "-esa", "-dsa", "-enableassertions",
     "-enableassertions:*", "-disableassertions", "-disableassertions:*", "-enablesystemassertions", "-disablesystemassertions",
@@ -45,6 +46,7 @@ static const char *const known[] = {
     "--illegal-access=*", "--illegal-final-field-mutation=*", "--illegal-native-access=*", "--limit-modules=*",
     "--module-path=*", "--patch-module=*", "--sun-misc-unsafe-memory-access=*", "--upgrade-module-path=*",
 };
+/* clang-format on */
 
 static bool matches(const char *option, const char *text) {
     size_t length = strlen(text);
@@ -130,8 +132,10 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     if (status == 0 && came_up) return CLK_OK;
     if (status == 0) return error_set(CLK_JVM_OPTIONS, "correct the JVM options: one of them ends the JVM of %s before it is up", home);
     if (status > 128) {
-        return error_set(CLK_JVM_OPTIONS, "the JVM of %s crashes with these options (signal %d): correct them, or reinstall it if its files are "
-                                          "damaged; it wrote: %s", home, status - 128, output[0] != '\0' ? output : "nothing");
+        return error_set(CLK_JVM_OPTIONS,
+                         "the JVM of %s crashes with these options (signal %d): correct them, or reinstall it if its files are "
+                         "damaged; it wrote: %s",
+                         home, status - 128, output[0] != '\0' ? output : "nothing");
     }
     return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, output);
 }

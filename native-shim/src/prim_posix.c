@@ -237,8 +237,7 @@ static bool spawn(char *const argv[], int output, pid_t *child) {
     /* A process group of its own, so that a kill reaches what it may have started. */
     bool spawned = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
                    posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 &&
-                   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-                                                             POSIX_SPAWN_SETSIGDEF) == 0 &&
+                   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF) == 0 &&
                    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0) == 0 &&
                    posix_spawn_file_actions_adddup2(&actions, output, 1) == 0 &&
                    posix_spawn_file_actions_adddup2(&actions, output, 2) == 0 &&

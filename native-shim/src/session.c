@@ -24,7 +24,7 @@ struct session {
 static struct {
     struct session all[MAX_SESSIONS];
     struct session control; /* of no simulation; it has the answers of clk_control */
-    struct host_call call; /* what the engine thread works on */
+    struct host_call call;  /* what the engine thread works on */
     atomic_int count;
     _Atomic uint64_t steps;
     _Atomic uint64_t signal_repairs;
@@ -146,8 +146,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
     struct block *request = slots_pin(slot);
     if (request == NULL) return CLK_HANDLE;
     if ((int64_t)offset + length > request->capacity) {
-        int32_t result = error_set(CLK_ARGUMENT, "the range %d + %d is outside of the slot's %d bytes", offset, length,
-                                   request->capacity);
+        int32_t result = error_set(CLK_ARGUMENT, "the range %d + %d is outside of the slot's %d bytes", offset, length, request->capacity);
         slots_unpin(request);
         return result;
     }
@@ -180,8 +179,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
 
 /* ---- The header's functions ------------------------------------------------------------------------------------------ */
 
-int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session,
-                         clk_answer *answer) {
+int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer) {
     if (session == NULL) return error_set(CLK_ARGUMENT, "session is NULL");
     if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;

@@ -14,7 +14,7 @@
 
 struct slot {
     uint32_t generation;
-    uint32_t next_free; /* index + 1 of the next free slot, 0 at the end */
+    uint32_t next_free;  /* index + 1 of the next free slot, 0 at the end */
     struct block *block; /* NULL while free */
 };
 

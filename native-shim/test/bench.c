@@ -43,10 +43,8 @@ static void measure(const char *name, clk_session session, clk_slot slot, int co
 
 int main(void) {
     const char *home = getenv("CLK_TEST_JAVA_HOME");
-    clk_jvm_config config = {.size = sizeof config,
-                             .home = home != NULL ? home : TEST_JAVA_HOME,
-                             .class_path = TEST_HOST_CLASSES,
-                             .start_limit_ms = 60000};
+    clk_jvm_config config = {
+        .size = sizeof config, .home = home != NULL ? home : TEST_JAVA_HOME, .class_path = TEST_HOST_CLASSES, .start_limit_ms = 60000};
     clk_slot slot;
     clk_session session;
     clk_memory memory = {.size = sizeof memory};

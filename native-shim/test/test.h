@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include "collektive_shim.h"
 
-#define CHECK(condition) \
-    do { \
+#define CHECK(condition)                                        \
+    do {                                                        \
         if (!(condition)) fail(__FILE__, __LINE__, #condition); \
     } while (0)
 
@@ -34,10 +34,12 @@ int32_t start_at(const char *home, const char *class_path, const char *const *op
 void start_plain(void);
 
 /* Commands of the test host. */
+/* clang-format off */
 enum command {
     EMPTY, ECHO, GROW, THROW, FAIL, FAIL_SILENTLY, EXIT, HALT, SLEEP, OVERFLOW, EXHAUST, LOG, HANG, CRASH, OUTSIDE, GROW_FOREIGN,
     STAY, EXIT_ELSEWHERE, IMPLICIT_NULL, GROW_TOO_LARGE, HANG_AT_STOP, WRITE_AT_EXIT, THRASH
 };
+/* clang-format on */
 
 /* A request slot of this process, and the calls with it. */
 extern clk_slot request;
@@ -52,23 +54,27 @@ int64_t now_ns(void);
 clk_stats stats(void);
 bool log_mentions(const char *text); /* reads the log until a line has the text */
 
+/* clang-format off */
 #define CASES(X) \
-    X(version_and_sizes) X(errors_have_names) X(last_error_is_cut_at_a_character) \
+    X(version_and_sizes) X(structs_of_other_sizes) X(errors_have_names) X(last_error_is_cut_at_a_character) \
     X(slot_arguments) X(slot_handles) X(slot_growth_keeps_the_tail) X(slots_are_reused) X(slots_agree_with_a_model) \
-    X(structs_of_other_sizes) \
-    X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) X(home_with_a_broken_libjvm) \
-    X(home_without_java_command) X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
-    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) X(option_that_ends_the_jvm) \
-    X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) \
-    X(options_unchecked_heap_too_large) X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) \
-    X(environment_is_ignored) X(second_start) X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \
+    X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
+    X(home_with_a_broken_libjvm) X(home_without_java_command) \
+    X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
+    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
+    X(option_that_ends_the_jvm) X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) \
+    X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) X(options_unchecked_heap_too_large) \
+    X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) X(environment_is_ignored) X(second_start) \
+    X(start_from_two_threads) X(start_limit) X(foreign_jvm) X(nothing_runs_without_a_jvm) \
     X(echo_of_random_data) X(answers_grow) X(session_handles) X(many_sessions_one_after_the_other) X(too_many_sessions) \
-    X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) X(exit_is_refused) \
-    X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
+    X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) \
+    X(exit_is_refused) X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) \
+    X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
-    X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
-    X(logs_are_bounded) X(signal_handlers_are_repaired) \
-    X(implicit_null_checks_and_host_faults)
+    X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) \
+    X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
+    X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults)
+/* clang-format on */
 
 #define CASE_DECLARE(name) void name(void);
 CASES(CASE_DECLARE)

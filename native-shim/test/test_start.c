@@ -148,12 +148,16 @@ void start_arguments(void) {
 }
 
 void options_refused_by_text(void) {
+    /* clang-format off */
     static const char *const refused[] = {
         "-XX:+ExitOnOutOfMemoryError", "-XX:+CrashOnOutOfMemoryError", "-XX:OnOutOfMemoryError=ls", "-XX:OnError=gdb",
+        "-XX:+AbortVMOnSafepointTimeout", "-XX:AbortVMOnException=java.lang.Error", "-XX:SelfDestructTimer=1", "-XX:+ShowMessageBoxOnError",
         "-XX:+AllowUserSignalHandlers", "-XX:-UseSignalChaining", "-XX:-ReduceSignalUsage", "-XX:Flags=x", "-XX:VMOptionsFile=x",
-        "-XX:+AbortVMOnSafepointTimeout", "-XX:AbortVMOnException=java.lang.Error", "-XX:SelfDestructTimer=1", "-XX:+ShowMessageBoxOnError", "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf",
-        "-cp", "-Xinternalversion", "-agentlib:jdwp=transport=dt_socket,server=y", "-Xmx64m\n-Xint", "-Xrunjdwp:transport=dt_socket",
-        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "-agentpath:/x/libjdwp.so=transport=dt_socket,server=y"};
+        "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf", "-cp", "-Xinternalversion",
+        "-Xmx64m\n-Xint", "-Xrunjdwp:transport=dt_socket", "-agentlib:jdwp=transport=dt_socket,server=y",
+        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "-agentpath:/x/libjdwp.so=transport=dt_socket,server=y",
+    };
+    /* clang-format on */
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
@@ -307,11 +311,13 @@ void start_limit(void) {
     check_start_still_works();
 }
 
+typedef jint(JNICALL create_function)(JavaVM **, void **, void *);
+
 void foreign_jvm(void) {
     char path[4096];
     JavaVM *vm;
     void *env;
-    jint(JNICALL *create)(JavaVM **, void **, void *);
+    create_function *create;
     snprintf(path, sizeof path, "%s/lib/server/libjvm.so", java_home());
     *(void **)&create = dlsym(dlopen(path, RTLD_NOW), "JNI_CreateJavaVM");
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10};
