@@ -6,19 +6,20 @@
 #include "error.h"
 #include "log.h"
 #include "prim.h"
+#include "text.h"
 
-/* User code runs on pool threads of the JVM; the host's own code and deep class loading run here. */
+/* Enough for class loading and static initialisers that nest deeply. */
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
-/* Of the command: the caller gave up waiting (ABANDONED), and then left its turn (HANDED_OVER) for the engine to leave. */
+/* Of the work. ABANDONED: its caller gave up waiting. HANDED_OVER: the caller also left, so the engine thread ends the turn. */
 enum phase { IDLE, BUSY, ABANDONED, HANDED_OVER };
 
 static struct {
     prim_once once;
-    prim_semaphore turn;    /* one token: who holds it may fill in the command */
-    prim_semaphore request; /* a command is there */
-    prim_semaphore done;    /* it is done, or the JVM is lost */
-    bool started;           /* by the turn */
+    prim_semaphore turn;    /* one token: the right to use what the turn guards */
+    prim_semaphore request; /* posted when `work` is set */
+    prim_semaphore done;    /* posted when `work` has ended, or the JVM */
+    bool started;           /* the engine thread; guarded by the turn, as is `work` */
     engine_work *work;
     int32_t result;
     char error[ERROR_CAPACITY];
@@ -26,14 +27,16 @@ static struct {
 
     atomic_int state;
     atomic_flag losing;
-    char reason[ERROR_CAPACITY]; /* written once, before the state says LOST */
+    atomic_bool forked;
+    char reason[ERROR_CAPACITY]; /* written once, before the state is LOST */
+    _Atomic uint64_t signal_repairs;
 } engine = {.once = PRIM_ONCE_INIT, .losing = ATOMIC_FLAG_INIT};
 
 static _Thread_local bool is_engine;
 
-/* A forked child has no engine thread: only the calling thread lives on there. No lock may be taken here, as a thread that
- * is not in the child may hold it. */
-static void forget_parent(void) {
+/* A forked child has no engine thread. This takes no lock: a thread that exists only in the parent may hold it. */
+static void lose_in_child(void) {
+    atomic_store(&engine.forked, true);
     if (engine_state() != CLK_STATE_RUNNING || atomic_flag_test_and_set(&engine.losing)) return;
     snprintf(engine.reason, sizeof engine.reason, "this process was forked from the one that runs it");
     engine_set_state(CLK_STATE_LOST);
@@ -43,7 +46,7 @@ static void init(void) {
     prim_semaphore_init(&engine.turn, 1);
     prim_semaphore_init(&engine.request, 0);
     prim_semaphore_init(&engine.done, 0);
-    prim_at_fork(forget_parent);
+    prim_at_fork(lose_in_child);
 }
 
 /* ---- State ----------------------------------------------------------------------------------------------------------- */
@@ -53,7 +56,6 @@ int32_t engine_state(void) { return atomic_load_explicit(&engine.state, memory_o
 int32_t clk_jvm_state(void) { return engine_state(); }
 
 void engine_set_state(int32_t state) {
-    /* Lost is for ever. */
     int before = atomic_load(&engine.state);
     while (before != CLK_STATE_LOST && !atomic_compare_exchange_weak(&engine.state, &before, state)) {
     }
@@ -69,11 +71,17 @@ int32_t engine_check_running(void) {
     }
 }
 
-/* The one who waits for the engine, and those who wait for their turn, one after the other. */
+/* Takes the turn back from work that may never end. */
+static void reclaim_turn(void) {
+    int handed_over = HANDED_OVER;
+    if (atomic_compare_exchange_strong(&engine.phase, &handed_over, ABANDONED)) prim_semaphore_post(&engine.turn);
+}
+
+/* The caller that waits for work leaves its turn when it wakes; callers that wait for the turn then wake one after the other. */
 static void wake_all(void) {
     prim_run_once(&engine.once, init);
     prim_semaphore_post(&engine.done);
-    prim_semaphore_post(&engine.turn);
+    reclaim_turn();
 }
 
 void engine_lose(const char *format, ...) {
@@ -102,30 +110,45 @@ int32_t engine_enter(int64_t deadline) {
 
 void engine_leave(void) {
     int abandoned = ABANDONED;
-    if (!atomic_compare_exchange_strong(&engine.phase, &abandoned, HANDED_OVER)) prim_semaphore_post(&engine.turn);
+    if (!atomic_compare_exchange_strong(&engine.phase, &abandoned, HANDED_OVER)) {
+        prim_semaphore_post(&engine.turn);
+    } else if (atomic_load(&engine.state) != CLK_STATE_RUNNING) {
+        reclaim_turn(); /* wake_all came before */
+    }
 }
 
 /* ---- Work ------------------------------------------------------------------------------------------------------------ */
 
 bool engine_is_current(void) { return is_engine; }
 
-bool engine_is_busy(void) { return atomic_load(&engine.phase) != IDLE; }
+bool engine_is_forked(void) { return atomic_load(&engine.forked); }
 
 static void engine_main(void) {
     is_engine = true;
     for (;;) {
         prim_semaphore_wait(&engine.request);
         engine.result = engine.work();
-        if (engine.result != CLK_OK) give_text(error_last(), engine.error, sizeof engine.error);
+        if (engine.result != CLK_OK) text_export(error_last(), engine.error, sizeof engine.error);
         switch (atomic_exchange(&engine.phase, IDLE)) {
             case BUSY: prim_semaphore_post(&engine.done); break;
             case HANDED_OVER: prim_semaphore_post(&engine.turn); break;
-            default: break; /* the caller still has its turn, and leaves it itself */
+            default: break; /* the caller has not left yet */
         }
     }
 }
 
+uint64_t engine_signal_repairs(void) { return atomic_load_explicit(&engine.signal_repairs, memory_order_relaxed); }
+
+/* Java code that runs without HotSpot's handlers ends the process. The question costs four system calls: less than a microsecond. */
+static void repair_signals(void) {
+    int32_t repaired = prim_signals_repair();
+    if (repaired == 0) return;
+    atomic_fetch_add_explicit(&engine.signal_repairs, (uint64_t)repaired, memory_order_relaxed);
+    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
+}
+
 int32_t engine_run(engine_work *work, int64_t deadline) {
+    if (engine_state() == CLK_STATE_RUNNING) repair_signals();
     if (!engine.started) {
         engine.started = prim_thread_start(engine_main, "collektive", STACK_BYTES);
         if (!engine.started) return error_set(CLK_MEMORY, "the system gives no thread with a stack of 16 MB for the JVM");
@@ -138,8 +161,8 @@ int32_t engine_run(engine_work *work, int64_t deadline) {
         if (atomic_compare_exchange_strong(&engine.phase, &busy, ABANDONED)) {
             return error_set(CLK_TIMEOUT, "the engine thread did not answer within the time limit");
         }
-        prim_semaphore_wait(&engine.done); /* it finished just now */
+        prim_semaphore_wait(&engine.done); /* it ended just now */
     }
-    if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken because the JVM is gone */
+    if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken by wake_all */
     return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
 }

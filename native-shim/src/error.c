@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <string.h>
+#include "text.h"
 
 static _Thread_local char last_error[ERROR_CAPACITY];
 
@@ -29,26 +29,8 @@ const char *clk_error_text(int32_t code) {
     }
 }
 
-int32_t copy_text(const char *text, int32_t length, char *buffer, int32_t capacity) {
-    if (capacity <= 0) return 0;
-    if (length >= capacity) {
-        length = capacity - 1;
-        /* Bytes 10xxxxxx continue a character: go back to where the cut one began. */
-        while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
-    }
-    memcpy(buffer, text, (size_t)length);
-    buffer[length] = '\0';
-    return length;
-}
-
-int32_t give_text(const char *text, char *buffer, int32_t capacity) {
-    int32_t length = (int32_t)strlen(text);
-    if (buffer != NULL) copy_text(text, length, buffer, capacity);
-    return length;
-}
-
 int32_t error_set(int32_t code, const char *format, ...) {
-    /* Formatted aside, as the arguments may be the last error itself. */
+    /* Not in place: the arguments may include the last error. */
     char text[ERROR_CAPACITY + 4];
     va_list arguments;
     va_start(arguments, format);
@@ -56,10 +38,10 @@ int32_t error_set(int32_t code, const char *format, ...) {
     va_end(arguments);
     if (length < 0) length = 0;
     if ((size_t)length >= sizeof text) length = (int)sizeof text - 1;
-    copy_text(text, length, last_error, sizeof last_error);
+    text_copy(text, length, last_error, sizeof last_error);
     return code;
 }
 
 const char *error_last(void) { return last_error; }
 
-int32_t clk_last_error(char *buffer, int32_t capacity) { return give_text(last_error, buffer, capacity); }
+int32_t clk_last_error(char *buffer, int32_t capacity) { return text_export(last_error, buffer, capacity); }

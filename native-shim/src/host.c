@@ -1,63 +1,39 @@
 #include "host.h"
 
 #include <stdatomic.h>
-#include <string.h>
 #include "engine.h"
 #include "error.h"
 #include "log.h"
+#include "text.h"
 
 #define COUNT(array) ((jint)(sizeof(array) / sizeof(array)[0]))
 
+/* Engine thread only, except `wrapped` and `security_exception`, which does not change after the start. */
 static struct {
-    JNIEnv *env; /* the engine thread's */
+    JNIEnv *env; /* of the engine thread */
     jclass host;
     jmethodID start, close, stop, calls[HOST_ENTRIES];
     jmethodID to_string, get_name;
     jclass security_exception;
-    struct host_call *running;
-    bool error_given; /* Shim.error was called in this call */
+    struct host_call *running; /* NULL between calls */
+    bool error_given;          /* the running call has called Shim.error */
     _Atomic uint64_t wrapped;
 } java;
 
 uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_order_relaxed); }
 
-/* ---- Java text to UTF-8 ---------------------------------------------------------------------------------------------- */
+/* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
 
-static int32_t encode(uint32_t character, char *bytes) {
-    if (character < 0x80) {
-        bytes[0] = (char)character;
-        return 1;
-    }
-    int32_t length = character < 0x800 ? 2 : character < 0x10000 ? 3 : 4;
-    static const uint8_t first[] = {0, 0, 0xC0, 0xE0, 0xF0};
-    for (int32_t i = length - 1; i > 0; i--) {
-        bytes[i] = (char)(0x80 | (character & 0x3F));
-        character >>= 6;
-    }
-    bytes[0] = (char)(first[length] | character);
-    return length;
-}
-
-/* Copies a string, cut to fit, without allocating on either side. JNI's own "UTF" is not UTF-8 beyond the basic plane. */
+/* Allocates on neither side: the heap may be full. JNI's own "UTF" is not UTF-8 beyond the basic plane. */
 static void string_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
     jchar units[1024];
     jsize count = (*env)->GetStringLength(env, string);
     if (count > COUNT(units)) count = COUNT(units);
     (*env)->GetStringRegion(env, string, 0, count, units);
-    int32_t used = 0;
-    for (jsize i = 0; i < count && used + 5 <= capacity; i++) {
-        uint32_t character = units[i];
-        if (character >= 0xD800 && character < 0xE000) {
-            bool pair = character < 0xDC00 && i + 1 < count && units[i + 1] >= 0xDC00 && units[i + 1] < 0xE000;
-            character = pair ? 0x10000 + ((character - 0xD800) << 10) + (units[++i] - 0xDC00u) : 0xFFFD;
-        }
-        used += encode(character, buffer + used);
-    }
-    buffer[used] = '\0';
+    text_from_utf16(units, count, buffer, capacity);
 }
 
-/* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
-
+/* Text of object.method(); false when that throws or returns null. */
 static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffer, int32_t capacity) {
     jstring string = (*env)->CallObjectMethod(env, object, method);
     bool good = !(*env)->ExceptionCheck(env) && string != NULL;
@@ -70,23 +46,22 @@ static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffe
     return good;
 }
 
-/* Takes the pending exception away and tells its text: in the worst case, when the heap has no room for its own words, its
- * class, or nothing. */
+/* Clears the pending exception and describes it: by toString() or, when the heap has no room for that, by its class. */
 static void take_exception(JNIEnv *env, char *buffer, int32_t capacity) {
     jthrowable exception = (*env)->ExceptionOccurred(env);
     (*env)->ExceptionClear(env);
     if (!string_of(env, exception, java.to_string, buffer, capacity)) {
         jclass class = (*env)->GetObjectClass(env, exception);
         if (!string_of(env, class, java.get_name, buffer, capacity)) {
-            give_text("an exception that cannot tell its name (is the heap exhausted?)", buffer, capacity);
+            text_export("an exception that cannot tell its name (is the heap exhausted?)", buffer, capacity);
         }
         (*env)->DeleteLocalRef(env, class);
     }
     (*env)->DeleteLocalRef(env, exception);
 }
 
-/* A class makes its name at the first call. With the heap exhausted that is too late. */
-static void prepare_name(JNIEnv *env, const char *class_name) {
+/* Class.getName() caches its result; the first call allocates, which a full heap refuses. */
+static void cache_name(JNIEnv *env, const char *class_name) {
     char text[64];
     jclass class = (*env)->FindClass(env, class_name);
     if (class != NULL) string_of(env, class, java.get_name, text, sizeof text);
@@ -107,7 +82,7 @@ static void throw_new(JNIEnv *env, const char *class_name, const char *message) 
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* Makes the block's ByteBuffer if it has none. False with a pending exception. */
+/* Makes the block's ByteBuffer unless it has one. False with a pending exception. */
 static bool wrap(JNIEnv *env, struct block *block) {
     if (block->wrapper != NULL) return true;
     jobject buffer = (*env)->NewDirectByteBuffer(env, block->address, block->capacity);
@@ -122,6 +97,7 @@ static bool wrap(JNIEnv *env, struct block *block) {
     return true;
 }
 
+/* Only the engine thread can delete wrappers, so it frees the surplus blocks that have one. */
 static void free_surplus(JNIEnv *env) {
     for (struct block *block; (block = slots_take_surplus()) != NULL;) {
         (*env)->DeleteGlobalRef(env, block->wrapper);
@@ -151,7 +127,7 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
     return wrap(env, call->answer) ? call->answer->wrapper : NULL;
 }
 
-/* Copies the bytes, cut to fit. Nothing is locked meanwhile: JNI may wait for a safepoint here. */
+/* Copies as many bytes as fit, and a NUL. No lock may be held: JNI may wait for a safepoint here. */
 static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t capacity) {
     jsize length = bytes != NULL ? (*env)->GetArrayLength(env, bytes) : 0;
     if (length > capacity - 1) length = capacity - 1;
@@ -162,7 +138,7 @@ static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t c
 
 static void JNICALL shim_error(JNIEnv *env, jclass class, jbyteArray utf8) {
     (void)class;
-    char text[ERROR_CAPACITY + 4]; /* a text that is too long is cut at a character by error_set */
+    char text[ERROR_CAPACITY + 4]; /* longer than an error may be, so that error_set cuts at a character */
     bytes_text(env, utf8, text, sizeof text);
     error_set(CLK_OK, "%s", text);
     if (engine_is_current()) java.error_given = true;
@@ -192,7 +168,7 @@ static void JNICALL shutdown_halt(JNIEnv *env, jclass class, jint status) {
 
 /* ---- Binding --------------------------------------------------------------------------------------------------------- */
 
-/* JNI's structs want writable strings and object pointers for what are constants and functions. */
+/* JNI declares names as writable strings, and functions as object pointers. */
 #define NATIVE(function_name, type, function) \
     {.name = (char[]){function_name}, .signature = (char[]){type}, .fnPtr = (void *)(uintptr_t)(function)}
 
@@ -216,7 +192,7 @@ bool host_refuse_exit(JNIEnv *env) {
 
 static int32_t does_not_fit(JNIEnv *env, const char *what) {
     char text[2048];
-    give_text("no exception", text, sizeof text);
+    text_export("no exception", text, sizeof text);
     if ((*env)->ExceptionCheck(env)) take_exception(env, text, sizeof text);
     return error_set(CLK_HOST, "%s; check that the class path has the host jar of the shim's own version: %s", what, text);
 }
@@ -229,7 +205,7 @@ int32_t host_bind(JNIEnv *env) {
     java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
     (*env)->DeleteLocalRef(env, object);
     (*env)->DeleteLocalRef(env, class);
-    prepare_name(env, "java/lang/OutOfMemoryError");
+    cache_name(env, "java/lang/OutOfMemoryError");
 
     const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
                                        NATIVE("log", "(I[B)V", shim_log)};
@@ -275,7 +251,7 @@ int32_t host_start(char *version, int32_t capacity) {
     return CLK_OK;
 }
 
-/* The codes that docs/boundary.md leaves to the host; the others speak of the shim itself. */
+/* docs/boundary.md lets the host return these; the other codes report the shim's own state. */
 static bool is_host_code(jlong code) {
     switch (code) {
         case CLK_ARGUMENT:

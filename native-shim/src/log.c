@@ -2,18 +2,18 @@
 
 #include <stdio.h>
 #include <string.h>
-#include "error.h"
 #include "prim.h"
+#include "text.h"
 
-/* Records lie one behind the other in the ring: a header, then the text without NUL. A record may wrap around. */
+/* A record is this header and the text without NUL. Records follow each other in the ring; one may wrap around its end. */
 struct record {
     int32_t level;
     int32_t length;
 };
 
 static struct {
-    prim_mutex mutex; /* held for copies only, never over a call that could wait */
-    uint32_t head;    /* of the oldest record; head and tail count bytes for ever, modulo 2^32 */
+    prim_mutex mutex; /* held for copies only, never during a call that may wait */
+    uint32_t head;    /* position of the oldest record; positions count all bytes ever written, modulo 2^32 */
     uint32_t tail;
     uint64_t dropped;
     char bytes[LOG_RING_BYTES];
@@ -38,7 +38,7 @@ static void ring_get(uint32_t position, void *target, uint32_t length) {
 void log_write(int32_t level, const char *text, int32_t length) {
     char cut[LOG_LINE_CAPACITY];
     if (length >= LOG_LINE_CAPACITY) {
-        length = copy_text(text, length, cut, sizeof cut);
+        length = text_copy(text, length, cut, sizeof cut);
         text = cut;
     }
     struct record record = {level, length};
@@ -55,7 +55,7 @@ void log_write(int32_t level, const char *text, int32_t length) {
 }
 
 void log_format(int32_t level, const char *format, ...) {
-    char text[LOG_LINE_CAPACITY + 4]; /* so that log_write sees a text that is too long, and cuts it at a character */
+    char text[LOG_LINE_CAPACITY + 4]; /* longer than a line may be, so that log_write cuts at a character */
     va_list arguments;
     va_start(arguments, format);
     int length = vsnprintf(text, sizeof text, format, arguments);
@@ -76,7 +76,7 @@ int32_t clk_log_read(int32_t *level, char *buffer, int32_t capacity) {
     prim_unlock(&ring.mutex);
     if (record.length < 0) return -1;
     if (level != NULL) *level = record.level;
-    return buffer != NULL ? copy_text(text, record.length, buffer, capacity) : 0;
+    return buffer != NULL ? text_copy(text, record.length, buffer, capacity) : 0;
 }
 
 uint64_t log_dropped(void) {
@@ -89,20 +89,18 @@ uint64_t log_dropped(void) {
 /* ---- Output of the JVM ----------------------------------------------------------------------------------------------- */
 
 static struct {
-    prim_mutex mutex; /* taken before the ring's */
+    prim_mutex mutex; /* locked before the ring's */
     int32_t used;
-    char line[1024]; /* the begun line */
-    char last[1024]; /* the latest whole lines, for error texts */
+    char line[LOG_LINE_CAPACITY + 4]; /* the unfinished line */
+    char last[1024];                  /* the latest whole lines, for error texts */
 } jvm_output = {.mutex = PRIM_MUTEX_INIT};
 
-static void keep_last(const char *line, size_t length) {
-    size_t used = strlen(jvm_output.last);
-    if (used + length + 3 > sizeof jvm_output.last) used = 0;
-    if (used > 0) {
-        memcpy(jvm_output.last + used, "; ", 2);
-        used += 2;
-    }
-    memcpy(jvm_output.last + used, line, length + 1);
+static void keep_last(const char *line, int32_t length) {
+    int32_t capacity = sizeof jvm_output.last;
+    int32_t used = (int32_t)strlen(jvm_output.last);
+    if (used + length + 3 > capacity) used = 0;
+    if (used > 0) used += text_copy("; ", 2, jvm_output.last + used, capacity - used);
+    text_copy(line, length, jvm_output.last + used, capacity - used);
 }
 
 static void end_line(int32_t level) {
@@ -110,20 +108,29 @@ static void end_line(int32_t level) {
     if (level < CLK_LOG_WARNING && strstr(jvm_output.line, "warning") != NULL) level = CLK_LOG_WARNING;
     if (jvm_output.used > 0) {
         log_write(level, jvm_output.line, jvm_output.used);
-        keep_last(jvm_output.line, (size_t)jvm_output.used);
+        keep_last(jvm_output.line, jvm_output.used);
     }
     jvm_output.used = 0;
 }
 
-int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
-    char text[4096];
+/* Under the mutex, which makes the static buffer safe: threads of the JVM have small stacks. */
+__attribute__((format(printf, 2, 0))) static int32_t append(int32_t level, const char *format, va_list arguments) {
+    static char text[2 * LOG_LINE_CAPACITY];
     int length = vsnprintf(text, sizeof text, format, arguments);
-    if (length < 0) return length;
-    prim_lock(&jvm_output.mutex);
-    for (const char *at = text; *at != '\0'; at++) {
-        if (*at != '\n') jvm_output.line[jvm_output.used++] = *at;
-        if (*at == '\n' || jvm_output.used == (int32_t)sizeof jvm_output.line - 1) end_line(level);
+    for (const char *at = text; length >= 0 && *at != '\0'; at++) {
+        if (*at == '\n') {
+            end_line(level);
+        } else if (jvm_output.used < (int32_t)sizeof jvm_output.line - 1) {
+            jvm_output.line[jvm_output.used++] = *at;
+        }
     }
+    if (length >= (int)sizeof text) end_line(level); /* the rest is lost, and with it the end of the line */
+    return length;
+}
+
+int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
+    prim_lock(&jvm_output.mutex);
+    int32_t length = append(level, format, arguments);
     prim_unlock(&jvm_output.mutex);
     return length;
 }
@@ -131,6 +138,6 @@ int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
 void log_jvm_last(char *buffer, int32_t capacity) {
     prim_lock(&jvm_output.mutex);
     if (jvm_output.used > 0) end_line(CLK_LOG_ERROR);
-    give_text(jvm_output.last, buffer, capacity);
+    text_export(jvm_output.last, buffer, capacity);
     prim_unlock(&jvm_output.mutex);
 }

@@ -1,4 +1,4 @@
-/* The log ring: many producers, polled readers. No function waits for a reader. */
+/* The log ring: written by any thread, polled by clk_log_read. A full ring drops lines; no writer waits for a reader. */
 #ifndef COLLEKTIVE_LOG_H
 #define COLLEKTIVE_LOG_H
 
@@ -9,16 +9,18 @@
 #define LOG_LINE_CAPACITY 8192 /* bytes of one line, NUL included; longer ones are cut at a character */
 #define LOG_RING_BYTES (256 * 1024)
 
-/* Any thread. Takes no JNI call and no other lock. */
+/* Adds a line. Any thread, also one of the JVM: calls no JNI and holds one lock for the time of a copy. */
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* A piece of what the JVM prints; whole lines go to the ring, at least as a warning when they say so. */
+/* Takes a piece of the JVM's output; returns its length like vprintf. Whole lines go to the ring, those that contain "warning" at
+ * least as one. Any thread. */
 __attribute__((format(printf, 2, 0))) int32_t log_jvm_output(int32_t level, const char *format, va_list arguments);
 
-/* Copies what the JVM printed last (at most `capacity` - 1 bytes), lines joined by "; ". */
+/* Copies the JVM's last lines, joined by "; ", at most 1023 bytes. */
 void log_jvm_last(char *buffer, int32_t capacity);
 
+/* Lines that did not fit into the ring. */
 uint64_t log_dropped(void);
 
 #endif

@@ -7,10 +7,11 @@
 #include "error.h"
 #include "log.h"
 #include "prim.h"
+#include "text.h"
 
 /* ---- By their text --------------------------------------------------------------------------------------------------- */
 
-/* A text that ends in '*' stands for all options that begin so. */
+/* A rule whose text ends in '*' matches all options that begin with the rest. */
 struct rule {
     const char *text;
     const char *reason;
@@ -79,7 +80,7 @@ int32_t options_check(const char *option) {
 
 /* ---- In a child process ---------------------------------------------------------------------------------------------- */
 
-/* What the JVM wrote, on one line, without the launcher's general words. */
+/* Puts the JVM's output on one line, without the launcher's general message. */
 static void tidy(char *text) {
     char *general = strstr(text, "Error: Could not create the Java Virtual Machine");
     if (general != NULL) *general = '\0';
@@ -92,10 +93,10 @@ static void tidy(char *text) {
 
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
     char java[4096];
-    char output[16384]; /* some options make the JVM write a lot before what counts */
+    char output[16384]; /* some options make the JVM write a lot before the error */
     int status = 0;
     static char version[] = "-version";
-    static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* of a child that dies: its words are enough */
+    static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* a child that crashes needs no report */
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
     if (!prim_executable(java)) {
         log_format(CLK_LOG_INFO, "the JVM options are not tried before the start, as %s is missing or not executable", java);
@@ -106,7 +107,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[0] = java;
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
-        /* An archive of the few classes that the child loads would be of no use to the JVM. */
+        /* The child would write an archive of its own few classes. */
         bool writes_archive = matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:+AutoCreateSharedArchive");
         if (!writes_archive) arguments[used++] = options[i];
     }
@@ -115,18 +116,18 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[used] = NULL;
     enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);
     free(arguments);
-    /* The words of the version tell that the JVM came up, and was not ended in order by an option before that. */
+    /* Some options end the JVM with code 0 before it is up, and so before it prints its version. */
     bool came_up = strstr(output, " version \"") != NULL;
     size_t length = strlen(output);
-    if (length > OUTPUT_SHOWN) memmove(output, output + length - OUTPUT_SHOWN, OUTPUT_SHOWN + 1);
-    tidy(output);
+    char *end = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
+    tidy(end);
+    const char *wrote = end[0] != '\0' ? end : "nothing";
     switch (run) {
         case PRIM_NOT_STARTED:
             log_format(CLK_LOG_WARNING, "the JVM options are not tried before the start, as %s could not be run", java);
             return CLK_OK;
         case PRIM_TIMED_OUT:
-            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java,
-                             output[0] != '\0' ? output : "nothing");
+            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java, wrote);
         default: break;
     }
     if (status == 0 && came_up) return CLK_OK;
@@ -135,7 +136,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
         return error_set(CLK_JVM_OPTIONS,
                          "the JVM of %s crashes with these options (signal %d): correct them, or reinstall it if its files are "
                          "damaged; it wrote: %s",
-                         home, status - 128, output[0] != '\0' ? output : "nothing");
+                         home, status - 128, wrote);
     }
-    return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, output);
+    return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, wrote);
 }

@@ -1,4 +1,7 @@
-/* What the shim needs from the platform: the only place, besides signals.c, that knows the operating system. */
+/*
+ * What the shim needs from the platform. Only the files prim_* know the operating system.
+ * Any thread may call these functions, unless said otherwise.
+ */
 #ifndef COLLEKTIVE_PRIM_H
 #define COLLEKTIVE_PRIM_H
 
@@ -30,7 +33,7 @@ void prim_unlock(prim_mutex *mutex);
 typedef sem_t prim_semaphore;
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
 void prim_semaphore_post(prim_semaphore *semaphore);
-/* Neither wait sleeps for the first half of a millisecond, but lets other threads run. */
+/* Both waits spin for half a millisecond before they sleep. */
 void prim_semaphore_wait(prim_semaphore *semaphore);
 /* False when the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
@@ -42,18 +45,33 @@ void prim_run_once(prim_once *once, void (*init)(void));
 
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* Starts a thread that is never joined. False when the system gives none. */
+/* Starts a detached thread. `name` has at most 15 bytes and is never freed. False when there is no memory for it. */
 bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes);
 
-/* Takes the calling thread out of service for ever, deaf to signals. */
+/* Blocks the calling thread for ever, with all signals masked. */
 noreturn void prim_park(void);
 
-/* Calls `child` in every forked child process. */
+/* Calls `child` in each process forked from now on, in the only thread that it has. */
 void prim_at_fork(void (*child)(void));
+
+/* ---- Signal handlers -------------------------------------------------------------------------------------------------
+ * HotSpot replaces the process's handlers in JNI_CreateJavaVM, and passes on to them the signals that are not its own. */
+
+/* Remembers the process's handlers. Call it before JNI_CreateJavaVM. */
+void prim_signals_save(void);
+
+/* Puts these back, after a JVM did not come up. */
+void prim_signals_restore(void);
+
+/* Corrects HotSpot's handlers for this process and remembers them. Call it after JNI_CreateJavaVM. */
+void prim_signals_adopt(void);
+
+/* Puts HotSpot's handlers back where another library has replaced them; returns how many. Only after prim_signals_adopt. */
+int32_t prim_signals_repair(void);
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* Memory aligned to 64 bytes, given back by prim_free; NULL when there is none. `bytes` is a multiple of 64. */
+/* Allocates memory aligned to 64 bytes; the caller frees it with prim_free. NULL when there is none. `bytes` is a multiple of 64. */
 void *prim_allocate(size_t bytes);
 void prim_free(void *memory);
 
@@ -63,23 +81,22 @@ enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
 enum prim_file prim_file_kind(const char *path);
 bool prim_executable(const char *path);
 
-/* Whether other programs, by the locale of the environment, read paths as UTF-8. */
+/* Whether the locale of the environment, which the JVM uses for paths, is UTF-8. */
 bool prim_locale_is_utf8(void);
 
-/* Loads a library for the rest of the process. NULL on failure with the reason in `why`. */
+/* Loads a library for the rest of the process. NULL on failure, with the reason in `why`. */
 void *prim_library_open(const char *path, char *why, size_t why_size);
 void *prim_library_symbol(void *library, const char *name);
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Takes a variable out of the environment until prim_environment_show: getenv and child processes do not see it. Other
- * threads may read the environment meanwhile. False when it is not set. */
+/* Hides a variable from getenv and child processes until prim_environment_show(hidden). Other threads may read the environment
+ * meanwhile, and no two threads may hide at once. `name` has at most 62 bytes. False when it is not set. */
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* Runs a program and collects what it writes (standard output and error, NUL-ended, at least the last half of its size) into `output`.
- * Standard input is empty. PRIM_EXITED fills `status` with the exit code, or 128 + signal. A program that is not done by
- * the deadline is killed. */
+/* Runs a program without input. `output` gets what it writes to standard output and error, NUL-ended; of more than fits, at least the last
+ * half of output_size. PRIM_EXITED sets `status` to the exit code, or 128 + signal. At the deadline the program is killed. */
 enum prim_run { PRIM_EXITED, PRIM_NOT_STARTED, PRIM_TIMED_OUT };
 enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status);
 

@@ -23,7 +23,7 @@ extern char **environ;
 /* ---- Time ------------------------------------------------------------------------------------------------------------ */
 
 #define NANOS_PER_SECOND INT64_C(1000000000)
-#define WATCH_NANOS INT64_C(500000)
+#define SPIN_NANOS INT64_C(500000)
 
 int64_t prim_now(void) {
     struct timespec now;
@@ -41,10 +41,9 @@ void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { sem_init(s
 
 void prim_semaphore_post(prim_semaphore *semaphore) { sem_post(semaphore); }
 
-/* A processor that nobody uses falls asleep, and in a virtual machine takes longer to wake up than a tick of a small scene lasts. So
- * a waiting thread keeps its own awake for a while, and gives it to every other thread that wants it. */
-static bool watch(prim_semaphore *semaphore, int64_t deadline) {
-    int64_t end = prim_now() + WATCH_NANOS < deadline ? prim_now() + WATCH_NANOS : deadline;
+/* Spins briefly: waking an idle core of a virtual machine costs more than a small tick. Yields to any other thread. */
+static bool spin(prim_semaphore *semaphore, int64_t deadline) {
+    int64_t end = prim_now() + SPIN_NANOS < deadline ? prim_now() + SPIN_NANOS : deadline;
     while (sem_trywait(semaphore) != 0) {
         if (prim_now() >= end) return false;
         sched_yield();
@@ -53,13 +52,13 @@ static bool watch(prim_semaphore *semaphore, int64_t deadline) {
 }
 
 void prim_semaphore_wait(prim_semaphore *semaphore) {
-    if (watch(semaphore, INT64_MAX)) return;
-    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* a signal handler ran: wait on */
+    if (spin(semaphore, INT64_MAX)) return;
+    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* interrupted by a signal handler */
     }
 }
 
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline) {
-    if (watch(semaphore, deadline)) return true;
+    if (spin(semaphore, deadline)) return true;
     struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
     int result;
     do {
@@ -149,7 +148,7 @@ void *prim_library_symbol(void *library, const char *name) { return dlsym(librar
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Hiding swaps one pointer of environ. unsetenv and setenv would move or free the array under threads that read it. */
+/* Replaces one pointer of environ: unsetenv and setenv could move or free the array while other threads read it. */
 static char hidden_entry[] = "COLLEKTIVE_HIDDEN=";
 
 static bool swap_environment(const char *from, size_t from_length, char *to, char **previous) {
@@ -180,7 +179,7 @@ static int poll_limit(int64_t deadline) {
     return left < 0 ? 0 : left > INT32_MAX ? INT32_MAX : (int)left;
 }
 
-/* Reads until the writers close the pipe, and keeps the end. False when the deadline passed first. */
+/* Reads until all writers have closed the pipe; when the output is full, drops its older half. False when the deadline passed first. */
 static bool read_all(int descriptor, int64_t deadline, char *output, size_t output_size) {
     size_t used = 0;
     output[0] = '\0';
@@ -202,8 +201,8 @@ static bool read_all(int descriptor, int64_t deadline, char *output, size_t outp
     }
 }
 
-/* A host that ignores SIGCHLD, or reaps every child itself, takes the status away: it then counts as 0, and the caller
- * judges by the output. False when the deadline passed first. */
+/* False when the deadline passed first. In a process that ignores SIGCHLD, or reaps every child, the status is lost: it counts as 0, and
+ * the caller judges by the output. */
 static bool reap(pid_t child, int64_t deadline, int *status) {
     for (;;) {
         int state = 0;
@@ -234,7 +233,7 @@ static bool spawn(char *const argv[], int output, pid_t *child) {
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGCHLD);
-    /* A process group of its own, so that a kill reaches what it may have started. */
+    /* A process group of its own, so that kill also reaches its children. */
     bool spawned = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
                    posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 &&
                    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF) == 0 &&

@@ -6,9 +6,7 @@
 #include "engine.h"
 #include "error.h"
 #include "host.h"
-#include "log.h"
 #include "prim.h"
-#include "signals.h"
 #include "slots.h"
 
 #define MAX_SESSIONS 256
@@ -20,21 +18,18 @@ struct session {
     clk_slot answer;
 };
 
-/* By the turn, but for the counters. */
+/* Guarded by the turn, except the counters. */
 static struct {
     struct session all[MAX_SESSIONS];
-    struct session control; /* of no simulation; it has the answers of clk_control */
-    struct host_call call;  /* what the engine thread works on */
+    struct session control; /* no simulation: it owns the answer slot of clk_control */
+    struct host_call call;  /* the call that the engine thread runs */
     atomic_int count;
     _Atomic uint64_t steps;
-    _Atomic uint64_t signal_repairs;
 } sessions;
 
 int32_t session_count(void) { return atomic_load_explicit(&sessions.count, memory_order_relaxed); }
 
 uint64_t session_steps(void) { return atomic_load_explicit(&sessions.steps, memory_order_relaxed); }
-
-uint64_t session_signal_repairs(void) { return atomic_load_explicit(&sessions.signal_repairs, memory_order_relaxed); }
 
 /* ---- The table ------------------------------------------------------------------------------------------------------- */
 
@@ -45,14 +40,12 @@ static clk_session session_handle(const struct session *session) {
 
 static struct session *session_find(clk_session handle) {
     uint32_t index = (uint32_t)handle;
-    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32) {
-        return &sessions.all[index];
-    }
+    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32) return &sessions.all[index];
     error_set(CLK_HANDLE, "session 0x%llx is closed already or was never given out", (unsigned long long)handle);
     return NULL;
 }
 
-/* Takes a free session with its own generation and slot. */
+/* Takes a free session, with a new generation and a slot for answers. */
 static int32_t session_take(struct session **taken) {
     clk_memory memory = {.size = sizeof memory};
     for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
@@ -91,34 +84,23 @@ static int32_t check_limit(int32_t limit_ms) {
 
 static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, const clk_answer *answer) {
     if (answer == NULL) return error_set(CLK_ARGUMENT, "answer is NULL");
-    if (answer->size < sizeof *answer) {
-        return error_set(CLK_ARGUMENT, "answer->size is %u; set it to sizeof(clk_answer)", answer->size);
-    }
+    if (answer->size < sizeof *answer) return error_set(CLK_ARGUMENT, "answer->size is %u; set it to sizeof(clk_answer)", answer->size);
     if (offset < 0 || length < 0) return error_set(CLK_ARGUMENT, "the range %d + %d is negative", offset, length);
     return check_limit(limit_ms);
 }
 
-/* Takes the turn while a JVM runs. */
+/* Takes the turn if a JVM runs. */
 static int32_t enter(int64_t deadline) {
-    int32_t result = engine_check_running(); /* before waiting for nothing */
+    int32_t result = engine_check_running(); /* without waiting */
     if (result == CLK_OK) result = engine_enter(deadline);
-    /* One that lost its JVM while it waited is told so, even when its time ran out. */
+    /* A JVM lost meanwhile is the better reason, even after a time-out. */
     int32_t running = engine_state() == CLK_STATE_RUNNING ? CLK_OK : engine_check_running();
     if (running != CLK_OK && result == CLK_OK) engine_leave();
     return running != CLK_OK ? running : result;
 }
 
-/* Four system calls that only ask: less than a microsecond. Java code that runs without these handlers ends the process. */
-static void repair_signals(void) {
-    int32_t repaired = signals_repair();
-    if (repaired == 0) return;
-    atomic_fetch_add(&sessions.signal_repairs, (uint64_t)repaired);
-    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
-}
-
-/* Runs work that the host should end by the deadline. When even the engine thread does not come back, the JVM is lost. */
+/* Runs work that the host should end by the deadline. If it has not ended when the grace time is over, the JVM is lost. */
 static int32_t run(engine_work *work, int64_t deadline) {
-    repair_signals();
     int32_t result = engine_run(work, deadline + SESSION_GRACE_MS * PRIM_MILLI);
     if (result != CLK_TIMEOUT) return result;
     engine_lose("the engine thread did not answer within the time limit and %d ms more", SESSION_GRACE_MS);
@@ -139,7 +121,7 @@ static void unpin_all(struct host_call *call) {
     }
 }
 
-/* Under the turn. */
+/* Runs one call of the host and fills `answer`. Needs the turn. */
 static int32_t call_host(enum host_entry entry, const struct session *session, clk_slot slot, int32_t offset, int32_t length,
                          int64_t deadline, clk_answer *answer) {
     struct host_call *call = &sessions.call;
@@ -165,7 +147,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
                                .answer = own,
                                .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms};
     int32_t result = run(work_call, deadline);
-    /* The blocks stay pinned, never to be used again: a round that does not end may still read them, or Java write to them. */
+    /* These blocks stay pinned, and so are never used again: Java threads that did not end may still read or write them. */
     if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED) return result;
     if (result == CLK_OK) {
         answer->offset = call->answer_offset;

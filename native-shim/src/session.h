@@ -4,15 +4,15 @@
 
 #include <stdint.h>
 
-/* The time that the host gets to answer after the caller's limit, before the JVM counts as lost. On a busy machine it may be long until a full
- * heap gives room for the words of the answer. */
+/* How long after the caller's limit the host may still answer before the JVM counts as lost. With a full heap on a busy machine, even
+ * the text of an error takes seconds. */
 #define SESSION_GRACE_MS 10000
 
-/* Forgets all sessions and gives their slots back: the JVM is gone. Under the turn. */
+/* Removes all sessions and releases their slots, for the end of the JVM. Needs the turn. */
 void session_forget_all(void);
 
+/* Sessions open now, and calls of clk_step that reached the host. Any thread. */
 int32_t session_count(void);
 uint64_t session_steps(void);
-uint64_t session_signal_repairs(void);
 
 #endif

@@ -9,7 +9,7 @@
 #define MIN_CLASS 12 /* blocks are 2^12 .. 2^30 bytes */
 #define MAX_CLASS 30
 
-/* Unused memory that the pool keeps. What goes beyond is given back to the system. */
+/* The pool keeps this much unused memory and returns the rest to the system. */
 #define KEPT_BYTES ((uint64_t)64 << 20)
 
 struct slot {
@@ -28,7 +28,7 @@ static struct {
     uint64_t bytes;
     uint64_t unused_bytes;
     struct block *unused[MAX_CLASS + 1]; /* by class */
-    struct block *surplus;
+    struct block *surplus;               /* no longer wanted, but with a wrapper */
 } pool = {.mutex = PRIM_MUTEX_INIT};
 
 /* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
@@ -61,11 +61,6 @@ static struct block *block_take(int32_t capacity) {
     return block;
 }
 
-static void block_free(struct block *block) {
-    prim_free(block->address);
-    free(block);
-}
-
 static void block_give(struct block *block) {
     block->abandoned = false;
     if (pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES) {
@@ -77,14 +72,14 @@ static void block_give(struct block *block) {
     }
     pool.bytes -= (uint64_t)block->capacity;
     if (block->wrapper == NULL) {
-        block_free(block);
+        slots_free(block);
     } else {
         block->next = pool.surplus;
         pool.surplus = block;
     }
 }
 
-/* The slot lets go of its block; calls that use it now keep it for as long as they need it. */
+/* Takes the block from its slot. Calls that use it keep it until their last unpin. */
 static void block_abandon(struct block *block) {
     if (block->pins == 0) {
         block_give(block);
@@ -174,9 +169,7 @@ static int32_t grow(clk_slot handle, int32_t capacity, int32_t keep, clk_memory 
     struct slot *slot = slot_find(handle);
     if (slot == NULL) return CLK_HANDLE;
     struct block *old = slot->block;
-    if (keep < 0 || keep > old->capacity) {
-        return error_set(CLK_ARGUMENT, "keep is %d; the slot has %d bytes", keep, old->capacity);
-    }
+    if (keep < 0 || keep > old->capacity) return error_set(CLK_ARGUMENT, "keep is %d; the slot has %d bytes", keep, old->capacity);
     if (old->pins > 0) return error_set(CLK_ARGUMENT, "the slot is in use by a running call; grow it before or after");
     if (capacity > old->capacity) {
         struct block *block = block_take(capacity);
@@ -248,7 +241,10 @@ struct block *slots_take_surplus(void) {
     return block;
 }
 
-void slots_free(struct block *block) { block_free(block); }
+void slots_free(struct block *block) {
+    prim_free(block->address);
+    free(block);
+}
 
 void slots_count(int32_t *taken, uint64_t *bytes) {
     prim_lock(&pool.mutex);

@@ -1,5 +1,6 @@
 #include <string.h>
 #include "collektive_shim.h"
+#include "engine.h"
 #include "error.h"
 #include "host.h"
 #include "log.h"
@@ -15,7 +16,7 @@ int32_t clk_get_stats(clk_stats *stats) {
                      .steps = session_steps(),
                      .wrapped = host_wrapped(),
                      .logs_dropped = log_dropped(),
-                     .signal_repairs = session_signal_repairs()};
+                     .signal_repairs = engine_signal_repairs()};
     slots_count(&now.slots, &now.slot_bytes);
     memcpy(stats, &now, size < sizeof now ? size : sizeof now);
     return CLK_OK;

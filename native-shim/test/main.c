@@ -129,6 +129,14 @@ int64_t now_ns(void) {
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
+void sleep_ms(int ms) { nanosleep(&(struct timespec){.tv_nsec = ms * 1000000L}, NULL); }
+
+void check_threads_stand_still(void) {
+    clock_t begin = clock();
+    sleep_ms(500);
+    CHECK(clock() - begin < CLOCKS_PER_SEC / 10);
+}
+
 clk_stats stats(void) {
     clk_stats now = {.size = sizeof now};
     CHECK_OK(clk_get_stats(&now));

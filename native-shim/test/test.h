@@ -51,6 +51,8 @@ int32_t step(clk_session session, enum command command, int32_t argument, int32_
 uint64_t random_next(void); /* per thread, from its seed */
 void random_seed(uint64_t seed);
 int64_t now_ns(void);
+void sleep_ms(int ms);                /* less than a second */
+void check_threads_stand_still(void); /* busy ones would take processor time */
 clk_stats stats(void);
 bool log_mentions(const char *text); /* reads the log until a line has the text */
 
@@ -62,6 +64,7 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(home_with_a_broken_libjvm) X(home_without_java_command) \
     X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
     X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
+    X(long_lines_of_the_jvm) X(refusals_are_cut_at_a_character) X(checks_take_turns_after_a_loss) \
     X(option_that_ends_the_jvm) X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) \
     X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) X(options_unchecked_heap_too_large) \
     X(options_unchecked_unknown) X(failed_start_restores_signal_handlers) X(environment_is_ignored) X(second_start) \

@@ -274,7 +274,7 @@ static void begin_sleep(struct sleeper *sleeper, int32_t ms) {
     sleeper->ms = ms;
     uint64_t before = stats().steps;
     CHECK(pthread_create(&sleeper->thread, NULL, sleep_in_host, sleeper) == 0);
-    while (stats().steps == before) nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    while (stats().steps == before) sleep_ms(1);
 }
 
 static void end_sleep(struct sleeper *sleeper) {

@@ -129,6 +129,7 @@ void class_path_without_host(void) {
 void class_path_with_misfit(void) {
     CHECK_CODE(CLK_HOST, "lacks an entry", start_at(java_home(), misfit_classes, NULL, true, 60000));
     check_lost();
+    check_threads_stand_still(); /* clk_jvm_stop has halted those of the misfit */
 }
 
 /* ---- Options --------------------------------------------------------------------------------------------------------- */
@@ -188,6 +189,34 @@ void jvm_log_in_a_file(void) {
     CHECK(!log_mentions("[gc,init]"));
 }
 
+/* The JVM logs its class path in one line; Java 17 does not. */
+void long_lines_of_the_jvm(void) {
+    if (java_is_17()) return;
+    static char class_path[12000];
+    char line[8192];
+    int32_t level, cut = 0;
+    int used = snprintf(class_path, sizeof class_path, "%s", host_classes);
+    while (used < 9000) used += snprintf(class_path + used, sizeof class_path - (size_t)used, ":%s", host_classes);
+    CHECK_OK(start_at(java_home(), class_path, OPTIONS("-Xlog:arguments=info"), false, 60000));
+    while (clk_log_read(&level, line, sizeof line) >= 0) {
+        CHECK(line[0] == '['); /* each line of the log begins with the time */
+        if (strlen(line) == sizeof line - 1) cut++;
+    }
+    CHECK(cut > 0);
+}
+
+void refusals_are_cut_at_a_character(void) {
+    char option[2048], text[4096];
+    for (int shift = 0; shift < 2; shift++) {
+        int used = snprintf(option, sizeof option, "-XX:+NoSuch");
+        while (used < 1800) used += snprintf(option + used, sizeof option - (size_t)used, "\xC3\xA4");
+        snprintf(option + used, sizeof option - (size_t)used, "%s", shift ? "x" : "");
+        CHECK_CODE(CLK_JVM_OPTIONS, shift ? "\xC3\xA4x" : "\xC3\xA4'", check(OPTIONS(option)));
+        clk_last_error(text, sizeof text);
+        CHECK(((unsigned char)strstr(text, "): ")[3] & 0xC0) != 0x80);
+    }
+}
+
 void option_that_ends_the_jvm(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "before it is up", start(OPTIONS("-Xlog:help")));
     check_start_still_works();
@@ -219,6 +248,37 @@ void check_while_a_jvm_runs(void) {
     clk_jvm_description(after, sizeof after);
     CHECK(strcmp(before, after) == 0 && clk_jvm_state() == CLK_STATE_RUNNING);
     CHECK_OK(start(OPTIONS("-Xmx64m")));
+}
+
+/* A home whose java command tells that it runs, by a file `running`, and does not end. */
+static const char *make_home_with_slow_java(void) {
+    const char *home = make_home_with_lib();
+    make_folder(home, "bin");
+    write_file(home, "bin/java", "#!/bin/sh\necho still at it\ntouch \"$0.running\"\nsleep 30\n", 0755);
+    return home;
+}
+
+static void *check_slowly(void *home) {
+    clk_jvm_config config = {.size = sizeof config, .home = home, .class_path = host_classes, .start_limit_ms = 2000, .check_options = 1};
+    CHECK_CODE(CLK_TIMEOUT, "still at it", clk_jvm_check(&config));
+    return NULL;
+}
+
+void checks_take_turns_after_a_loss(void) {
+    clk_session session;
+    pthread_t slow;
+    char home[64], running[128];
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_CODE(CLK_JVM_LOST, "it aborted", step(session, CRASH, 0, 60000));
+    snprintf(home, sizeof home, "%s", make_home_with_slow_java());
+    snprintf(running, sizeof running, "%s/bin/java.running", home);
+    CHECK(pthread_create(&slow, NULL, check_slowly, home) == 0);
+    while (access(running, F_OK) != 0) sleep_ms(1);
+    clk_jvm_config config = {.size = sizeof config, .home = java_home(), .class_path = host_classes, .start_limit_ms = 200};
+    CHECK_CODE(CLK_TIMEOUT, "busy with another call", clk_jvm_check(&config));
+    CHECK(pthread_join(slow, NULL) == 0);
+    CHECK_OK(clk_jvm_check(&config));
 }
 
 void check_writes_no_archive(void) {
@@ -302,11 +362,8 @@ void start_from_two_threads(void) {
 }
 
 void start_limit(void) {
-    const char *home = make_home_with_lib();
-    make_folder(home, "bin");
-    write_file(home, "bin/java", "#!/bin/sh\necho still at it\nsleep 30\n", 0755);
     int64_t begin = now_ns();
-    CHECK_CODE(CLK_TIMEOUT, "still at it", start_at(home, host_classes, NULL, true, 300));
+    CHECK_CODE(CLK_TIMEOUT, "still at it", start_at(make_home_with_slow_java(), host_classes, NULL, true, 300));
     CHECK(now_ns() - begin < 10000000000);
     check_start_still_works();
 }

@@ -1,7 +1,13 @@
 package org.collektive.host;
 
-/** A host of another version: its entries have other types. */
+/** A host of another version: its entries have other types. Its thread does not end. */
 final class Host {
+    static {
+        new Thread(() -> {
+            for (;;) Thread.onSpinWait();
+        }).start();
+    }
+
     static String start() {
         return "misfit";
     }

@@ -1,0 +1,189 @@
+#include "launch.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "error.h"
+#include "options.h"
+#include "prim.h"
+
+#define OLDEST_JAVA 17
+
+/* ---- The caller's configuration -------------------------------------------------------------------------------------- */
+
+int32_t launch_check_config(const clk_jvm_config *config) {
+    if (config == NULL) return error_set(CLK_ARGUMENT, "config is NULL");
+    if (config->size < sizeof *config) return error_set(CLK_ARGUMENT, "config->size is %u; set it to sizeof(clk_jvm_config)", config->size);
+    /* Fields of a newer header must be 0. */
+    for (const uint8_t *at = (const uint8_t *)config + sizeof *config; at < (const uint8_t *)config + config->size; at++) {
+        if (*at != 0) return error_set(CLK_ARGUMENT, "the configuration has fields that this shim does not know; update the shim");
+    }
+    if (config->home == NULL || config->home[0] == '\0') return error_set(CLK_ARGUMENT, "home is empty; give the root of a JRE or JDK");
+    if (config->class_path == NULL || config->class_path[0] == '\0') {
+        return error_set(CLK_ARGUMENT, "class_path is empty; give the jars of the host");
+    }
+    if (config->option_count < 0 || (config->option_count > 0 && config->options == NULL)) {
+        return error_set(CLK_ARGUMENT, "option_count is %d and does not fit options", config->option_count);
+    }
+    for (int32_t i = 0; i < config->option_count; i++) {
+        if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL", i);
+    }
+    if (config->start_limit_ms < 1) return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it is 1 or greater", config->start_limit_ms);
+    return CLK_OK;
+}
+
+/* All texts, each on a line of its own. */
+static char *join(const char *first, const char *second, const char *const *others, int32_t count) {
+    size_t size = strlen(first) + strlen(second) + 2;
+    for (int32_t i = 0; i < count; i++) size += strlen(others[i]) + 1;
+    char *text = malloc(size);
+    if (text == NULL) return NULL;
+    int used = snprintf(text, size, "%s\n%s", first, second);
+    for (int32_t i = 0; i < count; i++) used += snprintf(text + used, size - (size_t)used, "\n%s", others[i]);
+    return text;
+}
+
+char *launch_configuration(const clk_jvm_config *config) {
+    return join(config->home, config->class_path, config->options, config->option_count);
+}
+
+char *launch_description(const struct launch *launch, const char *version) {
+    const char *const *options = (const char *const *)(launch->options + launch->own_count);
+    return join(launch->home, version, options, launch->option_count - launch->own_count);
+}
+
+/* ---- The JVM's options ----------------------------------------------------------------------------------------------- */
+
+static char *concatenate(const char *first, const char *second) {
+    size_t size = strlen(first) + strlen(second) + 1;
+    char *text = malloc(size);
+    if (text != NULL) snprintf(text, size, "%s%s", first, second);
+    return text;
+}
+
+static bool add_option(struct launch *launch, const char *prefix, const char *rest) {
+    char *option = concatenate(prefix, rest);
+    if (option != NULL) launch->options[launch->option_count++] = option;
+    return option != NULL;
+}
+
+/* The shim's own options come first, so that the caller's may override them. -Xrs leaves signals such as SIGTERM to the process.
+ * The log option silences a warning about host_refuse_exit. Without conditional card marks, threads of the host write to the same cache
+ * lines of the card table, and two of them take up to twice the processor time. */
+static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
+    static const char *const own[] = {"-Xrs", "-Djava.awt.headless=true", "-Xlog:jni+resolve=error", "-XX:+UseCondCardMark"};
+    enum { OWN = sizeof own / sizeof own[0] };
+    launch->home = concatenate(config->home, "");
+    launch->configuration = launch_configuration(config);
+    launch->options = malloc(((size_t)config->option_count + OWN + 1) * sizeof *launch->options);
+    bool good = launch->home != NULL && launch->configuration != NULL && launch->options != NULL;
+    for (int32_t i = 0; good && i < OWN; i++) good = add_option(launch, own[i], "");
+    good = good && add_option(launch, "-Djava.class.path=", config->class_path);
+    launch->own_count = launch->option_count;
+    for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(launch, config->options[i], "");
+    return good ? CLK_OK : error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
+}
+
+void launch_free(struct launch *launch) {
+    for (int32_t i = 0; i < launch->option_count; i++) free(launch->options[i]);
+    free(launch->options);
+    free(launch->configuration);
+    free(launch->home);
+    *launch = (struct launch){0};
+}
+
+/* ---- Files ----------------------------------------------------------------------------------------------------------- */
+
+static int32_t check_home_file(const char *home, const char *file) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", home, file);
+    switch (prim_file_kind(path)) {
+        case PRIM_FILE: return CLK_OK;
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "%s cannot be read; check its permissions", path);
+        default:
+            return error_set(CLK_JVM_NOT_FOUND, "%s is missing; the JVM's home must be the root of a JRE or JDK of version 17 or newer",
+                             path);
+    }
+}
+
+/* A home without a file `release`, which names the version, is accepted. */
+static int32_t check_version(const char *home) {
+    char text[4096];
+    snprintf(text, sizeof text, "%s/release", home);
+    FILE *file = fopen(text, "r");
+    if (file == NULL) return CLK_OK;
+    int version = OLDEST_JAVA;
+    while (fgets(text, sizeof text, file) != NULL) {
+        if (sscanf(text, "JAVA_VERSION=\"%d", &version) == 1) break;
+    }
+    fclose(file);
+    if (version >= OLDEST_JAVA) return CLK_OK;
+    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is of Java %d; use a JRE or JDK of version %d or newer", home, version, OLDEST_JAVA);
+}
+
+/* Without these files JNI_CreateJavaVM ends the process before it knows the exit hook. */
+static int32_t check_home(const char *home) {
+    switch (prim_file_kind(home)) {
+        case PRIM_DIRECTORY: break;
+        case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; give the root of a JRE or JDK", home);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; check its permissions", home);
+        default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
+    }
+    int32_t result = check_home_file(home, PRIM_LIBJVM);
+    if (result == CLK_OK) result = check_home_file(home, "lib/modules");
+    return result != CLK_OK ? result : check_version(home);
+}
+
+static int32_t check_class_path(const char *class_path) {
+    char entry[4096];
+    for (const char *at = class_path; *at != '\0';) {
+        const char *end = strchr(at, PRIM_PATH_SEPARATOR);
+        size_t length = end != NULL ? (size_t)(end - at) : strlen(at);
+        if (length >= sizeof entry) return error_set(CLK_HOST, "an entry of the class path is longer than a path can be");
+        memcpy(entry, at, length);
+        entry[length] = '\0';
+        enum prim_file kind = length > 0 ? prim_file_kind(entry) : PRIM_DIRECTORY;
+        if (kind == PRIM_MISSING) {
+            return error_set(CLK_HOST, "%s of the host's class path does not exist; build or reinstall the host", entry);
+        }
+        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "%s of the host's class path cannot be read; check its permissions", entry);
+        at = end != NULL ? end + 1 : at + length;
+    }
+    return CLK_OK;
+}
+
+/* In a locale other than UTF-8 the JVM decodes the path wrongly and does not find its own files or the host's. */
+static int32_t check_characters(int32_t code, const char *path) {
+    for (const char *at = path; *at != '\0'; at++) {
+        if ((unsigned char)*at >= 0x80 && !prim_locale_is_utf8()) {
+            return error_set(code, "the locale of the process cannot express %s; set LC_ALL=C.UTF-8 or use a path of plain ASCII", path);
+        }
+    }
+    return CLK_OK;
+}
+
+/* ---- The whole check ------------------------------------------------------------------------------------------------- */
+
+/* Tries the options in a child process, unless the last configuration that passed is equal. */
+static int32_t try_options(const struct launch *launch, int64_t deadline) {
+    static char *passed;
+    if (passed != NULL && strcmp(passed, launch->configuration) == 0) return CLK_OK;
+    int32_t result = options_try(launch->home, launch->options, launch->option_count, deadline);
+    if (result == CLK_OK) {
+        free(passed);
+        passed = concatenate(launch->configuration, "");
+    }
+    return result;
+}
+
+int32_t launch_prepare(struct launch *launch, const clk_jvm_config *config, int64_t deadline) {
+    int32_t result = check_home(config->home);
+    if (result == CLK_OK) result = check_characters(CLK_JVM_NOT_FOUND, config->home);
+    if (result == CLK_OK) result = check_class_path(config->class_path);
+    if (result == CLK_OK) result = check_characters(CLK_HOST, config->class_path);
+    for (int32_t i = 0; result == CLK_OK && i < config->option_count; i++) result = options_check(config->options[i]);
+    if (result == CLK_OK) result = fill(launch, config);
+    if (result == CLK_OK && config->check_options != 0) result = try_options(launch, deadline);
+    return result;
+}
