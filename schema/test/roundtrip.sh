@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Random data of the test schemas from C# to Kotlin and back: each side prints what it wrote, the other compares what it read.
-# Needs what ./collektive test has built before: flatc, the C# compiler, jvm-host/generator with its test classes.
+# Sends random data of the test schemas from C# to Kotlin and back; each side compares what it reads with what the other wrote.
+# Needs what ./collektive test builds: flatc, the C# compiler, jvm-host/generator with its test classes.
 # Usage: schema/test/roundtrip.sh [RECORDS [SEED]]
 set -euo pipefail
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

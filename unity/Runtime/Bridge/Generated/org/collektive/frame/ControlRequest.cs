@@ -20,10 +20,10 @@ public struct ControlRequest : IFlatbufferObject
   public void __init(int _i, ByteBuffer _bb) { __p = new Table(_i, _bb); }
   public ControlRequest __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
-  /// Flags of the JVM whose values the answer shall give, without -XX.
+  /// Names of JVM flags, without -XX; the answer has their values.
   public string Flags(int j) { int o = __p.__offset(4); return o != 0 ? __p.__string(__p.__vector(o) + j * 4) : null; }
   public int FlagsLength { get { int o = __p.__offset(4); return o != 0 ? __p.__vector_len(o) : 0; } }
-  /// Collect garbage first, so that the numbers of memory count only what is in use. Takes a full collection.
+  /// First run a full garbage collection, so that the memory figures count only live objects.
   public bool Collect { get { int o = __p.__offset(6); return o != 0 ? 0!=__p.bb.Get(o + __p.bb_pos) : (bool)false; } }
   public org.collektive.frame.RecordingAction Recording { get { int o = __p.__offset(8); return o != 0 ? (org.collektive.frame.RecordingAction)__p.bb.Get(o + __p.bb_pos) : org.collektive.frame.RecordingAction.Nothing; } }
   /// Start: "default", "profile", or the path of a .jfc file.
@@ -34,7 +34,7 @@ public struct ControlRequest : IFlatbufferObject
   public ArraySegment<byte>? GetSettingsBytes() { return __p.__vector_as_arraysegment(10); }
 #endif
   public byte[] GetSettingsArray() { return __p.__vector_as_array<byte>(10); }
-  /// Start: the file that the recording is written to at its stop, or at the end of the JVM. Dump: the file.
+  /// Start: the file that Stop, or the end of the JVM, writes. Dump: the file to write now.
   public string Path { get { int o = __p.__offset(12); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetPathBytes() { return __p.__vector_as_span<byte>(12, 1); }

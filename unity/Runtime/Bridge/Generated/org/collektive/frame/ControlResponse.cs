@@ -20,7 +20,7 @@ public struct ControlResponse : IFlatbufferObject
   public void __init(int _i, ByteBuffer _bb) { __p = new Table(_i, _bb); }
   public ControlResponse __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
-  /// Of those asked for the ones that this JVM knows.
+  /// Those of the requested flags that this JVM has.
   public org.collektive.frame.Flag? Flags(int j) { int o = __p.__offset(4); return o != 0 ? (org.collektive.frame.Flag?)(new org.collektive.frame.Flag()).__assign(__p.__indirect(__p.__vector(o) + j * 4), __p.bb) : null; }
   public int FlagsLength { get { int o = __p.__offset(4); return o != 0 ? __p.__vector_len(o) : 0; } }
   /// Bytes.
@@ -28,13 +28,13 @@ public struct ControlResponse : IFlatbufferObject
   public long HeapCommitted { get { int o = __p.__offset(8); return o != 0 ? __p.bb.GetLong(o + __p.bb_pos) : (long)0; } }
   public long HeapMaximum { get { int o = __p.__offset(10); return o != 0 ? __p.bb.GetLong(o + __p.bb_pos) : (long)0; } }
   public long MetaspaceUsed { get { int o = __p.__offset(12); return o != 0 ? __p.bb.GetLong(o + __p.bb_pos) : (long)0; } }
-  /// Classes that are loaded now.
+  /// Loaded classes.
   public int Classes { get { int o = __p.__offset(14); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
-  /// Collections so far, and milliseconds in them.
+  /// Garbage collections so far; `collection_millis`: their total time in milliseconds.
   public long Collections { get { int o = __p.__offset(16); return o != 0 ? __p.bb.GetLong(o + __p.bb_pos) : (long)0; } }
   public long CollectionMillis { get { int o = __p.__offset(18); return o != 0 ? __p.bb.GetLong(o + __p.bb_pos) : (long)0; } }
   public org.collektive.frame.RecordingState Recording { get { int o = __p.__offset(20); return o != 0 ? (org.collektive.frame.RecordingState)__p.bb.Get(o + __p.bb_pos) : org.collektive.frame.RecordingState.Off; } }
-  /// File of the recording that runs, or of the last one; absent before the first.
+  /// File of the running recording, or else of the last one. Absent before the first.
   public string RecordingPath { get { int o = __p.__offset(22); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetRecordingPathBytes() { return __p.__vector_as_span<byte>(22, 1); }
@@ -42,7 +42,7 @@ public struct ControlResponse : IFlatbufferObject
   public ArraySegment<byte>? GetRecordingPathBytes() { return __p.__vector_as_arraysegment(22); }
 #endif
   public byte[] GetRecordingPathArray() { return __p.__vector_as_array<byte>(22); }
-  /// Why the last action failed; absent when it did not.
+  /// Why the last action failed. Absent if it succeeded.
   public string RecordingError { get { int o = __p.__offset(24); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetRecordingErrorBytes() { return __p.__vector_as_span<byte>(24, 1); }
@@ -50,7 +50,7 @@ public struct ControlResponse : IFlatbufferObject
   public ArraySegment<byte>? GetRecordingErrorBytes() { return __p.__vector_as_arraysegment(24); }
 #endif
   public byte[] GetRecordingErrorArray() { return __p.__vector_as_array<byte>(24); }
-  /// Milliseconds that the last action took.
+  /// Duration of the last action in milliseconds.
   public int RecordingMillis { get { int o = __p.__offset(26); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   /// Recordings and dumps written so far.
   public int RecordingsWritten { get { int o = __p.__offset(28); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }

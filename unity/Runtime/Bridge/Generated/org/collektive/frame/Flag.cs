@@ -9,7 +9,7 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// A flag of the JVM as it is in effect.
+/// A JVM flag and its effective value.
 public struct Flag : IFlatbufferObject
 {
   private Table __p;

@@ -9,7 +9,7 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// A link made, or an existing one with new values.
+/// A new link, or new values of an existing one.
 public struct Link : IFlatbufferObject
 {
   private Struct __p;

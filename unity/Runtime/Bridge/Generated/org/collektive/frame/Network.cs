@@ -9,9 +9,9 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// What happens to messages between sending and receiving; times in simulated seconds. A message is lost with the probability
-/// loss + loss_per_metre * length + loss_per_attenuation * attenuation of its link, at most 1. It arrives `delay` after its tick and up
-/// to `jitter` more (evenly spread); one that arrives after a later one is of no use.
+/// The network model: what happens to a message between sending and receiving. Times in simulated seconds. A message is lost with
+/// probability min(1, loss + loss_per_metre * length + loss_per_attenuation * attenuation), with length and attenuation of its link.
+/// Otherwise it arrives `delay` plus a uniform random part of `jitter` after its tick. A message that a later one has overtaken is ignored.
 public struct Network : IFlatbufferObject
 {
   private Table __p;
@@ -29,7 +29,7 @@ public struct Network : IFlatbufferObject
   public double LossPerAttenuation { get { int o = __p.__offset(8); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
   public double Delay { get { int o = __p.__offset(10); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
   public double Jitter { get { int o = __p.__offset(12); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
-  /// How long a link holds a message that arrived; 0: until a later one replaces it.
+  /// How long a link keeps a message after its arrival. 0: until a later one replaces it.
   public double Retention { get { int o = __p.__offset(14); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
 
   public static Offset<org.collektive.frame.Network> CreateNetwork(FlatBufferBuilder builder,

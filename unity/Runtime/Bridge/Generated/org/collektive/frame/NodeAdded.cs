@@ -19,7 +19,7 @@ public struct NodeAdded : IFlatbufferObject
   public void __init(int _i, ByteBuffer _bb) { __p = new Table(_i, _bb); }
   public NodeAdded __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
-  /// 0 or greater, unused at this moment.
+  /// 0 or greater; no other node has it now.
   public int Id { get { int o = __p.__offset(4); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   /// Empty: the session's program.
   public string Program { get { int o = __p.__offset(6); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }

@@ -9,7 +9,7 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// Stands for a table of the user's schema: `Sensors`, `Actuators` or `GlobalData` (see the generator).
+/// A table of the user's data: `Sensors`, `Actuators` or `GlobalData`, as the generator defines them.
 public struct Opaque : IFlatbufferObject
 {
   private Table __p;

@@ -20,16 +20,16 @@ public struct OpenRequest : IFlatbufferObject
   public void __init(int _i, ByteBuffer _bb) { __p = new Table(_i, _bb); }
   public OpenRequest __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
-  /// Version of this file's contract; another one is refused.
+  /// Version of this contract; the host refuses another one.
   public uint Protocol { get { int o = __p.__offset(4); return o != 0 ? __p.bb.GetUint(o + __p.bb_pos) : (uint)0; } }
   public ulong Seed { get { int o = __p.__offset(6); return o != 0 ? __p.bb.GetUlong(o + __p.bb_pos) : (ulong)0; } }
   /// Threads that run rounds, 1..256.
   public int Threads { get { int o = __p.__offset(8); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)1; } }
   public org.collektive.frame.Schedule Schedule { get { int o = __p.__offset(10); return o != 0 ? (org.collektive.frame.Schedule)__p.bb.Get(o + __p.bb_pos) : org.collektive.frame.Schedule.Lockstep; } }
-  /// Jars with programs, read into memory at open and never held open.
+  /// Paths of jars with programs. `open` reads them into memory and closes them.
   public string Jars(int j) { int o = __p.__offset(12); return o != 0 ? __p.__string(__p.__vector(o) + j * 4) : null; }
   public int JarsLength { get { int o = __p.__offset(12); return o != 0 ? __p.__vector_len(o) : 0; } }
-  /// Name of the user schema, as generated code gives it.
+  /// Name of the user's schema, from generated code.
   public string Schema { get { int o = __p.__offset(14); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetSchemaBytes() { return __p.__vector_as_span<byte>(14, 1); }
@@ -39,7 +39,7 @@ public struct OpenRequest : IFlatbufferObject
   public byte[] GetSchemaArray() { return __p.__vector_as_array<byte>(14); }
   public org.collektive.frame.TypeFingerprint? Types(int j) { int o = __p.__offset(16); return o != 0 ? (org.collektive.frame.TypeFingerprint?)(new org.collektive.frame.TypeFingerprint()).__assign(__p.__indirect(__p.__vector(o) + j * 4), __p.bb) : null; }
   public int TypesLength { get { int o = __p.__offset(16); return o != 0 ? __p.__vector_len(o) : 0; } }
-  /// Program of nodes that name none; may be empty when every node names one.
+  /// Program of nodes that name none. May be empty if every node names one.
   public string Program { get { int o = __p.__offset(18); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetProgramBytes() { return __p.__vector_as_span<byte>(18, 1); }
@@ -47,9 +47,9 @@ public struct OpenRequest : IFlatbufferObject
   public ArraySegment<byte>? GetProgramBytes() { return __p.__vector_as_arraysegment(18); }
 #endif
   public byte[] GetProgramArray() { return __p.__vector_as_array<byte>(18); }
-  /// Absent: ideal.
+  /// Absent: an ideal network.
   public org.collektive.frame.Network? Network { get { int o = __p.__offset(20); return o != 0 ? (org.collektive.frame.Network?)(new org.collektive.frame.Network()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
-  /// Path of the file to record the session's frames in (docs/record-format.md); empty: none.
+  /// Path of the file that records the session's frames (docs/record-format.md). Empty: no record.
   public string Record { get { int o = __p.__offset(22); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetRecordBytes() { return __p.__vector_as_span<byte>(22, 1); }

@@ -5,14 +5,14 @@
 namespace org.collektive.frame
 {
 
-/// What the JVM's flight recording shall do next. It goes on in the background; later answers tell how far it is.
+/// Action on the JVM's flight recording. It runs in the background; `recording` in later answers tells its state.
 public enum RecordingAction : byte
 {
   Nothing = 0,
   Start = 1,
-  /// Writes what there is to a file; the recording goes on.
+  /// Writes the data so far to a file; the recording goes on.
   Dump = 2,
-  /// Writes the file of the start, and ends.
+  /// Writes the file that Start named and ends the recording.
   Stop = 3,
 };
 

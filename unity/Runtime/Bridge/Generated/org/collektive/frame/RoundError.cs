@@ -28,7 +28,7 @@ public struct RoundError : IFlatbufferObject
   public ArraySegment<byte>? GetProgramBytes() { return __p.__vector_as_arraysegment(6); }
 #endif
   public byte[] GetProgramArray() { return __p.__vector_as_array<byte>(6); }
-  /// One line: exception and message; then the stack in the user's code.
+  /// First line: exception and message. Then the stack trace in the user's code.
   public string Message { get { int o = __p.__offset(8); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
 #if ENABLE_SPAN_T
   public Span<byte> GetMessageBytes() { return __p.__vector_as_span<byte>(8, 1); }

@@ -11,7 +11,7 @@ public enum Schedule : byte
   Lockstep = 0,
   /// Due nodes run in id order; each sees what earlier nodes sent in the same tick.
   Sequential = 1,
-  /// Nodes are due at times of their own, which C# knows; those due in one tick read what was sent before it.
+  /// Each node is due at its own times, which C# computes; all due nodes read what was sent before this tick.
   Asynchronous = 2,
 };
 

@@ -9,7 +9,7 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// Request of `step`. Changes apply in the order of the fields, before any round; removing a node removes its links.
+/// Request of `step`. Changes apply before any round, in the order of the fields. Removing a node removes its links.
 public struct StepRequest : IFlatbufferObject
 {
   private Table __p;
@@ -21,9 +21,9 @@ public struct StepRequest : IFlatbufferObject
   public void __init(int _i, ByteBuffer _bb) { __p = new Table(_i, _bb); }
   public StepRequest __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
-  /// 1 for a session's first step, then one more each time.
+  /// 1 at a session's first step, then one more at each.
   public ulong Tick { get { int o = __p.__offset(4); return o != 0 ? __p.bb.GetUlong(o + __p.bb_pos) : (ulong)0; } }
-  /// Simulated seconds at this tick, and since the one before.
+  /// Simulated seconds at this tick; `delta_time`: since the previous tick.
   public double Time { get { int o = __p.__offset(6); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
   public double DeltaTime { get { int o = __p.__offset(8); return o != 0 ? __p.bb.GetDouble(o + __p.bb_pos) : (double)0.0; } }
   public int NodesRemoved(int j) { int o = __p.__offset(10); return o != 0 ? __p.bb.GetInt(__p.__vector(o) + j * 4) : (int)0; }
@@ -40,7 +40,7 @@ public struct StepRequest : IFlatbufferObject
   public int LinksRemovedLength { get { int o = __p.__offset(14); return o != 0 ? __p.__vector_len(o) : 0; } }
   public org.collektive.frame.Link? Links(int j) { int o = __p.__offset(16); return o != 0 ? (org.collektive.frame.Link?)(new org.collektive.frame.Link()).__assign(__p.__vector(o) + j * 16, __p.bb) : null; }
   public int LinksLength { get { int o = __p.__offset(16); return o != 0 ? __p.__vector_len(o) : 0; } }
-  /// Nodes that run a round in this tick, ascending, without repetition.
+  /// Ids of the nodes that run a round in this tick, ascending, each once.
   public int Due(int j) { int o = __p.__offset(18); return o != 0 ? __p.bb.GetInt(__p.__vector(o) + j * 4) : (int)0; }
   public int DueLength { get { int o = __p.__offset(18); return o != 0 ? __p.__vector_len(o) : 0; } }
 #if ENABLE_SPAN_T
@@ -51,7 +51,7 @@ public struct StepRequest : IFlatbufferObject
   public int[] GetDueArray() { return __p.__vector_as_array<int>(18); }
   /// Table `Sensors` of generated code; element i belongs to due[i].
   public org.collektive.frame.Opaque? Sensors { get { int o = __p.__offset(20); return o != 0 ? (org.collektive.frame.Opaque?)(new org.collektive.frame.Opaque()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
-  /// Table `GlobalData` of the user's schema; absent: as before.
+  /// Table `GlobalData` of the user's schema. Absent: unchanged.
   public org.collektive.frame.Opaque? Globals { get { int o = __p.__offset(22); return o != 0 ? (org.collektive.frame.Opaque?)(new org.collektive.frame.Opaque()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
 
   public static Offset<org.collektive.frame.StepRequest> CreateStepRequest(FlatBufferBuilder builder,

@@ -21,9 +21,9 @@ public struct StepResponse : IFlatbufferObject
   public StepResponse __assign(int _i, ByteBuffer _bb) { __init(_i, _bb); return this; }
 
   public ulong Tick { get { int o = __p.__offset(4); return o != 0 ? __p.bb.GetUlong(o + __p.bb_pos) : (ulong)0; } }
-  /// First 8 bytes (little-endian) of the chained SHA-256 over all rounds so far; see docs/determinism.md.
+  /// First 8 bytes, little-endian, of the chained SHA-256 over all rounds so far (docs/determinism.md).
   public ulong Digest { get { int o = __p.__offset(6); return o != 0 ? __p.bb.GetUlong(o + __p.bb_pos) : (ulong)0; } }
-  /// Nodes whose round gave an answer, ascending: the due nodes without the failed ones.
+  /// Ids of the due nodes whose round did not fail, ascending.
   public int Nodes(int j) { int o = __p.__offset(8); return o != 0 ? __p.bb.GetInt(__p.__vector(o) + j * 4) : (int)0; }
   public int NodesLength { get { int o = __p.__offset(8); return o != 0 ? __p.__vector_len(o) : 0; } }
 #if ENABLE_SPAN_T
@@ -36,14 +36,14 @@ public struct StepResponse : IFlatbufferObject
   public org.collektive.frame.Opaque? Actuators { get { int o = __p.__offset(10); return o != 0 ? (org.collektive.frame.Opaque?)(new org.collektive.frame.Opaque()).__assign(__p.__indirect(o + __p.bb_pos), __p.bb) : null; } }
   public org.collektive.frame.RoundError? Errors(int j) { int o = __p.__offset(12); return o != 0 ? (org.collektive.frame.RoundError?)(new org.collektive.frame.RoundError()).__assign(__p.__indirect(__p.__vector(o) + j * 4), __p.bb) : null; }
   public int ErrorsLength { get { int o = __p.__offset(12); return o != 0 ? __p.__vector_len(o) : 0; } }
-  /// Nodes and directed links that the engine holds after this step.
+  /// Nodes and directed links of the session after this step.
   public int NodeCount { get { int o = __p.__offset(14); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   public int LinkCount { get { int o = __p.__offset(16); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
-  /// Microseconds inside the host, and of these in the rounds.
+  /// Microseconds in the host; `round_micros`: of these in rounds.
   public int HostMicros { get { int o = __p.__offset(18); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   public int RoundMicros { get { int o = __p.__offset(20); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
-  /// Messages put on links in this tick, one for each link; of these the lost ones and the ones that a network model delays; and the
-  /// messages that links held and whose retention ended.
+  /// Messages of this tick. `sent`: put on links, one for each link. Of these `dropped`: lost, and `delayed`: by the network model.
+  /// `expired`: kept by links until their retention ended.
   public int Sent { get { int o = __p.__offset(22); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   public int Dropped { get { int o = __p.__offset(24); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }
   public int Delayed { get { int o = __p.__offset(26); return o != 0 ? __p.bb.GetInt(o + __p.bb_pos) : (int)0; } }

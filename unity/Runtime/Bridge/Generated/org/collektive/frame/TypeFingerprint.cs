@@ -9,7 +9,7 @@ using global::System;
 using global::System.Collections.Generic;
 using global::Google.FlatBuffers;
 
-/// A user type and the fingerprint of its layout, nested types included.
+/// A type of the user's schema and the fingerprint of its layout, including nested types.
 public struct TypeFingerprint : IFlatbufferObject
 {
   private Table __p;
