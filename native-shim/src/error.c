@@ -1,7 +1,7 @@
 #include "error.h"
 
 #include <stdarg.h>
-#include <stddef.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include "text.h"
 
@@ -9,25 +9,19 @@ static _Thread_local char last_error[ERROR_CAPACITY];
 
 uint32_t clk_version(void) { return CLK_VERSION; }
 
-const char *clk_error_name(int32_t code) {
-    switch (code) {
-#define CLK_X(name, number, text) \
-    case number: return "CLK_" #name;
-        CLK_ERRORS(CLK_X)
+static const struct {
+    const char *name, *text;
+} errors[] = {
+#define CLK_X(name, code, text) [-(code)] = {"CLK_" #name, text},
+    CLK_ERRORS(CLK_X)
 #undef CLK_X
-        default: return "CLK_UNKNOWN";
-    }
-}
+};
 
-const char *clk_error_text(int32_t code) {
-    switch (code) {
-#define CLK_X(name, number, text) \
-    case number: return text;
-        CLK_ERRORS(CLK_X)
-#undef CLK_X
-        default: return "no error of this library has this code";
-    }
-}
+static bool is_error(int32_t code) { return code <= 0 && code > -(int32_t)(sizeof errors / sizeof errors[0]); }
+
+const char *clk_error_name(int32_t code) { return is_error(code) ? errors[-code].name : "CLK_UNKNOWN"; }
+
+const char *clk_error_text(int32_t code) { return is_error(code) ? errors[-code].text : "no error of this library has this code"; }
 
 int32_t error_set(int32_t code, const char *format, ...) {
     /* Not in place: the arguments may include the last error. */

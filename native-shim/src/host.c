@@ -253,18 +253,11 @@ int32_t host_start(char *version, int32_t capacity) {
 
 /* docs/boundary.md lets the host return these; the other codes report the shim's own state. */
 static bool is_host_code(jlong code) {
-    switch (code) {
-        case CLK_ARGUMENT:
-        case CLK_MEMORY:
-        case CLK_HANDLE:
-        case CLK_HOST:
-        case CLK_FRAME:
-        case CLK_SCHEMA:
-        case CLK_PROGRAM:
-        case CLK_SESSION_FAILED:
-        case CLK_JAVA: return true;
-        default: return false;
-    }
+    static const int32_t codes[] = {CLK_ARGUMENT, CLK_MEMORY,  CLK_HANDLE,         CLK_HOST, CLK_FRAME,
+                                    CLK_SCHEMA,   CLK_PROGRAM, CLK_SESSION_FAILED, CLK_JAVA};
+    bool found = false;
+    for (int i = 0; i < COUNT(codes); i++) found |= codes[i] == code;
+    return found;
 }
 
 int32_t host_run(struct host_call *call) {

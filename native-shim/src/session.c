@@ -45,20 +45,25 @@ static struct session *session_find(clk_session handle) {
     return NULL;
 }
 
-/* Takes a free session, with a new generation and a slot for answers. */
-static int32_t session_take(struct session **taken) {
+/* Gives a session its slot for answers. */
+static int32_t session_begin(struct session *session) {
     clk_memory memory = {.size = sizeof memory};
-    for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
-        if (session->open) continue;
-        int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &session->answer, &memory);
-        if (result != CLK_OK) return result;
-        session->generation = session->generation == UINT32_MAX ? 1 : session->generation + 1;
-        session->open = true;
-        atomic_fetch_add(&sessions.count, 1);
-        *taken = session;
-        return CLK_OK;
-    }
-    return error_set(CLK_MEMORY, "%d sessions are open; close one first", MAX_SESSIONS);
+    int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &session->answer, &memory);
+    session->open = result == CLK_OK;
+    return result;
+}
+
+/* Takes a free session, with a new generation. */
+static int32_t session_take(struct session **taken) {
+    struct session *session = sessions.all;
+    while (session < sessions.all + MAX_SESSIONS && session->open) session++;
+    if (session == sessions.all + MAX_SESSIONS) return error_set(CLK_MEMORY, "%d sessions are open; close one first", MAX_SESSIONS);
+    int32_t result = session_begin(session);
+    if (result != CLK_OK) return result;
+    session->generation = session->generation == UINT32_MAX ? 1 : session->generation + 1;
+    atomic_fetch_add(&sessions.count, 1);
+    *taken = session;
+    return CLK_OK;
 }
 
 static void session_give(struct session *session) {
@@ -89,12 +94,12 @@ static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, cons
     return check_limit(limit_ms);
 }
 
-/* Takes the turn if a JVM runs. */
-static int32_t enter(int64_t deadline) {
+/* Takes the turn if a JVM runs, and sets the deadline of the whole call. */
+static int32_t enter(int32_t limit_ms, int64_t *deadline) {
+    *deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = engine_check_running(); /* without waiting */
-    if (result == CLK_OK) result = engine_enter(deadline);
-    /* A JVM lost meanwhile is the better reason, even after a time-out. */
-    int32_t running = engine_state() == CLK_STATE_RUNNING ? CLK_OK : engine_check_running();
+    if (result == CLK_OK) result = engine_enter(*deadline);
+    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the better reason, even after a time-out */
     if (running != CLK_OK && result == CLK_OK) engine_leave();
     return running != CLK_OK ? running : result;
 }
@@ -164,8 +169,8 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
 int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer) {
     if (session == NULL) return error_set(CLK_ARGUMENT, "session is NULL");
     if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
-    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int32_t result = enter(deadline);
+    int64_t deadline;
+    int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
     struct session *taken = NULL;
     result = session_take(&taken);
@@ -183,8 +188,8 @@ int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t 
 
 int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer) {
     if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
-    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int32_t result = enter(deadline);
+    int64_t deadline;
+    int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
     const struct session *found = session_find(session);
     result = found != NULL ? call_host(HOST_STEP, found, slot, offset, length, deadline, answer) : CLK_HANDLE;
@@ -192,20 +197,12 @@ int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t len
     return result;
 }
 
-static int32_t take_control(void) {
-    clk_memory memory = {.size = sizeof memory};
-    if (sessions.control.open) return CLK_OK;
-    int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &sessions.control.answer, &memory);
-    sessions.control.open = result == CLK_OK;
-    return result;
-}
-
 int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer) {
     if (check_call(offset, length, limit_ms, answer) != CLK_OK) return CLK_ARGUMENT;
-    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int32_t result = enter(deadline);
+    int64_t deadline;
+    int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
-    result = take_control();
+    if (!sessions.control.open) result = session_begin(&sessions.control);
     if (result == CLK_OK) result = call_host(HOST_CONTROL, &sessions.control, slot, offset, length, deadline, answer);
     engine_leave();
     return result;
@@ -215,8 +212,8 @@ static int32_t work_close(void) { return host_close(sessions.call.session); }
 
 int32_t clk_session_close(clk_session session, int32_t limit_ms) {
     if (check_limit(limit_ms) != CLK_OK) return CLK_ARGUMENT;
-    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int32_t result = enter(deadline);
+    int64_t deadline;
+    int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
     struct session *found = session_find(session);
     if (found == NULL) {

@@ -158,7 +158,7 @@ int main(int argument_count, char **arguments) {
         void (*run)(void);
     } cases[] = {
 #define CASE_ENTRY(name) {#name, name},
-        CASES(CASE_ENTRY)
+        CASES(CASE_ENTRY) CASE_ENTRY(bench)
 #undef CASE_ENTRY
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -169,6 +169,6 @@ int main(int argument_count, char **arguments) {
             _exit(0);
         }
     }
-    fprintf(stderr, "usage: shim_test CASE; the cases are in test.h\n");
+    fprintf(stderr, "usage: shim_test CASE | bench; the cases are in test.h\n");
     return 2;
 }

@@ -79,6 +79,8 @@ bool log_mentions(const char *text); /* reads the log until a line has the text 
     X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults)
 /* clang-format on */
 
+void bench(void); /* `shim_test bench` */
+
 #define CASE_DECLARE(name) void name(void);
 CASES(CASE_DECLARE)
 #undef CASE_DECLARE
