@@ -113,24 +113,19 @@ static void end_line(int32_t level) {
     jvm_output.used = 0;
 }
 
-/* Under the mutex, which makes the static buffer safe: threads of the JVM have small stacks. */
-__attribute__((format(printf, 2, 0))) static int32_t append(int32_t level, const char *format, va_list arguments) {
-    static char text[2 * LOG_LINE_CAPACITY];
+int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
+    char text[LOG_LINE_CAPACITY + 4];
     int length = vsnprintf(text, sizeof text, format, arguments);
-    for (const char *at = text; length >= 0 && *at != '\0'; at++) {
+    if (length < 0) return length;
+    prim_lock(&jvm_output.mutex);
+    for (const char *at = text; *at != '\0'; at++) {
         if (*at == '\n') {
             end_line(level);
         } else if (jvm_output.used < (int32_t)sizeof jvm_output.line - 1) {
             jvm_output.line[jvm_output.used++] = *at;
         }
     }
-    if (length >= (int)sizeof text) end_line(level); /* the rest is lost, and with it the end of the line */
-    return length;
-}
-
-int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
-    prim_lock(&jvm_output.mutex);
-    int32_t length = append(level, format, arguments);
+    if ((size_t)length >= sizeof text) end_line(level); /* the rest is lost, and with it the end of the line */
     prim_unlock(&jvm_output.mutex);
     return length;
 }

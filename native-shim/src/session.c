@@ -21,7 +21,7 @@ struct session {
 /* Guarded by the turn, except the counters. */
 static struct {
     struct session all[MAX_SESSIONS];
-    struct session control; /* no simulation: it owns the answer slot of clk_control */
+    struct session control; /* never opened by a caller: it owns the answer slot of clk_control */
     struct host_call call;  /* the call that the engine thread runs */
     atomic_int count;
     _Atomic uint64_t steps;

@@ -1,4 +1,4 @@
-/* Sessions: which simulations the JVM holds, and the slots of their answers. */
+/* The open sessions, and the slots of their answers. */
 #ifndef COLLEKTIVE_SESSION_H
 #define COLLEKTIVE_SESSION_H
 

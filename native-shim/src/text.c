@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Bytes 10xxxxxx continue a character. */
+/* Whether the byte is 10xxxxxx: one of a character, but not its first. */
 static bool continues(char byte) { return ((unsigned char)byte & 0xC0) == 0x80; }
 
 char *text_next_character(char *text) {

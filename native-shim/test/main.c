@@ -165,7 +165,7 @@ int main(int argument_count, char **arguments) {
         if (argument_count == 2 && strcmp(arguments[1], cases[i].name) == 0) {
             cases[i].run();
             fflush(NULL);
-            /* A lost JVM's threads are still there: no exit handlers. */
+            /* Not exit(): threads of a lost JVM still run. */
             _exit(0);
         }
     }

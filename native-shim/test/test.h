@@ -1,4 +1,4 @@
-/* A case is a process of its own: `shim_test <case>`. Its name is the specification, a failed CHECK ends it. */
+/* Each case is a process of its own: `shim_test CASE`. Its name is the specification; a CHECK that fails ends it. */
 #ifndef COLLEKTIVE_TEST_H
 #define COLLEKTIVE_TEST_H
 
@@ -11,23 +11,23 @@
         if (!(condition)) fail(__FILE__, __LINE__, #condition); \
     } while (0)
 
-/* That the call gives the code and its error text names the thing; NULL for no text. */
+/* Checks that the call returns the code, and that its error text contains `mention` unless that is NULL. */
 #define CHECK_CODE(code, mention, call) check_code(__FILE__, __LINE__, #call, code, mention, call)
 #define CHECK_OK(call) CHECK_CODE(CLK_OK, NULL, call)
 
 _Noreturn void fail(const char *file, int line, const char *what);
 void check_code(const char *file, int line, const char *call, int32_t expected, const char *mention, int32_t got);
 
-/* Places: the JVM under test, the classes of the test host, and the others. */
+/* The JVM under test, the classes of the test host, and those of a host that does not fit. */
 const char *java_home(void);
 bool java_is_17(void);
 extern const char *const host_classes;
 extern const char *const misfit_classes;
 
-/* A fresh folder below the current one. Static storage, one at a time. */
+/* Makes a folder below the current one. Static storage, valid until the next call. */
 const char *scratch_folder(void);
 
-/* Starts the JVM of java_home() with the test host and these options, ended by NULL, the file checks and the child check. */
+/* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
 int32_t start(const char *const *options);
 int32_t check(const char *const *options); /* the same checks without the start */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
@@ -52,9 +52,9 @@ uint64_t random_next(void); /* per thread, from its seed */
 void random_seed(uint64_t seed);
 int64_t now_ns(void);
 void sleep_ms(int ms);                /* less than a second */
-void check_threads_stand_still(void); /* busy ones would take processor time */
+void check_threads_stand_still(void); /* by the processor time of this process */
 clk_stats stats(void);
-bool log_mentions(const char *text); /* reads the log until a line has the text */
+bool log_mentions(const char *text); /* reads the log up to the first line that contains the text */
 
 /* clang-format off */
 #define CASES(X) \

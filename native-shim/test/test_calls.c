@@ -7,7 +7,7 @@
 
 /* ---- Answers --------------------------------------------------------------------------------------------------------- */
 
-/* Writes a command with random bytes to a random place of the slot, growing it when need be, and checks that they come back. */
+/* Sends random bytes from a random place in the slot, which grows if it is too small, and checks that they come back. */
 static void check_echo(clk_session session, clk_slot slot, clk_memory *memory, clk_answer *given) {
     int32_t words[] = {ECHO, 0};
     int32_t length = (int32_t)sizeof words + (int32_t)(random_next() % ((uint64_t)1 << (1 + random_next() % 18)));
@@ -44,7 +44,7 @@ void answers_grow(void) {
     }
     int32_t grown = answer.capacity;
     CHECK_OK(step(session, EMPTY, 0, 60000));
-    CHECK(answer.capacity == grown && answer.length == 0); /* the session keeps what it has */
+    CHECK(answer.capacity == grown && answer.length == 0); /* the session keeps the larger slot */
     CHECK_OK(clk_session_close(session, 60000));
     CHECK(stats().slots == 1);
 }
@@ -56,7 +56,7 @@ void one_wrapper_for_each_memory(void) {
     CHECK(stats().wrapped == 2);
     for (int i = 0; i < 1000; i++) CHECK_OK(step(session, EMPTY, 0, 60000));
     CHECK(stats().wrapped == 2 && stats().steps == 1000);
-    /* The wrapper of memory that the pool gives back to the system goes with the next call. */
+    /* The next call deletes the wrapper of memory that the pool returns to the system. */
     clk_slot large;
     clk_memory memory = {.size = sizeof memory};
     for (int i = 0; i < 3; i++) {
@@ -171,7 +171,7 @@ void host_errors(void) {
     CHECK_OK(open_session(&session));
     CHECK_CODE(CLK_FRAME, "the host says no: \xC3\xA4\xE2\x82\xAC\xF0\x9F\x9A\x80", step(session, FAIL, CLK_FRAME, 1000));
     CHECK_CODE(CLK_SCHEMA, "different schemas", step(session, FAIL_SILENTLY, CLK_SCHEMA, 1000));
-    CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* speaks of the shim, not of the host */
+    CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* a code of the shim, not of the host */
     CHECK_CODE(CLK_HOST, "-99", step(session, FAIL, -99, 1000));
     CHECK_CODE(CLK_HOST, "-2147483648", step(session, FAIL, INT32_MIN, 1000));
     CHECK_CODE(CLK_JAVA, "IllegalStateException", step(session, GROW_FOREIGN, 0, 1000));
@@ -184,7 +184,7 @@ void host_errors(void) {
     CHECK(stats().sessions == 1 && stats().slots == 2);
 }
 
-/* The round that did not end may read its frame for ever: that memory must not come back to anybody. */
+/* A round that does not end may still read its frame, so the pool must not reuse that memory. */
 void failed_session_keeps_its_memory(void) {
     clk_session session;
     start_plain();
@@ -354,7 +354,7 @@ void logs_are_bounded(void) {
         read++;
     }
     CHECK(read > 1000 && read < LINES && stats().logs_dropped == (uint64_t)(LINES - read));
-    for (int round = 0; round < 50; round++) { /* the ring goes round */
+    for (int round = 0; round < 50; round++) { /* the ring wraps */
         CHECK_OK(step(session, LOG, 500, 60000));
         for (read = 0; clk_log_read(&level, line, 8) >= 0; read++) CHECK(strlen(line) <= 7);
         CHECK(read == 500);

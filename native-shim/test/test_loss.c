@@ -29,7 +29,7 @@ static void check_all_lost(const char *reason) {
     CHECK_CODE(CLK_JVM_LOST, reason, start(NULL));
     char description[1024];
     CHECK(clk_jvm_description(description, sizeof description) > 0);
-    CHECK_OK(clk_slot_release(request)); /* memory is no matter of the JVM */
+    CHECK_OK(clk_slot_release(request)); /* slots need no JVM */
     CHECK_OK(clk_slot_acquire(100, &request, &memory));
 }
 
@@ -100,7 +100,7 @@ void implicit_null_checks_and_host_faults(void) {
     }
 }
 
-/* Without a handler of the host's own: HotSpot offers a crash to such a one first. */
+/* The process has no handler of its own here: HotSpot would offer the crash to that one first. */
 void crash_loses_the_jvm(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, "it aborted", step(session, CRASH, 0, 60000));
@@ -189,7 +189,7 @@ void stop_times_out(void) {
     CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 200));
 }
 
-/* The JVM hangs while it is made: it opens a log that nobody reads. */
+/* JNI_CreateJavaVM hangs: it opens a pipe that nobody reads. */
 void stop_while_the_start_hangs(void) {
     char pipe[128], log[192];
     snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());

@@ -64,7 +64,7 @@ void slots_are_reused(void) {
         CHECK_OK(clk_slot_acquire(65537 + i, &slot, &memory));
         CHECK(memory.address == address && stats().slot_bytes == bytes);
     }
-    /* What is unused beyond 64 MiB goes back to the system. */
+    /* The pool returns unused memory beyond 64 MiB to the system. */
     CHECK_OK(clk_slot_release(slot));
     CHECK_OK(clk_slot_acquire(1 << 27, &slot, &memory));
     CHECK_OK(clk_slot_release(slot));
@@ -78,7 +78,7 @@ enum { THREADS = 4, HELD = 16, OPERATIONS = 20000 };
 struct held {
     clk_slot slot;
     clk_memory memory;
-    uint8_t mark; /* every byte of the memory */
+    uint8_t mark; /* the value of every byte */
 };
 
 static atomic_int model_slots;
@@ -93,7 +93,7 @@ static void mark_held(struct held *held) {
     memset(held->memory.address, held->mark, (size_t)held->memory.capacity);
 }
 
-/* Small ones often, large ones seldom. */
+/* Small capacities are frequent, large ones rare. */
 static int32_t random_capacity(void) { return 1 + (int32_t)(random_next() % ((uint64_t)1 << (4 + random_next() % 15))); }
 
 static void operate(struct held *held, clk_slot *stale) {

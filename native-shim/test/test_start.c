@@ -27,7 +27,7 @@ static void make_folder(const char *folder, const char *name) {
     CHECK(mkdir(path, 0755) == 0);
 }
 
-/* A home whose lib is that of the real one. */
+/* A home with the real JVM's lib folder and nothing else. */
 static const char *make_home_with_lib(void) {
     const char *home = scratch_folder();
     char target[4096], link[4096];
@@ -39,7 +39,7 @@ static const char *make_home_with_lib(void) {
 
 static int32_t start_home(const char *home) { return start_at(home, host_classes, NULL, true, 60000); }
 
-/* A refused start is no loss: the right one works afterwards. */
+/* After a refused start, a correct one succeeds. */
 static void check_start_still_works(void) {
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
     CHECK_OK(start(NULL));
@@ -129,7 +129,7 @@ void class_path_without_host(void) {
 void class_path_with_misfit(void) {
     CHECK_CODE(CLK_HOST, "lacks an entry", start_at(java_home(), misfit_classes, NULL, true, 60000));
     check_lost();
-    check_threads_stand_still(); /* clk_jvm_stop has halted those of the misfit */
+    check_threads_stand_still(); /* clk_jvm_stop halted the misfit's */
 }
 
 /* ---- Options --------------------------------------------------------------------------------------------------------- */
@@ -232,7 +232,7 @@ void check_starts_nothing(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "refused", check(OPTIONS("-XX:-UseSignalChaining")));
     CHECK_OK(check(OPTIONS("-Xmx64m")));
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
-    /* What was found good is not tried again. */
+    /* A configuration that passed is not tried again. */
     int64_t begin = now_ns();
     for (int i = 0; i < 100; i++) CHECK_OK(check(OPTIONS("-Xmx64m")));
     CHECK(now_ns() - begin < 1000000000);
@@ -250,7 +250,7 @@ void check_while_a_jvm_runs(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m")));
 }
 
-/* A home whose java command tells that it runs, by a file `running`, and does not end. */
+/* A home whose java command makes the file bin/java.running and does not end. */
 static const char *make_home_with_slow_java(void) {
     const char *home = make_home_with_lib();
     make_folder(home, "bin");

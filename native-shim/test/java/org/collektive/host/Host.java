@@ -8,7 +8,7 @@ import java.nio.ByteOrder;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Stands in for the real host: does what the request says. A request is a command, an argument (both int32) and bytes. */
+/** The test host: runs the command in the request. A request is a command and an argument (both int32), then bytes. */
 final class Host {
     private static final int EMPTY = 0;
     private static final int ECHO = 1;
@@ -131,7 +131,7 @@ final class Host {
                     try {
                         for (int size = 1 << 20; size > 8; size /= 2) fill(size);
                     } catch (OutOfMemoryError elsewhere) {
-                        // where the JVM needs memory of its own
+                        // thrown outside of fill
                     }
                 }
             case STAY:
@@ -151,7 +151,7 @@ final class Host {
         try {
             for (;;) hoard.add(new byte[size]);
         } catch (OutOfMemoryError full) {
-            // as wanted
+            // the heap is full, as wanted
         }
     }
 
@@ -162,7 +162,7 @@ final class Host {
         return (long) at << 32 | length;
     }
 
-    /** Doubles the answer until it has the size; the buffers before must stay readable. */
+    /** Doubles the answer until it has the size. Earlier buffers must stay readable. */
     private static long grow(int size, long slot, ByteBuffer answer) {
         List<ByteBuffer> all = new ArrayList<>();
         all.add(answer);
