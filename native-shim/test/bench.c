@@ -15,8 +15,9 @@ static void measure(const char *name, clk_session session, int count, int pause_
     for (int i = 0; i < count; i++) {
         if (pause_ms > 0) sleep_ms(pause_ms);
         int64_t begin = now_ns();
-        CHECK_OK(step(session, EMPTY, 0, 10000));
+        int32_t code = step(session, EMPTY, 0, 10000);
         times[i] = now_ns() - begin;
+        CHECK_OK(code);
     }
     qsort(times, (size_t)count, sizeof *times, ascending);
     printf("%-14s %7d steps: median %6.2f us, p99 %6.2f us\n", name, count, (double)times[count / 2] / 1e3,
