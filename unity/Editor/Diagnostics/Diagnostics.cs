@@ -69,7 +69,10 @@ namespace Collektive.Unity.Editor
             return rows;
         }
 
-        /// <summary>What the node's program answered in the last tick; empty when it gave no answer.</summary>
+        /// <summary>How old the node's last answer is.</summary>
+        internal static string TitleOf(Node node) => node.AnswerTick == 0 ? "No answer yet" : "Answer of tick " + node.AnswerTick;
+
+        /// <summary>The last answer of the node's program; empty when it gave none yet.</summary>
         internal List<KeyValuePair<string, string>> Values(int id)
         {
             var node = Manager.Find(id);

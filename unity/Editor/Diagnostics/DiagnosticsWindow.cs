@@ -87,7 +87,7 @@ namespace Collektive.Unity.Editor
         {
             EditorGUI.indentLevel++;
             if (node.LastError.Length > 0) EditorGUILayout.HelpBox(node.LastError, MessageType.Error);
-            DrawLines("Answer", diagnostics.Values(node.Id));
+            DrawLines(Diagnostics.TitleOf(node), diagnostics.Values(node.Id));
             EditorGUILayout.LabelField("Neighbours", EditorStyles.boldLabel);
             foreach (var row in diagnostics.Neighbours(node.Id))
             {

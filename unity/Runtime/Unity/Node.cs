@@ -46,7 +46,7 @@ namespace Collektive.Unity
         private int joinedId = -1;
         private ActuatorBuffer answers;
         private int answerIndex;
-        private ulong answerTick;
+        private KeptAnswer kept;
         private RoundTimer timer;
         private double asleepUntil;
 
@@ -85,6 +85,11 @@ namespace Collektive.Unity
         public RandomStream Random =>
             random ?? throw new InvalidOperationException("node '" + name + "' has random numbers only while it takes part in a simulation");
 
+        /// <summary>
+        /// The tick of the last answer; 0 before the first. <c>SimulationManager.Current.Tick - node.AnswerTick</c> is the answer's age in ticks.
+        /// </summary>
+        public ulong AnswerTick { get; private set; }
+
         /// <summary>Simulated time in seconds of the last round that gave an answer; -1 before the first.</summary>
         public double AnswerTime { get; private set; } = -1;
 
@@ -95,15 +100,17 @@ namespace Collektive.Unity
         public float AnswerInterval { get; private set; }
 
         /// <summary>
-        /// What the program answered in the last tick, in the type that actuators get. Data of a table is a view of the bridge's memory: valid until
-        /// the next tick.
+        /// The program's last answer, in the type that actuators get. It stays until the next one: while the node is not due, sleeps, or its rounds fail.
+        /// How old it is, <see cref="AnswerTick"/> and <see cref="AnswerTime"/> say. While a tick's actuators act, those whose turn is later
+        /// still have their answer of before. Data of a table is a view of the bridge's memory: valid until the next tick, when it can be asked for again.
         /// </summary>
-        /// <returns>False when the node gave no answer in the last tick, or the schema's type is another.</returns>
+        /// <returns>False while the node has no answer since it joined, or when the schema's type is another.</returns>
         public bool TryGetAnswer<TData>(out TData data)
         {
             data = default;
-            if (!HasAnswer || !(answers is ActuatorBuffer<TData> typed)) return false;
-            data = typed[answerIndex];
+            if (!(answers is ActuatorBuffer<TData> typed)) return false;
+            var age = SimulationManager.Current.Tick - AnswerTick;
+            data = age == 0 ? typed[answerIndex] : age == 1 ? typed.Former(answerIndex) : ((KeptAnswer<TData>)kept).Value;
             return true;
         }
 
@@ -111,20 +118,19 @@ namespace Collektive.Unity
         public string LastError { get; internal set; } = "";
 
         /// <summary>The same as <see cref="TryGetAnswer{TData}"/>, boxed, for tools that know no schema; null when there is no answer.</summary>
-        internal object Answer => HasAnswer ? answers.Get(answerIndex) : null;
+        internal object Answer
+        {
+            get
+            {
+                if (answers == null) return null;
+                var age = SimulationManager.Current.Tick - AnswerTick;
+                return age == 0 ? answers.Get(answerIndex) : age == 1 ? answers.GetFormer(answerIndex) : kept.Get();
+            }
+        }
 
         internal static List<Node> All => EnabledNodes;
 
         internal Transform Body { get; private set; }
-
-        private bool HasAnswer
-        {
-            get
-            {
-                var manager = SimulationManager.Current;
-                return answers != null && manager != null && answerTick == manager.Tick;
-            }
-        }
 
         /// <summary>
         /// Runs no round for so many simulated seconds from now; the node keeps its state, links, and what it sent. 0 wakes it. Under any
@@ -157,8 +163,7 @@ namespace Collektive.Unity
             joinedId = newId;
             random = new RandomStream(seed, newId, RandomPurpose.Node);
             LastError = "";
-            AnswerTime = -1;
-            answers = null;
+            ForgetAnswer();
             timer = null;
             asleepUntil = 0;
         }
@@ -167,16 +172,32 @@ namespace Collektive.Unity
         {
             answers = buffer;
             answerIndex = index;
-            answerTick = tick;
+            AnswerTick = tick;
             AnswerInterval = AnswerTime < 0 ? deltaTime : (float)(time - AnswerTime);
             AnswerTime = time;
+        }
+
+        /// <summary>
+        /// Called before the tick after <paramref name="lastTick"/>: an answer of the tick before it leaves the bridge's memory with the next step.
+        /// </summary>
+        internal void KeepAnswer(ulong lastTick)
+        {
+            if (answers != null && AnswerTick + 1 == lastTick) answers.KeepFormer(answerIndex, ref kept);
         }
 
         internal void Left()
         {
             joinedId = -1;
             random = null;
+            ForgetAnswer();
+        }
+
+        private void ForgetAnswer()
+        {
             answers = null;
+            kept = null;
+            AnswerTick = 0;
+            AnswerTime = -1;
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

@@ -572,7 +572,9 @@ namespace Collektive.Unity
             for (var i = 0; i < roster.Count && session != null; i++)
             {
                 var node = roster[i];
-                if (node.Id < 0 || !node.TakeDue(now)) continue;
+                if (node.Id < 0) continue;
+                node.KeepAnswer(session.Tick);
+                if (!node.TakeDue(now)) continue;
                 var index = dueIds.Count;
                 request.Sensors.Clear(index);
                 if (!Sense(node, request.Sensors, index) || node.Id < 0) continue;
@@ -638,8 +640,8 @@ namespace Collektive.Unity
             {
                 var id = allAnswered ? dueIds.Items[i] : answer.Node(i);
                 while (dueIds.Items[place] != id) place++;
-                // Not so when an actuator made the node leave.
-                if (due[place].Id == id) Act(due[place], answer.Actuators, i);
+                // Not so when an actuator made the node leave, even if it came back.
+                if (due[place].Id == id && isKnown[id]) Act(due[place], answer.Actuators, i);
             }
         }
 

@@ -52,6 +52,19 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void An_answer_is_shown_until_the_next_one_with_its_tick()
+        {
+            var node = MakeThree()[1].Node;
+            node.Sleep(10);
+            Play(5);
+            Assert.That(new Diagnostics(Manager).Values(1), Has.Some.EqualTo(new KeyValuePair<string, string>("Value", "4")));
+            Assert.That(Diagnostics.TitleOf(node), Is.EqualTo("Answer of tick " + (Manager.Tick - 5)));
+            node.enabled = false;
+            node.enabled = true;
+            Assert.That(Diagnostics.TitleOf(node), Is.EqualTo("No answer yet"));
+        }
+
+        [Test]
         public void Errors_are_counted_by_program_or_component_and_node()
         {
             var nodes = MakeThree();

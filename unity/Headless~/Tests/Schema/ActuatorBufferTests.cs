@@ -59,6 +59,35 @@ namespace Collektive.Headless.Tests.Schema
             Assert.That(actuators[1].Target.X, Is.EqualTo(1f));
         }
 
+        [Test]
+        public void ElementsStayReadableForOneMoreFrameAndThoseKeptForEver()
+        {
+            actuators.Attach(new ByteBuffer(frame), position);
+            KeptAnswer kept = null;
+            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.Former(0), "there is no former frame");
+            NextFrame(10);
+            Assert.That(actuators[2].Target.X, Is.EqualTo(12));
+            Assert.That(actuators.Former(2).Target.X, Is.EqualTo(2));
+            actuators.KeepFormer(2, ref kept);
+            NextFrame(20);
+            Assert.That(actuators.Former(2).Target.X, Is.EqualTo(12));
+            Assert.That(((KeptAnswer<ActuatorDataValue>)kept).Value.Target.X, Is.EqualTo(2));
+            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.KeepFormer(3, ref kept));
+        }
+
+        /// <summary>In the same memory, as a session's.</summary>
+        private void NextFrame(float first)
+        {
+            actuators.Retain();
+            var writer = new StructSensorBuffer<ActuatorDataValue>(8);
+            writer.EnsureCapacity(3);
+            for (var i = 0; i < 3; i++) writer.Items[i].Target.X = first + i;
+            var builder = new FlatBufferBuilder(64);
+            builder.Finish(writer.Write(builder, 3));
+            builder.SizedByteArray().CopyTo(frame, 0);
+            actuators.Attach(new ByteBuffer(frame), position);
+        }
+
         [TestCase(-1)]
         [TestCase(int.MaxValue)]
         public void APositionOutsideOfTheFrameIsRefused(int outside)

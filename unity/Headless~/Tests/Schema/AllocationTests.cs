@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Schema
         public void TablesAreStagedAndReadWithoutAllocation()
         {
             var sensors = (SensorBuffer<Features.SensorDataDraft>)new Features.FeaturesSchema().CreateSensors();
-            var reader = new TableActuatorBuffer<Features.SensorData>();
+            var reader = new TableActuatorBuffer<Features.SensorData>(new TableShape());
             var sum = 0L;
             Assert.That(AllocatedBy(() =>
             {
@@ -64,6 +64,36 @@ namespace Collektive.Headless.Tests.Schema
                 for (var i = 0; i < reader.Count; i++) sum += reader[i].PointsLength;
             }), Is.EqualTo(0));
             Assert.That(sum, Is.GreaterThan(0));
+        }
+
+        [Test]
+        public void AnswersAreRetainedAndKeptWithoutAllocation()
+        {
+            var writer = new TableSensorBuffer<Features.ActuatorDataDraft, Features.ActuatorDataDraft.Row>();
+            writer.EnsureCapacity(Nodes);
+            for (var i = 0; i < Nodes; i++) new RandomData(i).Fill(writer.Items[i]);
+            var table = new Features.FeaturesSchema().CreateActuators();
+            var structs = new StructActuatorBuffer<Blocks.SensorDataValue>();
+            var blocks = new StructSensorBuffer<Blocks.SensorDataValue>(8);
+            blocks.EnsureCapacity(Nodes);
+            Assert.That(AllocationOfKeeping(table, writer), Is.EqualTo(0));
+            Assert.That(AllocationOfKeeping(structs, blocks), Is.EqualTo(0));
+        }
+
+        private long AllocationOfKeeping(ActuatorBuffer reader, SensorBuffer writer)
+        {
+            builder.Clear();
+            var offset = writer.Write(builder, Nodes);
+            builder.Finish(offset);
+            var frame = builder.DataBuffer;
+            var kept = new KeptAnswer[Nodes];
+            reader.Attach(frame, frame.Length - offset);
+            return AllocatedBy(() =>
+            {
+                reader.Retain();
+                reader.Attach(frame, frame.Length - offset);
+                for (var i = 0; i < Nodes; i++) reader.KeepFormer(i, ref kept[i]);
+            });
         }
 
         private static void Sense(SensorBuffer<Features.SensorDataDraft> sensors, int index)

@@ -80,10 +80,17 @@ namespace Collektive.Headless.Tests.Schema
             output.Write(utf8);
         }
 
+        private static string TextOf(int count, Func<int, object> element)
+        {
+            var text = new StringBuilder();
+            for (var i = 0; i < count; i++) text.Append(Dump.Of(element(i))).Append('\n');
+            return text.ToString();
+        }
+
         private static int Read(DataSchema schema, string file)
         {
             var actuators = schema.CreateActuators();
-            var item = actuators.GetType().GetProperty("Item");
+            var kept = new KeptAnswer[0];
             int passed = 0, failed = 0;
             using (var input = new BinaryReader(File.OpenRead(file)))
             {
@@ -92,12 +99,21 @@ namespace Collektive.Headless.Tests.Schema
                     var position = input.ReadInt32();
                     input.ReadInt32();
                     var count = input.ReadInt32();
-                    var frame = new ByteBuffer(input.ReadBytes(input.ReadInt32()));
+                    var bytes = input.ReadBytes(input.ReadInt32());
                     var expected = Encoding.UTF8.GetString(input.ReadBytes(input.ReadInt32()));
-                    actuators.Attach(frame, position);
-                    var text = new StringBuilder();
-                    for (var i = 0; i < actuators.Count; i++) text.Append(Dump.Of(item.GetValue(actuators, new object[] { i }))).Append('\n');
-                    if (actuators.Count == count && text.ToString() == expected)
+                    var again = (byte[])bytes.Clone();
+                    actuators.Attach(new ByteBuffer(bytes), position);
+                    var text = TextOf(count, actuators.Get);
+                    // The answers of the tick before stay readable when their frame is written again, and for ever when they are kept.
+                    actuators.Retain();
+                    Array.Clear(bytes, 0, bytes.Length);
+                    actuators.Attach(new ByteBuffer(again), position);
+                    var former = TextOf(count, actuators.GetFormer);
+                    if (kept.Length < count) Array.Resize(ref kept, count);
+                    for (var i = 0; i < count; i++) actuators.KeepFormer(i, ref kept[i]);
+                    Array.Clear(again, 0, again.Length);
+                    actuators.Retain();
+                    if (actuators.Count == count && text == expected && former == expected && TextOf(count, i => kept[i].Get()) == expected)
                     {
                         passed++;
                     }

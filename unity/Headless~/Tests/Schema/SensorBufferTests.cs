@@ -57,7 +57,7 @@ namespace Collektive.Headless.Tests.Schema
                 tables.EnsureCapacity(3);
                 for (var k = 0; k < 3; k++) random.Fill(tables.Items[k]);
                 builder.Clear();
-                var reader = new TableActuatorBuffer<Features.SensorData>();
+                var reader = new TableActuatorBuffer<Features.SensorData>(new TableShape());
                 Attach(reader, tables.Write(builder, 3));
                 Assert.That(reader.Count, Is.EqualTo(3));
                 for (var k = 0; k < 3; k++) Assert.That(Dump.Of(reader[k]), Is.EqualTo(Dump.Of(tables.Items[k])));

@@ -1,8 +1,10 @@
 using System;
+using System.Collections.Generic;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
 using org.collektive.frame;
+using probe;
 using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
@@ -97,6 +99,125 @@ namespace Collektive.Headless.Tests.Simulation
             a.Node.Sleep(0);
             Play(1);
             Assert.That(a.Answer, Is.EqualTo(rounds + 2));
+        }
+
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Sequential)]
+        [TestCase(Schedule.Asynchronous)]
+        public void A_nodes_last_answer_stays_until_its_next_one(Schedule schedule)
+        {
+            Configure("count", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
+            var node = MakeNode(0);
+            var other = MakeNode(0);
+            Play(3);
+            node.Node.Sleep(1);
+            for (var tick = 0; tick < 6; tick++)
+            {
+                Expect(node, 3, 3);
+                Expect(other, 3 + tick, (ulong)(3 + tick));
+                Play(1);
+            }
+            node.Node.Sleep(0);
+            Play(1);
+            Expect(node, 4, 10);
+            Assert.That(node.Node.AnswerTime, Is.EqualTo(Manager.SimulatedTime));
+        }
+
+        [Test]
+        public void Under_the_asynchronous_schedule_every_node_has_its_last_answer_in_every_tick()
+        {
+            Configure("count", settings =>
+            {
+                settings.schedule = Schedule.Asynchronous;
+                settings.timing = new RoundTiming { period = 0.35f, jitter = 0.1f };
+            });
+            var nodes = new List<ProbeNode>();
+            for (var i = 0; i < 30; i++) nodes.Add(MakeNode(0));
+            for (var tick = 1; tick <= 60; tick++)
+            {
+                Play(1);
+                // What actuators got is what there is to ask for.
+                foreach (var node in nodes.FindAll(node => node.Actuator.Calls > 0)) Expect(node, node.Actuator.Last.Value, node.Node.AnswerTick);
+                if (tick >= 10) Assert.That(nodes.FindAll(node => node.Actuator.Calls == 0), Is.Empty);
+            }
+            Assert.That(nodes.FindAll(node => node.Node.AnswerTick == Manager.Tick).Count, Is.InRange(0, 15), "few of them were due");
+        }
+
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Sequential)]
+        [TestCase(Schedule.Asynchronous)]
+        public void A_failed_round_leaves_the_last_good_answer(Schedule schedule)
+        {
+            Configure("trouble", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
+            var node = MakeNode(0);
+            Play(2);
+            var good = node.Answer;
+            node.Sensor.Value = 13;
+            for (var tick = 0; tick < 4; tick++)
+            {
+                Play(1);
+                Expect(node, good, 2);
+            }
+            node.Sensor.Value = 0;
+            Play(1);
+            Assert.That(node.Node.AnswerTick, Is.EqualTo(7));
+            Expect(node, node.Answer, 7);
+        }
+
+        [Test]
+        public void A_node_that_comes_back_has_no_answer_of_before_even_within_its_own_actuator()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            node.Node.RequestedId = 0;
+            var other = MakeNode(0);
+            Play(2);
+            other.Node.Sleep(10);
+            Play(3);
+            Rejoin(other);
+            Assert.That(other.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(other.Node.AnswerTick, Is.EqualTo(0));
+            var rejoiner = node.Node.gameObject.AddComponent<Rejoiner>();
+            rejoiner.Of = other;
+            Play(1);
+            Assert.That(other.Node.TryGetAnswer(out ActuatorDataValue _), Is.False, "the answer was for the one that left");
+            Assert.That(other.Actuator.Calls, Is.EqualTo(2));
+            rejoiner.Of = null;
+            Play(1);
+            Expect(other, 1, Manager.Tick);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_restarted_simulation_knows_no_answers_of_the_former()
+        {
+            Configure("count", Asynchronous(0.2f));
+            var node = MakeNode(0);
+            Play(3);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.True);
+            Manager.enabled = false;
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Manager.enabled = true;
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Play(2);
+            Expect(node, 1, 1);
+        }
+
+        [Test]
+        public void While_a_tick_acts_nodes_whose_turn_is_later_have_their_answer_of_before()
+        {
+            Configure("count");
+            var first = MakeNode(0);
+            var second = MakeNode(0);
+            var asker = first.Node.gameObject.AddComponent<Asker>();
+            asker.Of = second.Node;
+            Play(1);
+            Assert.That(asker.Heard, Is.EqualTo(-1));
+            Play(1);
+            Assert.That(asker.Heard, Is.EqualTo(1));
+            second.Node.Sleep(0.1);
+            Play(2);
+            Assert.That(asker.Heard, Is.EqualTo(2));
         }
 
         [Test]
@@ -196,6 +317,13 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.StringContaining("System.String").And.StringContaining("GlobalDataDraft"));
         }
 
+        private static void Expect(ProbeNode node, float value, ulong tick)
+        {
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue answer), Is.True);
+            Assert.That(answer.Value, Is.EqualTo(value));
+            Assert.That(node.Node.AnswerTick, Is.EqualTo(tick));
+        }
+
         private static Action<SimulationSettings> Asynchronous(float period) => settings =>
         {
             settings.schedule = Schedule.Asynchronous;
@@ -219,6 +347,26 @@ namespace Collektive.Headless.Tests.Simulation
             node.Node.RequestedId = node.Node.Id;
             node.Node.enabled = false;
             node.Node.enabled = true;
+        }
+
+        /// <summary>Makes another node leave and come back while the tick acts.</summary>
+        public sealed class Rejoiner : Actuator<ActuatorDataValue>
+        {
+            public ProbeNode Of;
+
+            protected override void Act(ActuatorDataValue data)
+            {
+                if (Of != null) Rejoin(Of);
+            }
+        }
+
+        /// <summary>Asks another node for its answer.</summary>
+        public sealed class Asker : Actuator<ActuatorDataValue>
+        {
+            public Node Of;
+            public float Heard;
+
+            protected override void Act(ActuatorDataValue data) => Heard = Of.TryGetAnswer(out ActuatorDataValue answer) ? answer.Value : -1;
         }
     }
 }

@@ -4,6 +4,7 @@ using System.Runtime.InteropServices;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
+using org.collektive.frame;
 using probe;
 using UnityEngine;
 
@@ -22,9 +23,11 @@ namespace Collektive.Headless.Tests.Simulation
         /// <summary>Keeps the control's allocation from being optimised away.</summary>
         public static byte[] Kept { get; private set; }
 
-        [Test]
-        public void A_tick_of_ready_parts_allocates_no_managed_memory()
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Asynchronous)]
+        public void A_tick_of_ready_parts_allocates_no_managed_memory(Schedule schedule)
         {
+            Configure("double", settings => settings.schedule = schedule);
             Physics.gravity = Vector3.zero;
             new GameObject("Source").AddComponent<IntensitySource>();
             var zone = GameObject.CreatePrimitive(PrimitiveType.Cube);

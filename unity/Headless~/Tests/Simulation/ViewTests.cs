@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Collektive.Unity;
+using org.collektive.frame;
 using NUnit.Framework;
 using probe;
 using UnityEngine;
@@ -190,7 +191,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_fixed_scale_stays_and_a_node_without_an_answer_keeps_its_colour()
+        public void A_fixed_scale_stays_and_a_node_without_a_new_answer_keeps_its_colour()
         {
             Configure("trouble");
             var view = new GameObject("View").AddComponent<DoubleView>();
@@ -203,7 +204,8 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 13;
             Play(1);
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue last), Is.True, "the last good one");
+            Assert.That(last.Value, Is.EqualTo(3));
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 0;
             Play(20);
@@ -219,9 +221,35 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.TryGetAnswer(out ActuatorDataValue data), Is.True);
             Assert.That(data.Value, Is.EqualTo(8));
             Assert.That(node.AnswerTime, Is.EqualTo(0.05).Within(1e-6));
+            Assert.That(node.AnswerTick, Is.EqualTo(1));
             Assert.That(node.TryGetAnswer(out int _), Is.False);
             node.enabled = false;
             Assert.That(node.TryGetAnswer(out data), Is.False);
+            Assert.That((node.AnswerTick, node.AnswerTime), Is.EqualTo((0UL, -1.0)));
+        }
+
+        [TestCase(Schedule.Lockstep)]
+        [TestCase(Schedule.Sequential)]
+        [TestCase(Schedule.Asynchronous)]
+        public void A_field_view_shows_every_node_in_every_tick_and_its_scale_holds_all_of_them(Schedule schedule)
+        {
+            Configure("double", settings =>
+            {
+                settings.schedule = schedule;
+                settings.timing = new RoundTiming { period = 0.25f };
+            });
+            var view = new GameObject("View").AddComponent<DoubleView>();
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            var nodes = new List<ProbeNode>();
+            for (var i = 0; i < 6; i++) nodes.Add(MakeBall(i));
+            Play(6);
+            for (var tick = 0; tick < 10; tick++)
+            {
+                Play(1);
+                Assert.That((view.Scale.lowest, view.Scale.highest), Is.EqualTo((0f, 10f)));
+                for (var i = 0; i < 6; i++) Assert.That(ColorOf(nodes[i]).r, Is.EqualTo(i / 5f).Within(0.05f), "node " + i);
+            }
         }
 
         private static LinkView AddLinkView() => new GameObject("Links").AddComponent<LinkView>();

@@ -3,7 +3,9 @@ using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Reads one tick's actuator data. Not thread-safe; no allocation once the capacities are reached.</summary>
+    /// <summary>
+    /// Reads one tick's actuator data, and those of the tick before. Not thread-safe; no allocation once the capacities are reached.
+    /// </summary>
     public abstract class ActuatorBuffer
     {
         /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
@@ -21,12 +23,27 @@ namespace Collektive.Bridge
 
         /// <summary>The element at an index below <see cref="Count"/>, boxed: for tools that know no schema.</summary>
         public abstract object Get(int index);
+
+        /// <summary>As <see cref="Get"/>, of the table that was attached before.</summary>
+        public abstract object GetFormer(int index);
+
+        /// <summary>
+        /// Copies an element of the table that was attached before to memory of its own. Reuses that of <paramref name="kept"/> unless it is null.
+        /// </summary>
+        public abstract void KeepFormer(int index, ref KeptAnswer kept);
+
+        /// <summary>
+        /// To be called before the attached frame's memory is written again, as a session does: the next <see cref="Attach"/> makes its elements the
+        /// former ones.
+        /// </summary>
+        public abstract void Retain();
     }
 
     /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
     public abstract class ActuatorBuffer<T> : ActuatorBuffer
     {
         private int count;
+        private int formerCount;
 
         /// <inheritdoc/>
         public sealed override Type DataType => typeof(T);
@@ -37,26 +54,40 @@ namespace Collektive.Bridge
         /// <inheritdoc/>
         public sealed override object Get(int index) => this[index];
 
+        /// <inheritdoc/>
+        public sealed override object GetFormer(int index) => Former(index);
+
         /// <summary>The element at an index below <see cref="ActuatorBuffer.Count"/>.</summary>
         public abstract T this[int index] { get; }
+
+        /// <summary>
+        /// An element of the table that was attached before, at an index below its count. Valid as long as those of the attached one.
+        /// </summary>
+        public abstract T Former(int index);
 
         /// <inheritdoc/>
         public sealed override void Attach(ByteBuffer frame, int position)
         {
             var first = FrameTable.FindData(frame, position, ElementSize, out var elements);
             Show(frame, first, elements);
+            formerCount = count;
             count = elements;
         }
 
         /// <summary>Bytes of an element in the vector.</summary>
         private protected abstract int ElementSize { get; }
 
-        /// <summary>Takes over the elements of a vector; the first one begins at <paramref name="first"/>.</summary>
+        /// <summary>Takes over the elements of a vector; the first one begins at <paramref name="first"/>. Those of now become the former ones.</summary>
         private protected abstract void Show(ByteBuffer frame, int first, int elements);
 
         private protected void Require(int index)
         {
             if ((uint)index >= (uint)count) throw new ArgumentOutOfRangeException(nameof(index));
+        }
+
+        private protected void RequireFormer(int index)
+        {
+            if ((uint)index >= (uint)formerCount) throw new ArgumentOutOfRangeException(nameof(index));
         }
     }
 }

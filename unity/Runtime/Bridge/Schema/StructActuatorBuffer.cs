@@ -11,6 +11,7 @@ namespace Collektive.Bridge
     public sealed class StructActuatorBuffer<T> : ActuatorBuffer<T> where T : unmanaged, IMirror
     {
         private T[] items = Array.Empty<T>();
+        private T[] former = Array.Empty<T>();
 
         /// <inheritdoc/>
         public override T this[int index]
@@ -22,12 +23,40 @@ namespace Collektive.Bridge
             }
         }
 
+        /// <inheritdoc/>
+        public override T Former(int index)
+        {
+            RequireFormer(index);
+            return former[index];
+        }
+
+        /// <inheritdoc/>
+        public override void KeepFormer(int index, ref KeptAnswer kept)
+        {
+            if (kept == null) kept = new KeptStruct();
+            ((KeptStruct)kept).Item = Former(index);
+        }
+
+        /// <summary>Nothing to do: elements are copies already.</summary>
+        public override void Retain()
+        {
+        }
+
         private protected override unsafe int ElementSize => sizeof(T);
 
         private protected override void Show(ByteBuffer frame, int first, int elements)
         {
-            if (elements > items.Length) items = new T[Math.Max(elements, 2 * items.Length)];
+            var next = former;
+            former = items;
+            items = elements > next.Length ? new T[Math.Max(elements, 2 * next.Length)] : next;
             if (elements > 0) frame.ToSpan(first, elements * ElementSize).CopyTo(MemoryMarshal.AsBytes(new Span<T>(items)));
+        }
+
+        private sealed class KeptStruct : KeptAnswer<T>
+        {
+            internal T Item;
+
+            public override T Value => Item;
         }
     }
 }

@@ -1,12 +1,26 @@
+using System;
 using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Actuator data that is a table in the schema: elements are flatc's readers over the frame's memory.</summary>
+    /// <summary>
+    /// Actuator data that is a table in the schema: elements are flatc's readers over the frame's memory. The former ones are read from a copy of their
+    /// frame, made in one block.
+    /// </summary>
     public sealed class TableActuatorBuffer<T> : ActuatorBuffer<T> where T : struct, IFlatbufferObject
     {
+        private readonly TableShape shape;
         private ByteBuffer frame;
         private int first;
+        private byte[] copied = Array.Empty<byte>();
+        private ByteBuffer former;
+        private int formerFirst;
+
+        /// <summary>Makes a reader of tables of that <paramref name="shape"/>.</summary>
+        public TableActuatorBuffer(TableShape shape)
+        {
+            this.shape = shape;
+        }
 
         /// <inheritdoc/>
         public override T this[int index]
@@ -14,10 +28,38 @@ namespace Collektive.Bridge
             get
             {
                 Require(index);
-                var reader = default(T);
-                reader.__init(Table.__indirect(first + index * ElementSize, frame), frame);
-                return reader;
+                return Reader(frame, Place(frame, first, index));
             }
+        }
+
+        /// <inheritdoc/>
+        public override T Former(int index)
+        {
+            RequireFormer(index);
+            return Reader(former, Place(former, formerFirst, index));
+        }
+
+        /// <inheritdoc/>
+        public override void KeepFormer(int index, ref KeptAnswer kept)
+        {
+            RequireFormer(index);
+            if (kept == null) kept = new KeptTable();
+            ((KeptTable)kept).Take(shape, former, Place(former, formerFirst, index));
+        }
+
+        /// <inheritdoc/>
+        public override void Retain()
+        {
+            if (frame == null) return;
+            var start = frame.Position;
+            var length = frame.Length - start;
+            if (length > copied.Length)
+            {
+                copied = new byte[Math.Max(length, 2 * copied.Length)];
+                former = new ByteBuffer(copied);
+            }
+            frame.ToSpan(start, length).CopyTo(copied);
+            formerFirst = first - start;
         }
 
         private protected override int ElementSize => sizeof(int);
@@ -26,6 +68,29 @@ namespace Collektive.Bridge
         {
             this.frame = frame;
             this.first = first;
+        }
+
+        private int Place(ByteBuffer buffer, int vector, int index) => Table.__indirect(vector + index * ElementSize, buffer);
+
+        private static T Reader(ByteBuffer buffer, int place)
+        {
+            var reader = default(T);
+            reader.__init(place, buffer);
+            return reader;
+        }
+
+        private sealed class KeptTable : KeptAnswer<T>
+        {
+            private readonly TableCopy copy = new TableCopy();
+            private int place;
+
+            public override T Value => Reader(copy.Buffer, place);
+
+            internal void Take(TableShape shape, ByteBuffer from, int table)
+            {
+                copy.Clear();
+                place = shape.Copy(from, table, copy);
+            }
         }
     }
 }

@@ -76,6 +76,7 @@ namespace Collektive.Bridge
             var offset = builder.DataBuffer.Position;
             var length = builder.DataBuffer.Length - offset;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
+            Answer.Actuators.Retain();
             Shim.Check(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer));
             Tick++;
             Time += deltaTime;

@@ -7,7 +7,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Colours all nodes by a number of the program's answers, and shows what the colours mean in a corner of the screen. A subclass of one line
-    /// says which number; one component anywhere in the scene is enough. A node keeps its colour while it has no new answer.
+    /// says which number; one component anywhere in the scene is enough. A node keeps its colour while it has no answer.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class FieldView<TData> : MonoBehaviour

@@ -26,12 +26,43 @@ internal object CSharp {
         },
         "actuators" to when (val actuator = schema.actuator) {
             is StructType -> "Bridge::StructActuatorBuffer<${mirror(actuator)}>()"
-            is TableType -> "Bridge::TableActuatorBuffer<global::${actuator.name}>()"
+            is TableType -> "Bridge::TableActuatorBuffer<global::${actuator.name}>(shape0)"
         },
+        "shapes" to shapes(schema.actuator),
         "globals" to listOfNotNull(schema.global).map { "Bridge::TableGlobalBuffer<${draft(it)}>()" },
         "mirrors" to schema.structs.filter { !it.core }.map(::mirrorModel),
         "drafts" to schema.tables.map(::draftModel),
     )
+
+    /** What copies a table of actuator data out of a frame: the fields outside of the row, of each table that can be reached; the first is [actuator]. */
+    private fun shapes(actuator: Composite): List<Map<String, Any?>> {
+        val tables = mutableListOf<TableType>()
+        fun reach(type: Type) {
+            when (type) {
+                is VectorType -> reach(type.element)
+                is TableType -> if (type !in tables) type.also(tables::add).fields.forEach { reach(it.type) }
+                else -> Unit
+            }
+        }
+        if (actuator is TableType) reach(actuator)
+        return tables.mapIndexed { index, table ->
+            mapOf("index" to index, "calls" to table.fields.mapNotNull { shapeCall(it, tables) }.map { "shape$index.$it" })
+        }
+    }
+
+    private fun shapeCall(field: Field, tables: List<TableType>): String? = when (val type = field.type) {
+        is StringType -> "Text(${field.id})"
+        is TableType -> "Table(${field.id}, shape${tables.indexOf(type)})"
+        is VectorType -> when (val element = type.element) {
+            is StringType -> "Texts(${field.id})"
+            is TableType -> "Tables(${field.id}, shape${tables.indexOf(element)})"
+            is StructType -> "Values(${field.id}, ${element.bytes})"
+            is EnumType -> "Values(${field.id}, ${element.underlying.bytes})"
+            is Scalar -> "Values(${field.id}, ${element.bytes})"
+            is VectorType -> error("${field.name} is a vector of vectors")
+        }
+        is Scalar, is EnumType, is StructType -> null
+    }
 
     private fun layout(type: StructType) = mapOf(
         "mirror" to mirror(type),

@@ -1,0 +1,39 @@
+using System;
+using Google.FlatBuffers;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Memory that one table of a frame is copied to, with all that belongs to it. No allocation once the capacity is reached.</summary>
+    internal sealed class TableCopy
+    {
+        /// <summary>The largest alignment of the schema language's numbers.</summary>
+        private const int Alignment = sizeof(ulong);
+
+        private byte[] bytes = new byte[64];
+        private int used;
+
+        internal TableCopy()
+        {
+            Buffer = new ByteBuffer(bytes);
+        }
+
+        /// <summary>What was copied, for readers.</summary>
+        internal ByteBuffer Buffer { get; private set; }
+
+        internal void Clear() => used = 0;
+
+        /// <summary>Copies bytes behind those that there are, as far from an aligned place as they were, and returns their place.</summary>
+        internal int Add(ByteBuffer from, int start, int length)
+        {
+            var place = used + (start - used & Alignment - 1);
+            used = checked(place + length);
+            if (used > bytes.Length)
+            {
+                Array.Resize(ref bytes, Math.Max(used, 2 * bytes.Length));
+                Buffer = new ByteBuffer(bytes);
+            }
+            from.ToSpan(start, length).CopyTo(new Span<byte>(bytes, place, length));
+            return place;
+        }
+    }
+}
