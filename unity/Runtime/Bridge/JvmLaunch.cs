@@ -23,6 +23,9 @@ namespace Collektive.Bridge
         /// <summary>JVM options, each one word, in order.</summary>
         public IReadOnlyList<string> Options { get; }
 
+        /// <summary>What of the settings is left out, and why; empty when nothing is. The JVM starts all the same.</summary>
+        public string Note { get; internal set; } = "";
+
         /// <summary>Limit for the whole start in milliseconds.</summary>
         public int StartLimitMs { get; set; } = 30000;
     }

@@ -122,6 +122,7 @@ namespace Collektive.Bridge
         public JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
         {
             var options = new List<string>();
+            var note = "";
             if (initialHeapMb > 0) options.Add("-Xms" + Text(initialHeapMb) + "m");
             if (maximumHeapMb > 0) options.Add("-Xmx" + Text(maximumHeapMb) + "m");
             if (collector != JvmCollector.Automatic) options.Add("-XX:+" + JvmSetting.FlagOf(collector));
@@ -130,7 +131,7 @@ namespace Collektive.Bridge
             if (compiler == JvmCompiler.Interpreter) options.Add("-Xint");
             if (compileThreshold != 100) options.Add("-XX:CompileThresholdScaling=" + (compileThreshold / 100.0).ToString(CultureInfo.InvariantCulture));
             if (codeCacheMb > 0) options.Add("-XX:ReservedCodeCacheSize=" + Text(codeCacheMb) + "m");
-            if (cdsArchive && JavaVersion(javaHome) >= FirstWithAutomaticArchive) AddArchive(options, javaHome, hostJar, cacheFolder);
+            if (cdsArchive && JavaVersion(javaHome) >= FirstWithAutomaticArchive) note = AddArchive(options, javaHome, hostJar, cacheFolder);
             if (assertions) options.Add("-ea");
             if (debugPort != 0) options.Add("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:" + Text(debugPort));
             if (repeatableMaths)
@@ -139,7 +140,7 @@ namespace Collektive.Bridge
                 options.Add("-XX:-UseLibmIntrinsic");
             }
             options.AddRange(flags);
-            return new JvmLaunch(javaHome, hostJar, options);
+            return new JvmLaunch(javaHome, hostJar, options) { Note = note };
         }
 
         /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 when its <c>release</c> file tells none.</summary>
@@ -164,15 +165,24 @@ namespace Collektive.Bridge
         private const int FirstWithAutomaticArchive = 19;
 
         /// <summary>The JVM writes the archive when it ends, and makes a new one when the host or the JVM itself has changed.</summary>
-        private void AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
+        /// <returns>Why there is none, or an empty text.</returns>
+        private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var key = 14695981039346656037UL;
             foreach (var character in javaHome + "\n" + hostJar + "\n" + collector) key = (key ^ character) * 1099511628211UL;
-            Directory.CreateDirectory(cacheFolder);
+            try
+            {
+                Directory.CreateDirectory(cacheFolder);
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                return "the JVM starts without its class archive, which takes longer: the folder '" + cacheFolder + "' cannot be made (" + error.Message + ")";
+            }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + Path.Combine(cacheFolder, "classes-" + key.ToString("x16", CultureInfo.InvariantCulture) + ".jsa"));
             // A line for each class that it leaves out, and errors about an archive that it then makes anew.
             options.Add("-Xlog:cds=off");
+            return "";
         }
 
         private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);

@@ -231,11 +231,12 @@ namespace Collektive.Unity
             stepping = true;
             try
             {
-                using (TickMarkers.Tick.Auto()) DoTick();
-            }
-            catch (BridgeException error)
-            {
-                Fail(error.Message);
+                using (TickMarkers.Tick.Auto())
+                {
+                    if (!TryTick()) return;
+                    Ticked?.Invoke(this);
+                    if (session != null && !Finished && IsAtEnd()) Finish();
+                }
             }
             finally
             {
@@ -373,13 +374,22 @@ namespace Collektive.Unity
                 Fail(error.Message);
                 return false;
             }
+            catch (Exception error)
+            {
+                // The next frame would meet it again, and so on without a tick.
+                Debug.LogException(error, this);
+                Fail("it could not be started: " + error.Message);
+                return false;
+            }
         }
 
         private void StartJvm()
         {
             try
             {
-                Jvm.Start(Installation.ToLaunch(settings.jvm == null ? new JvmSettings() : settings.jvm.settings));
+                var launch = Installation.ToLaunch(settings.jvm == null ? new JvmSettings() : settings.jvm.settings);
+                if (launch.Note.Length > 0) Debug.Log(launch.Note, this);
+                Jvm.Start(launch);
             }
             catch (BridgeException error) when (error.Error == BridgeError.JvmRunning)
             {
@@ -418,6 +428,25 @@ namespace Collektive.Unity
             }
         }
 
+        /// <summary>Whether there was a whole tick; otherwise the simulation has stopped.</summary>
+        private bool TryTick()
+        {
+            try
+            {
+                DoTick();
+            }
+            catch (BridgeException error)
+            {
+                Fail(error.Message);
+            }
+            catch (Exception error)
+            {
+                Debug.LogException(error, this);
+                Fail("tick " + tickInProgress + " failed: " + error.Message);
+            }
+            return session != null;
+        }
+
         private void DoTick()
         {
             var start = Stopwatch.GetTimestamp();
@@ -434,8 +463,6 @@ namespace Collektive.Unity
             if (session == null) return;
             var end = Stopwatch.GetTimestamp();
             Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
-            Ticked?.Invoke(this);
-            if (session != null && !Finished && IsAtEnd()) Finish();
         }
 
         private void PrepareRequest()

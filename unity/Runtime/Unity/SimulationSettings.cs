@@ -10,6 +10,12 @@ namespace Collektive.Unity
     [Serializable]
     public sealed class SimulationSettings
     {
+        /// <summary>More physics sub-steps in a tick than any run could do.</summary>
+        private const double MaxSubSteps = 1e6;
+
+        /// <summary>Shorter ticks would have no physics.</summary>
+        private const float MinDeltaTime = 1e-6f;
+
         /// <summary>Full name of the generated schema class; empty when the project has only one.</summary>
         [Tooltip("Full name of the generated schema class, for instance swarm.SwarmSchema. Empty: the only one.")]
         public string schema = "";
@@ -75,7 +81,9 @@ namespace Collektive.Unity
         public string FindProblem()
         {
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
+            if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
+            if (deltaTime / (double)physicsStep > MaxSubSteps) return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would have more than a million of them";
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";

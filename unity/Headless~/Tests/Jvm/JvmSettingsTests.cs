@@ -73,6 +73,14 @@ namespace Collektive.Headless.Tests
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
         }
 
+        [Test]
+        public void Without_a_folder_for_the_class_archive_the_jvm_starts_without_it_and_says_so()
+        {
+            var launch = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, "/proc/nobody/Collektive");
+            Assert.That(launch.Options, Is.EqualTo(new[] { "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2" }));
+            if (JvmSettings.JavaVersion(TestJvm.Home) >= 19) Assert.That(launch.Note, Is.StringContaining("/proc/nobody/Collektive"));
+        }
+
         [TestCase("initialHeapMb", 7)]
         [TestCase("maximumHeapMb", -1)]
         [TestCase("maximumHeapMb", 15)]

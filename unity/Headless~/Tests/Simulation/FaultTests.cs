@@ -471,6 +471,42 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void An_exception_in_a_tick_stops_the_simulation_with_it()
+        {
+            MakeNode(1);
+            Play(2);
+            Manager.SetGlobals<probe.GlobalDataDraft>(data => throw new InvalidOperationException("broken writer"));
+            Play(3);
+            Assert.That(Manager.Failure, Is.EqualTo("tick 3 failed: broken writer"));
+            Assert.That(Errors, Has.Some.StringContaining("InvalidOperationException"));
+        }
+
+        [Test]
+        public void An_exception_at_the_start_stops_the_simulation_with_it()
+        {
+            Configure("double", settings => settings.jars.Add("no\0file"));
+            MakeNode(1);
+            Play(3);
+            Assert.That(Manager.Failure, Is.StringContaining("could not be started"));
+            Assert.That(Errors.Count, Is.EqualTo(2), "the exception and the stop, once");
+        }
+
+        [Test]
+        public void Times_that_no_run_can_have_are_refused()
+        {
+            var settings = new SimulationSettings { jars = { "a.jar" } };
+            Assert.That(settings.FindProblem(), Is.Null);
+            foreach (var deltaTime in new[] { 0, -1, float.NaN, float.PositiveInfinity, 1e-30f })
+            {
+                settings.deltaTime = deltaTime;
+                Assert.That(settings.FindProblem(), Is.StringStarting("delta time is "));
+            }
+            settings.deltaTime = 0.05f;
+            settings.physicsStep = 1e-30f;
+            Assert.That(settings.FindProblem(), Is.StringStarting("physics step is "));
+        }
+
+        [Test]
         public void A_click_on_a_refusal_selects_who_is_refused()
         {
             Configure("double", settings => settings.schedule = org.collektive.frame.Schedule.Asynchronous);
