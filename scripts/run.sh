@@ -1,4 +1,4 @@
-# ./collektive run and ./collektive demo: scenarios without Unity.
+# ./collektive run, repeat and demo: scenarios without Unity.
 
 DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 
@@ -11,6 +11,17 @@ outputs to --out (default: out/NAME-seedK below the current folder): manifest.js
 run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. --set gives a public field of the scene builder
 another value. --recording makes a flight recording of the JVM.
 The scenario file's keys are described in unity/Documentation~/headless.md.
+H
+}
+
+help_repeat() {
+  cat <<'H'
+usage: ./collektive repeat MANIFEST.json [--out DIR] [--folder DIR]
+
+Runs again what a run's manifest.json tells of, from the manifest alone, and compares ticks, digest and the metrics at the end. Scripts, schema
+and programs are found where they were, or in --folder: the folder of the run's scenario file. One line names each of them, and the JVM, that is
+not as it was. Writes the same outputs to --out (default: the manifest's folder with -repeated behind its name).
+Exit code: 0 the run came out as the former; 1 it did not, or could not be done.
 H
 }
 
@@ -79,11 +90,12 @@ compile_scripts() {
 }
 
 cmd_run() {
-  local scenario= out= seed= arguments=()
+  local scenario= out= seed= folder=() arguments=()
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
       --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
+      --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
       --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
       *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;
@@ -96,7 +108,7 @@ cmd_run() {
   build_jvm
   build_csharp
   local plan schema programs scripts jar dll template=()
-  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario") || exit 1
+  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${folder[@]}") || exit 1
   schema=$(planned "$plan" schema)
   programs=$(planned "$plan" programs)
   scripts=$(planned "$plan" scripts)
@@ -109,7 +121,7 @@ cmd_run() {
   say "running $scenario"
   local code=0
   managed mono-sgen "$CSHARP/Collektive.Player.exe" run "$scenario" --scripts "$dll" --jar "$jar" --host-jar "$HOST_JAR" \
-    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${arguments[@]}" || code=$?
+    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${folder[@]}" "${arguments[@]}" || code=$?
   [ "$code" = 0 ] || exit "$code"
   if [ "$(planned "$plan" pictures)" = yes ]; then
     logged pictures env COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/pictures.mjs" "$out/replay.html" "$out"
@@ -125,7 +137,7 @@ summary() {
 import json, os, sys
 out = sys.argv[1]
 m = json.load(open(os.path.join(out, "manifest.json")))
-print(f"{m['nodes']} nodes, {m['ticks']} ticks, {m['shim_calls']} calls into the JVM, seed {m['seed']}, digest {m['digest']}")
+print(f"{m['nodes']} nodes, {m['ticks']} ticks, {m['shim_calls']} calls into the JVM, seed {m['scenario']['seed']}, digest {m['digest']}")
 for name in m["end"]:
     print(f"  {name.replace('_', ' ')}: {m['start'][name]:.2f} -> {m['end'][name]:.2f}")
 print(f"  bridge and rounds {m['step_ms_median']:.2f} ms a tick (median), whole tick {m['tick_ms_median']:.2f} ms (median), {m['tick_ms_p99']:.2f} ms (p99)")
@@ -133,6 +145,22 @@ print(f"  {m['ticks'] / max(m['wall_seconds'], 1e-9):.0f} ticks/s; {m['errors']}
 for name in sorted(os.listdir(out)):
     print(os.path.join(out, name))
 P
+}
+
+cmd_repeat() {
+  local manifest= out= folder=()
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --folder) [ $# -ge 2 ] || fail "repeat: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
+      -*) fail "repeat: unknown option $1 (see ./collektive repeat --help)" ;;
+      *) [ -z "$manifest" ] || fail "repeat: one manifest at a time"; manifest=$1; shift ;;
+    esac
+  done
+  [ -n "$manifest" ] || fail "repeat: name the manifest.json of a run (see ./collektive repeat --help)"
+  [ -f "$manifest" ] || fail "repeat: there is no file '$manifest'"
+  grep -q '"folder":' "$manifest" || fail "repeat: '$manifest' is no manifest of a run: ./collektive run runs scenario files"
+  cmd_run "$manifest" --out "${out:-$(realpath "$(dirname "$manifest")")-repeated}" "${folder[@]}"
 }
 
 cmd_demo() {

@@ -52,7 +52,7 @@ class TheCommand(unittest.TestCase):
     def test_each_command_has_help(self):
         whole = collektive("--help")
         self.assertEqual(whole.returncode, 0)
-        for command in ["setup", "generate", "demo", "run", "profile", "replay", "diff", "test", "bench", "package", "clean"]:
+        for command in ["setup", "generate", "demo", "run", "repeat", "profile", "replay", "diff", "test", "bench", "package", "clean"]:
             self.assertIn(command, whole.stdout)
             part = collektive(command, "--help")
             self.assertEqual(part.returncode, 0, command)
@@ -119,9 +119,12 @@ class TheDemo(Folder):
 
     def test_the_manifest_tells_what_was_run(self):
         self.assertEqual(self.whole["nodes"], 500)
-        self.assertEqual(self.whole["seconds"], 60)
-        self.assertEqual(self.whole["seed"], 1)
-        self.assertEqual(self.whole["program"], "gradient-ascent")
+        self.assertEqual(self.whole["scenario"]["seconds"], 60)
+        self.assertEqual(self.whole["scenario"]["seed"], 1)
+        self.assertEqual(self.whole["scenario"]["program"], "gradient-ascent")
+        # Those that the scenario file does not name have their defaults.
+        self.assertEqual(self.whole["scenario"]["fields"],
+                         {"nodes": 500, "range": 3, "bodyRadius": 0.25, "source": [25, 0, 0], "obstacles": True})
         self.assertEqual(self.whole["ticks"], 1200)
         self.assertEqual(self.whole["errors"], 0)
         self.assertRegex(self.whole["digest"], "^[0-9a-f]{16}$")
@@ -186,13 +189,15 @@ def crosses(start, end, box):
 class TheSamples(Folder):
     """Each sample's scenario as it is, without its replay."""
 
-    def rows(self, sample):
-        """The metrics of each second."""
+    def rows(self, sample, **changes):
+        """The metrics of each second, with these keys of the scenario changed."""
         shutil.copytree(os.path.dirname(SAMPLE), self.path("samples"))
         path = self.path("samples", sample, "scenario.json")
         with open(path) as file:
             scenario = json.load(file)
-        scenario["outputs"] = {}
+        scenario["outputs"] = changes.pop("outputs", {})
+        scenario["fields"].update(changes.pop("fields", {}))
+        scenario.update(changes)
         scenario["programs"] = os.path.normpath(os.path.join(SAMPLE, scenario["programs"]))
         with open(path, "w") as file:
             json.dump(scenario, file)
@@ -200,6 +205,36 @@ class TheSamples(Folder):
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("out", "metrics.csv")) as file:
             return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+    def under_each_schedule(self, sample, **changes):
+        """Each schedule with the metrics; under the asynchronous one a quarter of the nodes is due in a tick."""
+        for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
+            yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
+            shutil.rmtree(self.path("samples"))
+
+    def test_all_nodes_of_the_leader_election_are_counted_under_each_schedule(self):
+        for schedule, rows in self.under_each_schedule("LeaderElection", seconds=15, fields={"failAfter": 1000}):
+            self.assertEqual(rows[-1]["led"], 400, schedule)
+
+    def test_the_channel_is_connected_and_its_replay_does_not_flicker_under_each_schedule(self):
+        for schedule, rows in self.under_each_schedule("Channel", seconds=15, fields={"failAfter": 1000}, outputs={"replay": True}):
+            self.assertEqual(rows[-1]["connected"], 1, schedule)
+            self.assertTrue(90 <= rows[-1]["length"] <= 125, schedule)
+            _, frames = replay.read(self.path("out", "replay.html"))
+            # Every frame shows the whole channel, whoever was due in its tick.
+            shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
+            self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
+
+    def test_all_walkers_count_for_the_crowds_density_under_each_schedule(self):
+        for schedule, rows in self.under_each_schedule("Crowd", seconds=5, fields={"walkers": 60}, outputs={"replay": True}):
+            _, frames = replay.read(self.path("out", "replay.html"))
+            for _, nodes, _ in frames[-5:]:
+                self.assertEqual([node for node, (*_, density) in nodes.items() if density == 0], [], schedule)
+            self.assertAlmostEqual(max(density for *_, density in frames[-1][1].values()), rows[-1]["density"], 3, schedule)
+
+    def test_the_swarm_climbs_under_each_schedule(self):
+        for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
+            self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
 
     def test_all_nodes_have_a_leader_near_by_and_again_when_the_leaders_failed(self):
         rows = self.rows("LeaderElection")
@@ -251,6 +286,23 @@ class Repeatability(Folder):
         self.assertNotEqual(digests[0], digests[2])
 
 
+    def test_runs_of_one_seed_are_equal_but_for_the_clock_of_the_machine(self):
+        shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
+        for out in ["a", "b"]:
+            result = collektive("run", self.path("project", "lamps.json"), "--seed", "5", "--out", self.path(out))
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.without_clock("a"), self.without_clock("b"))
+
+    def without_clock(self, out):
+        """What of a run's results depends on its inputs alone, as headless.md tells."""
+        def is_clock(key):
+            return "_ms" in key or key == "wall_seconds"
+        with open(self.path(out, "metrics.csv")) as file:
+            rows = [{name: value for name, value in row.items() if not is_clock(name)} for row in csv.DictReader(file)]
+        self.assertIn("links", rows[0])
+        return rows, {key: value for key, value in self.manifest(self.path(out)).items() if not is_clock(key)}
+
+
 class Project(Folder):
     """A project outside the clone: own schema, Kotlin, C# and scenario."""
 
@@ -294,7 +346,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         manifest = self.manifest(self.path("out"))
         self.assertEqual(manifest["end"], {"agreeing": 6, "seen": 12})
-        self.assertEqual(manifest["seed"], 3)
+        self.assertEqual(manifest["scenario"]["seed"], 3)
 
     def messages(self):
         """Of the whole run."""
@@ -308,6 +360,8 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         # Two rounds of each lamp in ten ticks, and 18 links.
         self.assertEqual(self.messages()["sent"], 2 * 18)
+        # All lamps count, though none was due in the last tick.
+        self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
 
     def test_its_network_decides_what_arrives(self):
         self.change("lamps.json", '"threads": 2', '"threads": 2, "network": { "loss": 1 }')
@@ -431,6 +485,135 @@ class AForeignProject(Project):
         self.change("lamps.json", '"programs": "programs"', '"programs": "old.jar"')
         self.change("light.fbs", "seen: [int];", "seen: [int];\n  colour: int;")
         self.refused("ActuatorData")
+
+
+class Repetitions(Project):
+    """A run is repeated from its manifest alone."""
+
+    def setUp(self):
+        super().setUp()
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.25 }, "network": { "loss": 0.25 }')
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("a"), "--set", "lamps=12", "--seed", str(2**64 - 1), "--seconds", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def repeat(self, *arguments):
+        return collektive("repeat", self.path("a", "manifest.json"), "--out", self.path("b"), *arguments)
+
+    def test_it_comes_out_the_same_without_its_scenario_file(self):
+        os.remove(self.path("project", "lamps.json"))
+        result = self.repeat()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        first, second = self.manifest(self.path("a")), self.manifest(self.path("b"))
+        self.assertIn(f"repeated: 30 ticks, digest {first['digest']}", result.stdout)
+        self.assertNotIn("not as in the run", result.stderr)
+        for key in ["scenario", "file", "folder", "inputs", "programs", "parameters", "ticks", "digest", "end"]:
+            self.assertEqual(first[key], second[key], key)
+        self.assertEqual(first["scenario"]["seed"], 2**64 - 1)
+        self.assertEqual(first["scenario"]["fields"], {"lamps": 12, "loop": False})
+        self.assertEqual(first["scenario"]["jvm"]["flags"], ["-Xss2m"])
+
+    def test_inputs_that_changed_are_named_and_so_is_what_came_out_differently(self):
+        self.change("scene/Lamps.cs", "Brightness = i + 1", "Brightness = i + 2")
+        result = self.repeat()
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, "not as in the run of .*: scripts is ")
+        self.assertNotRegex(result.stderr, "not as in the run of .*: (schema|programs) is ")
+        self.assertRegex(last_error(result), "the run differs from that of .*: digest is [0-9a-f]{16}, it was [0-9a-f]{16}")
+
+    def test_a_project_that_was_moved_is_found_with_folder(self):
+        os.rename(self.path("project"), self.path("moved"))
+        result = self.repeat()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--folder", last_error(result))
+        self.assertEqual(self.repeat("--folder", self.path("moved")).returncode, 0)
+
+    def test_what_is_no_manifest_is_refused(self):
+        for path, word in [(self.path("nowhere.json"), "no file"), (self.path("project", "lamps.json"), "no manifest")]:
+            result = collektive("repeat", path)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(word, last_error(result))
+
+
+class WholeRuns(Project):
+    """Exit code 0 means that the ticks asked for were done."""
+
+    SCRIPT = """
+        private void Update()
+        {
+            var manager = SimulationManager.Current;
+            if (manager != null && manager.Tick == 4) { %s }
+        }
+
+        protected override void Build("""
+
+    def run_it(self, *arguments, **environment):
+        return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), *arguments],
+                              capture_output=True, text=True, env={**os.environ, **environment})
+
+    def at_tick_4(self, code):
+        self.change("scene/Lamps.cs", "\n        protected override void Build(", self.SCRIPT % code)
+        return self.run_it()
+
+    def test_a_user_without_a_home_runs_without_the_class_archive(self):
+        result = self.run_it(HOME="/proc")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without its class archive", result.stdout + result.stderr)
+        self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+
+    def test_runs_that_cannot_be_are_refused(self):
+        for old, new, words in [('"seconds": 1', '"seconds": 3e8', ["seconds", "3E+09 ticks", "100 million"]), ('"seconds": 1', '"seconds": NaN', ["greater than 0"]),
+                                ('"seconds": 1', '"seconds": Infinity', ["greater than 0"]), ('"seconds": 1', '"seconds": -1', ["greater than 0"]),
+                                ('"deltaTime": 0.1', '"deltaTime": 1e-30', ["ticks, and a run has at most"]), ('"deltaTime": 0.1', '"deltaTime": NaN', ["delta time"]),
+                                ('"deltaTime": 0.1', '"deltaTime": -1', ["delta time"]), ('"threads": 2', '"physicsStep": 1e-30', ["physics step"])]:
+            with self.subTest(new):
+                self.change("lamps.json", old, new)
+                result = self.run_it()
+                self.change("lamps.json", new, old)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, last_error(result))
+        result = self.run_it("--seconds", "3e8")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("100 million", last_error(result))
+
+    def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self):
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
+        digests = set()
+        for seed in [2**63 - 1, 2**63, 2**64 - 1]:
+            self.change("lamps.json", '"threads": 2', f'"threads": 2, "seed": {seed}')
+            self.assertEqual(self.run_it().returncode, 0)
+            self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
+            in_file = self.manifest(self.path("out"))
+            self.assertEqual(self.run_it("--seed", str(seed)).returncode, 0)
+            self.assertEqual(in_file["scenario"]["seed"], seed)
+            self.assertEqual(self.manifest(self.path("out"))["scenario"], in_file["scenario"])
+            self.assertEqual(replay.read(self.path("out", "replay.html"))[0]["seed"], str(seed))
+            self.assertIn(f"seed {seed},", collektive("replay", self.path("out", "run.clkrec")).stdout)
+            digests.add(in_file["digest"])
+        for seed in ["18446744073709551616", "-1", "1.5"]:
+            self.change("lamps.json", '"threads": 2', f'"threads": 2, "seed": {seed}')
+            for result in [self.run_it(), self.run_it("--seed", seed)]:
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("seed", last_error(result))
+                self.assertIn("2^64 - 1", last_error(result))
+            self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
+
+    def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self):
+        for code in ["manager.Paused = true;", "manager.enabled = false;"]:
+            with self.subTest(code):
+                result = self.at_tick_4(code)
+                self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("4 of 10 ticks were done", last_error(result))
+                self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
+
+    def test_a_stop_condition_and_quit_end_a_run_in_order(self):
+        for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:
+            with self.subTest(code):
+                result = self.at_tick_4(code)
+                self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
 
 class Records(Project):

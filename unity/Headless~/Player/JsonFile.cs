@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -100,11 +101,30 @@ namespace Collektive.Headless
         /// <summary>A type in the words of a user.</summary>
         internal static string NameOf(Type type)
         {
-            if (type == typeof(int) || type == typeof(ulong)) return "whole number";
+            if (type == typeof(int)) return "whole number";
+            if (type == typeof(ulong)) return "whole number from 0 to 2^64 - 1";
             if (type == typeof(float) || type == typeof(double)) return "number";
             if (type == typeof(string[])) return "list of strings";
             if (type == typeof(bool)) return "true or false";
             return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
+        }
+
+        /// <summary>A value that <see cref="Convert"/> reads back; null when the type is none of those that files can have.</summary>
+        internal static JToken Token(object value)
+        {
+            switch (value)
+            {
+                // JValue would write it as a signed number.
+                case ulong number: return new JRaw(number.ToString(CultureInfo.InvariantCulture));
+                case Enum name: return new JValue(name.ToString());
+                case IEnumerable<string> strings: return new JArray(strings);
+                case string _:
+                case bool _:
+                case int _:
+                case float _:
+                case double _: return new JValue(value);
+                default: return null;
+            }
         }
 
         private static JsonTextReader Reader(string text) =>

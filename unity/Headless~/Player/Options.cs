@@ -8,9 +8,10 @@ namespace Collektive.Headless
     internal sealed class Options
     {
         internal const string Usage =
-            "Player plan SCENARIO\n" +
+            "Player plan SCENARIO [--folder DIR]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
-            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]...";
+            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR]\n" +
+            "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
 
@@ -25,6 +26,9 @@ namespace Collektive.Headless
         internal string JavaHome { get; private set; }
 
         internal string Out { get; private set; }
+
+        /// <summary>Where the scenario's relative paths start; null: where the file says.</summary>
+        internal string Folder { get; private set; }
 
         internal string Template { get; private set; }
 
@@ -58,6 +62,7 @@ namespace Collektive.Headless
                 case "--host-jar": HostJar = value; break;
                 case "--java-home": JavaHome = value; break;
                 case "--out": Out = value; break;
+                case "--folder": Folder = value; break;
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
                 case "--set": Assignments.Add(value); break;
@@ -69,7 +74,7 @@ namespace Collektive.Headless
                     Seed = seed;
                     break;
                 case "--seconds":
-                    if (!double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out var seconds) || !(seconds > 0) || seconds > 1e9)
+                    if (!double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out var seconds) || !(seconds > 0))
                     {
                         throw new ScenarioException("--seconds " + value + ": it must be a number greater than 0");
                     }

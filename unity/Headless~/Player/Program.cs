@@ -41,7 +41,7 @@ namespace Collektive.Headless
             try
             {
                 var options = Options.Parse(arguments);
-                var scenario = Scenario.Read(options.Scenario);
+                var scenario = Scenario.Read(options.Scenario, options.Folder);
                 if (options.Command == "plan")
                 {
                     Plan(scenario);

@@ -7,14 +7,21 @@ using org.collektive.frame;
 
 namespace Collektive.Headless
 {
-    /// <summary>A scenario file. Paths in it are relative to the file; here they are absolute.</summary>
+    /// <summary>
+    /// A scenario file, or the scenario in the manifest of a run that is to be repeated. Paths in it are relative to its folder; here they are absolute.
+    /// </summary>
     internal sealed class Scenario
     {
         private const int Version = 1;
 
-        private Scenario(JsonFile file, string path)
+        /// <summary>Hours of the shortest ticks; the times of all of them are kept in memory.</summary>
+        private const double MaxTicks = 1e8;
+
+        private readonly JObject root;
+
+        private Scenario(JsonFile file, string path, JObject root, string folder)
         {
-            var root = file.Root;
+            this.root = root;
             file.RefuseUnknown(
                 root, "", "version", "scene", "scripts", "schema", "programs", "program", "fields", "seed", "seconds", "deltaTime",
                 "physicsStep", "schedule", "timing", "network", "threads", "jvm", "outputs");
@@ -22,7 +29,7 @@ namespace Collektive.Headless
             if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
             File = file;
             Path = path;
-            var folder = System.IO.Path.GetDirectoryName(path);
+            Folder = folder;
             Scene = file.Required<string>(root, "scene");
             Scripts = Existing(file, root, "scripts", folder, directory: true);
             Schema = Existing(file, root, "schema", folder, directory: false);
@@ -31,7 +38,6 @@ namespace Collektive.Headless
             Fields = file.Optional(root, "fields", new JObject());
             Seed = file.Optional(root, "seed", 1UL);
             Seconds = file.Required<double>(root, "seconds");
-            if (!(Seconds > 0) || Seconds > 1e9) throw file.Error(root["seconds"], "'seconds' must be greater than 0");
             DeltaTime = file.Optional(root, "deltaTime", 0.05f);
             PhysicsStep = file.Optional(root, "physicsStep", 0.02f);
             Schedule = file.Optional(root, "schedule", Schedule.Lockstep);
@@ -45,12 +51,19 @@ namespace Collektive.Headless
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
             Record = file.Optional(outputs, "record", false);
+            Count(message => file.Error(root["seconds"], message));
             if (Pictures && !Replay) throw file.Error(outputs["pictures"], "'outputs.pictures' needs 'outputs.replay': pictures are taken from the replay page");
         }
 
         internal JsonFile File { get; }
 
         internal string Path { get; }
+
+        /// <summary>Where relative paths start.</summary>
+        internal string Folder { get; }
+
+        /// <summary>The run to repeat; null when the file is no manifest.</summary>
+        internal FormerRun Former { get; private set; }
 
         internal string Scene { get; }
 
@@ -64,9 +77,12 @@ namespace Collektive.Headless
 
         internal JObject Fields { get; }
 
-        internal ulong Seed { get; set; }
+        internal ulong Seed { get; private set; }
 
-        internal double Seconds { get; set; }
+        internal double Seconds { get; private set; }
+
+        /// <summary>How many ticks these are.</summary>
+        internal int Ticks { get; private set; }
 
         internal float DeltaTime { get; }
 
@@ -90,7 +106,69 @@ namespace Collektive.Headless
 
         internal bool Record { get; }
 
-        internal static Scenario Read(string path) => new Scenario(JsonFile.Read(path), System.IO.Path.GetFullPath(path));
+        /// <param name="path">A scenario file, or the manifest of a run.</param>
+        /// <param name="folder">Where relative paths start; null: at the file, and for a manifest where they did in its run.</param>
+        internal static Scenario Read(string path, string folder)
+        {
+            var file = JsonFile.Read(path);
+            path = System.IO.Path.GetFullPath(path);
+            if (!(file.Root[FormerRun.ScenarioKey] is JObject run))
+            {
+                return new Scenario(file, path, file.Root, System.IO.Path.GetFullPath(folder ?? System.IO.Path.GetDirectoryName(path)));
+            }
+            var former = new FormerRun(file, path);
+            folder = System.IO.Path.GetFullPath(folder ?? former.Folder);
+            if (!Directory.Exists(folder)) throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
+            return new Scenario(file, path, run, folder) { Former = former };
+        }
+
+        /// <summary>Takes what the command line says instead of the file.</summary>
+        internal void Override(ulong? seed, double? seconds)
+        {
+            Seed = seed ?? Seed;
+            Seconds = seconds ?? Seconds;
+            if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
+        }
+
+        /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
+        internal JObject ToJson(JObject fields)
+        {
+            var jvm = new JObject();
+            foreach (var setting in JvmSetting.All) jvm.Add(setting.Key, JsonFile.Token(setting.Get(Jvm)));
+            return new JObject(
+                new JProperty("version", Version),
+                new JProperty("scene", Scene),
+                new JProperty("scripts", root["scripts"]),
+                new JProperty("schema", root["schema"]),
+                new JProperty("programs", root["programs"]),
+                new JProperty("program", Program),
+                new JProperty("fields", fields),
+                new JProperty("seed", JsonFile.Token(Seed)),
+                new JProperty("seconds", Seconds),
+                new JProperty("deltaTime", DeltaTime),
+                new JProperty("physicsStep", PhysicsStep),
+                new JProperty("schedule", Schedule.ToString()),
+                new JProperty("timing", JObject.FromObject(Timing)),
+                new JProperty("network", JObject.FromObject(Network)),
+                new JProperty("threads", Threads),
+                new JProperty("jvm", jvm),
+                new JProperty("outputs", new JObject(
+                    new JProperty("metrics", Metrics),
+                    new JProperty("replay", Replay),
+                    new JProperty("pictures", Pictures),
+                    new JProperty("record", Record))));
+        }
+
+        private void Count(System.Func<string, ScenarioException> error)
+        {
+            // A delta time that cannot be is refused with the other settings.
+            var ticks = DeltaTime > 0 ? System.Math.Round(Seconds / DeltaTime) : 1;
+            if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
+            if (ticks > MaxTicks) throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(DeltaTime) + " these are " + Text(ticks) + " ticks, and a run has at most 100 million");
+            Ticks = (int)System.Math.Max(1, ticks);
+        }
+
+        private static string Text(double number) => number.ToString("G6", System.Globalization.CultureInfo.InvariantCulture);
 
         private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder)
         {
@@ -101,7 +179,8 @@ namespace Collektive.Headless
                 var token = root[setting.Key];
                 if (token == null) continue;
                 var value = file.Convert(token, setting.Type, "jvm." + setting.Key);
-                setting.Set(settings, setting.Key == nameof(JvmSettings.home) ? System.IO.Path.Combine(folder, (string)value) : value);
+                var isFolder = setting.Key == nameof(JvmSettings.home) && ((string)value).Length > 0;
+                setting.Set(settings, isFolder ? System.IO.Path.Combine(folder, (string)value) : value);
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
             return settings;

@@ -6,6 +6,7 @@ using System.IO;
 using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Newtonsoft.Json.Linq;
 using UnityEngine;
 using UnityEngine.Headless;
 using Object = UnityEngine.Object;
@@ -25,18 +26,24 @@ namespace Collektive.Headless
         private readonly List<double> totalTimes = new List<double>();
         private readonly List<double> roundTimes = new List<double>();
         private TimeSpan firstTick;
+        private Manifest manifest;
+        private MetricsTable metrics;
+        private int done;
 
         internal ScenarioRun(Scenario scenario, Options options)
         {
             this.scenario = scenario;
             this.options = options;
-            scenario.Seed = options.Seed ?? scenario.Seed;
-            scenario.Seconds = options.Seconds ?? scenario.Seconds;
+            if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count > 0))
+            {
+                throw new ScenarioException(scenario.Path + ": a manifest's run is repeated as it was: leave out --seed, --seconds and --set, or run its scenario");
+            }
+            scenario.Override(options.Seed, options.Seconds);
         }
 
         /// <returns>
-        /// The exit code: that of a script's <c>Application.Quit</c>, 130 after Ctrl-C, else 0, or 1 when the simulation stopped early or rounds,
-        /// sensors or actuators failed.
+        /// The exit code: that of a script's <c>Application.Quit</c>, 130 after Ctrl-C, else 0, or 1 when the simulation stopped early, rounds,
+        /// sensors or actuators failed, or a run that was to be repeated came out differently.
         /// </returns>
         internal int Run()
         {
@@ -78,7 +85,18 @@ namespace Collektive.Headless
             var problem = settings.FindProblem();
             if (problem != null) throw new ScenarioException(scenario.Path + ": " + problem);
             manager.enabled = true;
+            // Before those of the scene, which may throw.
+            manager.Ticked += Count;
             return manager;
+        }
+
+        private void Count(SimulationManager manager)
+        {
+            if (++done == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
+            metrics.Add(manager.Times, manager.Network);
+            stepTimes.Add(manager.Times.Step);
+            totalTimes.Add(manager.Times.Total);
+            roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
         }
 
         private SceneBuilder MakeScene(SimulationManager manager)
@@ -93,6 +111,8 @@ namespace Collektive.Headless
             holder.SetActive(false);
             var scene = (SceneBuilder)holder.AddComponent(type);
             SceneFields.Set(scene, scenario, options.Assignments);
+            manifest = new Manifest(scenario, options, SceneFields.Get(scene));
+            scenario.Former?.TellDifferences(manifest, "inputs");
             holder.SetActive(true);
             if (manager.Failure.Length > 0) throw new ScenarioException(manager.Failure);
             return scene;
@@ -100,9 +120,11 @@ namespace Collektive.Headless
 
         private int Play(SimulationManager manager, SceneBuilder scene)
         {
-            var ticks = (int)Math.Max(1, Math.Round(scenario.Seconds / scenario.DeltaTime));
+            // A former run that was interrupted is repeated up to there.
+            var ticks = scenario.Former == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.Former.Ticks);
+            JObject parameters = null;
             var progress = new ProgressBar(ticks);
-            using (var metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
+            using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
             using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)
             {
                 metrics.EndSecond(0, 0);
@@ -110,38 +132,45 @@ namespace Collektive.Headless
                 replay?.Add(0);
                 var replayed = 0.0;
                 var second = 0;
-                for (var tick = 1; tick <= ticks && !interrupt.Requested && !Loop.QuitRequested; tick++)
+                for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished; frame++)
                 {
+                    var before = done;
                     Loop.Frame(scenario.DeltaTime);
-                    if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + tick + ": " + manager.Failure);
-                    if (tick == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
-                    metrics.Add(manager.Times, manager.Network);
-                    stepTimes.Add(manager.Times.Step);
-                    totalTimes.Add(manager.Times.Total);
-                    roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
+                    if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
+                    // A script has paused or disabled the manager.
+                    if (done == before) continue;
+                    parameters = parameters ?? ParameterValues.Of(manager);
                     if (manager.SimulatedTime - replayed >= 1 / ReplayRate - 1e-6)
                     {
                         replayed = manager.SimulatedTime;
                         replay?.Add(replayed);
                     }
                     if (manager.SimulatedTime >= second + 1 - 1e-6) metrics.EndSecond(++second, manager.LinkCount);
-                    if (progress.Due || tick == ticks) progress.Show(tick, manager.SimulatedTime, Text(scene, metrics));
+                    if (progress.Due || frame == ticks) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
                 }
                 progress.End();
                 scene.Measure((double[])metrics.Values);
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
-                var manifest = new Manifest(scenario, options, manager, scene, start, metrics.Values, progress.Seconds);
+                manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
                 manifest.Write(Path.Combine(options.Out, "manifest.json"));
             }
+            scenario.Former?.TellDifferences(manifest, "versions");
             if (interrupt.Requested)
             {
                 Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end there");
                 return interrupt.ExitCode;
             }
-            if (Loop.QuitRequested) return Loop.ExitCode;
-            if (manager.ErrorCount == 0) return 0;
+            var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
+            if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
+            if (done < ticks && !manager.Finished)
+            {
+                Console.Error.WriteLine(
+                    "collektive: " + done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager; end a run with Application.Quit or a stop condition");
+                return 1;
+            }
+            if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine("collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors or actuators failed; the messages are above");
             return 1;
         }

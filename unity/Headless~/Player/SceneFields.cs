@@ -8,9 +8,22 @@ using UnityEngine;
 
 namespace Collektive.Headless
 {
-    /// <summary>Sets public fields of a scene builder, from the scenario file and from the command line.</summary>
+    /// <summary>Sets public fields of a scene builder, from the scenario file and from the command line, and reads them all.</summary>
     internal static class SceneFields
     {
+        /// <summary>The values of all fields that a scenario can set, those with their defaults included.</summary>
+        internal static JObject Get(SceneBuilder builder)
+        {
+            var values = new JObject();
+            foreach (var field in builder.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance))
+            {
+                var value = field.GetValue(builder);
+                var token = value is Vector3 vector ? new JArray(vector.x, vector.y, vector.z) : JsonFile.Token(value);
+                if (token != null) values.Add(field.Name, token);
+            }
+            return values;
+        }
+
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
         {
             foreach (var property in scenario.Fields.Properties())

@@ -34,7 +34,7 @@ namespace Lamps
         public bool loop;
 
         private static readonly string[] Names = { "agreeing", "seen" };
-        private readonly List<LampActuator> actuators = new List<LampActuator>();
+        private readonly List<Node> nodes = new List<Node>();
 
         public override IReadOnlyList<string> MetricNames => Names;
 
@@ -42,23 +42,23 @@ namespace Lamps
         {
             values[0] = 0;
             values[1] = 0;
-            foreach (var actuator in actuators)
+            foreach (var node in nodes)
             {
-                if (actuator.Brightest == lamps) values[0]++;
-                values[1] += actuator.Seen;
+                if (!node.TryGetAnswer(out global::lamps.ActuatorData answer)) continue;
+                if (answer.Brightest == lamps) values[0]++;
+                values[1] += answer.SeenLength;
             }
         }
 
         protected override void Build(SimulationManager manager)
         {
-            var nodes = new List<Node>();
             for (var i = 0; i < lamps; i++)
             {
                 var lamp = new GameObject("Lamp " + i);
                 lamp.transform.position = new Vector3(i, 0, 0);
                 nodes.Add(lamp.AddComponent<Node>());
                 lamp.AddComponent<BrightnessSensor>().Brightness = i + 1;
-                actuators.Add(lamp.AddComponent<LampActuator>());
+                lamp.AddComponent<LampActuator>();
                 if (i > 0) manager.AddLink(nodes[i - 1].Id, nodes[i].Id);
             }
             if (loop) manager.AddLink(nodes[lamps - 1].Id, nodes[0].Id);

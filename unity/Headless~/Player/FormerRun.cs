@@ -1,0 +1,69 @@
+using System;
+using System.Collections.Generic;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>The run that a manifest tells of, to be repeated.</summary>
+    internal sealed class FormerRun
+    {
+        internal const string ScenarioKey = "scenario";
+
+        private readonly string path;
+        private readonly JObject manifest;
+
+        internal FormerRun(JsonFile file, string path)
+        {
+            this.path = path;
+            manifest = file.Root;
+            File = file.Required<string>(manifest, "file");
+            Folder = file.Required<string>(manifest, "folder");
+            Ticks = file.Required<int>(manifest, "ticks");
+            file.Required<string>(manifest, "digest");
+            file.Required<JObject>(manifest, "end");
+            file.Required<JObject>(manifest, "inputs");
+            file.Required<JObject>(manifest, "versions");
+            if (Ticks < 1) throw new ScenarioException(path + ": the run did no tick: there is nothing to repeat");
+        }
+
+        /// <summary>Name of its scenario file.</summary>
+        internal string File { get; }
+
+        /// <summary>Where its relative paths started.</summary>
+        internal string Folder { get; }
+
+        /// <summary>How many it did; fewer than its scenario says when it was interrupted.</summary>
+        internal int Ticks { get; }
+
+        /// <summary>Says whether the run came out as the former.</summary>
+        internal bool IsRepeatedBy(Manifest now)
+        {
+            var differences = new List<string>();
+            foreach (var key in new[] { "ticks", "digest", "end" })
+            {
+                if (!JToken.DeepEquals(manifest[key], now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", it was " + Text(manifest[key]));
+            }
+            if (differences.Count == 0)
+            {
+                Console.WriteLine("repeated: " + Ticks + " ticks, digest " + Text(manifest["digest"]) + " and all metrics at the end are those of " + path);
+                return true;
+            }
+            Console.Error.WriteLine("collektive: the run differs from that of " + path + ": " + string.Join("; ", differences));
+            return false;
+        }
+
+        /// <summary>One line for each "inputs" or "versions" that are others today.</summary>
+        internal void TellDifferences(Manifest now, string key)
+        {
+            foreach (var property in ((JObject)now.Root[key]).Properties())
+            {
+                var before = manifest[key][property.Name];
+                if (JToken.DeepEquals(before, property.Value)) continue;
+                Console.Error.WriteLine(
+                    "collektive: not as in the run of " + path + ": " + property.Name + " is " + Text(property.Value) + ", it was " + (before == null ? "not named" : Text(before)));
+            }
+        }
+
+        private static string Text(JToken token) => token.Type == JTokenType.String ? (string)token : token.ToString(Newtonsoft.Json.Formatting.None);
+    }
+}
