@@ -21,7 +21,7 @@ usage: ./collektive repeat MANIFEST.json [--out DIR] [--folder DIR]
 Runs again what a run's manifest.json tells of, from the manifest alone, and compares ticks, digest and the metrics at the end. Scripts, schema
 and programs are found where they were, or in --folder: the folder of the run's scenario file. One line names each of them, and the JVM, that is
 not as it was. Writes the same outputs to --out (default: the manifest's folder with -repeated behind its name).
-Exit code: 0 the run came out as the former; 1 it did not, or could not be done.
+Exit code: 0 the run came out as the former; 1 it did not, could not be done, or had rounds that failed, as the former's.
 H
 }
 
