@@ -48,6 +48,7 @@ build_csharp() {
   setup_roslyn
   setup_flatbuffers
   mkdir -p "$CSHARP"
+  cp "$NEWTONSOFT" "$CSHARP/"
   local unity="$ROOT/unity"
   assembly Collektive.FlatBuffers.dll "" "$FLATBUFFERS/net/FlatBuffers" -- $GENERATED_CODE_SYMBOLS -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-
   assembly Collektive.Bridge.dll "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Bridge" -- $GENERATED_CODE_SYMBOLS

@@ -124,7 +124,7 @@ csharp_tests() {
   local jar
   setup_kotlin
   jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") || return 1
-  cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
+  cp -u "$NUNIT" "$CSHARP/"
   COLLEKTIVE_ROOT="$ROOT" COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
     managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll" ${3:+"$3"}
 }
