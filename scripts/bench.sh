@@ -23,7 +23,6 @@ build_bench() {
   assembly Collektive.Headless.Bench.exe "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $NEWTONSOFT" \
     "$ROOT/unity/Headless~/Bench" "$ROOT/unity/Headless~/Player/Quantiles.cs" "$ROOT/unity/Samples~/GradientAscent/Generated" -- \
     $GENERATED_CODE_SYMBOLS -target:exe
-  cp -u "$NEWTONSOFT" "$CSHARP/"
 }
 
 cmd_bench() {

@@ -5,9 +5,7 @@ HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
 SAMPLES_JAR="$ROOT/jvm-host/programs/target/collektive-programs.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
 COMPILER_PLUGIN="$ROOT/jvm-host/compiler-plugin/target/compiler-plugin-0.1.0.jar"
-NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
-MONO_POSIX=/usr/lib/mono/4.5/Mono.Posix.dll
-NEWTONSOFT=/usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll
+NEWTONSOFT="$BUILD/roslyn/Newtonsoft.Json.dll"
 # What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
 GENERATED_CODE_SYMBOLS="$(cat "$ROOT/unity/Runtime/Bridge/csc.rsp") -unsafe+"
 
@@ -50,6 +48,7 @@ build_csharp() {
   setup_roslyn
   setup_flatbuffers
   mkdir -p "$CSHARP"
+  cp "$NEWTONSOFT" "$CSHARP/"
   local unity="$ROOT/unity"
   assembly Collektive.FlatBuffers.dll "" "$FLATBUFFERS/net/FlatBuffers" -- $GENERATED_CODE_SYMBOLS -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-
   assembly Collektive.Bridge.dll "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Bridge" -- $GENERATED_CODE_SYMBOLS

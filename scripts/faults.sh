@@ -9,7 +9,7 @@ build_faults() {
   assembly Collektive.Faults.exe \
     "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $CSHARP/UnityEngine.dll $CSHARP/Collektive.Unity.dll $CSHARP/Collektive.Headless.Tests.dll" \
     "$FAULTS" -- -target:exe
-  cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
+  cp -u "$NUNIT" "$CSHARP/"
   jar=$(programs_jar "$PROBE/probe.fbs" "$FAULTS/programs") || exit 1
   once misfit "$(fingerprint "$ROOT/native-shim/test/misfit")" build_misfit "$misfit"
   python3 - "$1" "$2" "$3" <<P

@@ -1,34 +1,118 @@
 # Tools: system packages, flatc and the FlatBuffers runtimes, the C# compiler, the page's libraries, the browser.
 
-# What the build needs, as "command:debian package".
-SYSTEM_TOOLS="git:git cc:gcc c++:g++ cmake:cmake make:make javac:openjdk-17-jdk-headless mvn:maven cargo:cargo node:nodejs npm:npm
-  python3:python3 mcs:mono-mcs mono-sgen:mono-devel mono-boehm:mono-runtime-boehm chromium:chromium"
-# Libraries without a command, as "file:debian package".
-SYSTEM_FILES="/usr/lib/x86_64-linux-gnu/libode.so:libode-dev /usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll:libnunit-cil-dev
-  /usr/lib/cli/Newtonsoft.Json-5.0/Newtonsoft.Json.dll:libnewtonsoft-json5.0-cil /usr/lib/mono/4.5/Mono.Posix.dll:libmono-posix4.0-cil"
+MONO_POSIX=/usr/lib/mono/4.5/Mono.Posix.dll
+# For C# tests only: Debian 13 has it no longer.
+NUNIT=/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll
 
-missing_packages() {
-  local entry
-  for entry in $SYSTEM_TOOLS; do have "${entry%%:*}" || printf '%s ' "${entry##*:}"; done
-  for entry in $SYSTEM_FILES; do [ -e "${entry%%:*}" ] || printf '%s ' "${entry##*:}"; done
+# What the build needs, one a line: commands (the first that is new enough is used), the oldest version that will do, Debian packages
+# (the first whose version will do is installed).
+SYSTEM_TOOLS="
+git              2.30   git
+cc               10     gcc
+c++              10     g++
+cmake            3.25   cmake
+make             4      make
+javac            17     default-jdk-headless
+mvn              3.6.3  maven
+cargo,cargo-1.85 1.85   cargo,cargo-web,cargo-1.85
+node             18     nodejs
+npm              8      npm
+python3          3.9    python3
+mcs              6.8    mono-mcs
+mono-sgen        6.8    mono-devel
+mono-boehm       6.8    mono-runtime-boehm"
+# Libraries without a command: file and Debian package.
+SYSTEM_FILES="
+/usr/lib/x86_64-linux-gnu/libode.so  libode-dev
+$MONO_POSIX  libmono-posix4.0-cil"
+
+# version_of COMMAND: prints the version that it tells, or nothing.
+version_of() {
+  { "$1" --version 2>/dev/null </dev/null || true; } | sed 's/\x1b\[[0-9;]*m//g' | grep -oE '[0-9]+(\.[0-9]+)*' | head -n 1 || true
 }
 
+# at_least OLDEST VERSION
+at_least() { [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]; }
+
+# tool COMMAND: prints the path of a tool of SYSTEM_TOOLS that is new enough.
+tool() {
+  local commands oldest packages command
+  while read -r commands oldest packages; do
+    [ "${commands%%,*}" = "$1" ] || continue
+    for command in ${commands//,/ }; do
+      if have "$command" && at_least "$oldest" "$(version_of "$command")"; then command -v "$command"; return 0; fi
+    done
+  done <<<"$SYSTEM_TOOLS"
+  return 1
+}
+
+# wanting: prints what is missing or too old, one a line: a Debian package, a tab, the reason.
+wanting() {
+  local commands oldest packages command file package reason
+  while read -r commands oldest packages; do
+    command=${commands%%,*}
+    [ -n "$command" ] && ! tool "$command" >/dev/null || continue
+    reason="$command is missing"
+    if have "$command"; then reason="$(command -v "$command") is of version $(version_of "$command" | grep . || echo unknown)"; fi
+    printf '%s\t%s; needed is %s or newer\n' "$(package_of "$oldest" "$packages")" "$reason" "$oldest"
+  done <<<"$SYSTEM_TOOLS"
+  while read -r file package; do
+    [ -z "$file" ] || [ -e "$file" ] || printf '%s\t%s is missing\n' "$package" "$file"
+  done <<<"$SYSTEM_FILES"
+}
+
+# package_of OLDEST PACKAGES: prints the first of them that apt has in that version or a newer one, else the first.
+package_of() {
+  local package version
+  for package in ${2//,/ }; do
+    version=$(candidate "$package" | sed -E 's/^[0-9]+://')
+    if [ -n "$version" ] && at_least "$1" "$version"; then echo "$package"; return 0; fi
+  done
+  echo "${2%%,*}"
+}
+
+# candidate PACKAGE: prints the version that apt would install, or nothing.
+candidate() { { apt-cache policy "$1" 2>/dev/null || true; } | sed -n 's/^  Candidate: \([0-9].*\)/\1/p'; }
+
+# The versions are asked for again only when a tool was installed, removed or replaced: asking takes two seconds.
 setup_system() {
-  local packages
-  packages=$(missing_packages)
-  [ -z "$packages" ] && return 0
-  if have apt-get && [ "$(id -u)" = 0 ]; then
-    logged system-packages install_packages $packages
-    packages=$(missing_packages)
-    [ -z "$packages" ] || fail "still missing after installation: $packages"
-  else
-    fail "missing: $packages(names of Debian packages). Install them, on Debian or Ubuntu with: sudo apt-get install $packages"
+  local stamp="$BUILD/stamp/system" missing
+  if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$(system_state)" ]; then return 0; fi
+  missing=$(wanting)
+  if [ -n "$missing" ] && may_install; then
+    logged package-lists apt-get update
+    logged system-packages install_packages $(wanting | cut -f 1)
+    hash -r
+    missing=$(wanting)
+    [ -z "$missing" ] || fail "not as needed, although the packages are installed:
+$(cut -f 2 <<<"$missing")"
+  elif [ -n "$missing" ]; then
+    fail "these tools are missing or too old:
+$(cut -f 2 <<<"$missing")
+Install them; on Debian or Ubuntu as root: apt-get install $(cut -f 1 <<<"$missing" | xargs)"
   fi
+  mkdir -p "$BUILD/stamp"
+  system_state >"$stamp"
 }
 
-install_packages() {
-  apt-get update
-  DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"
+system_state() {
+  local commands file rest paths=()
+  while read -r commands rest; do paths+=($(command -v ${commands//,/ } || true)); done <<<"$SYSTEM_TOOLS"
+  while read -r file rest; do paths+=($file); done <<<"$SYSTEM_FILES"
+  printf '%s\n' "$SYSTEM_TOOLS" "$SYSTEM_FILES"
+  stat -L -c '%n %s %Y' "${paths[@]}" 2>&1 || true
+}
+
+may_install() { have apt-get && [ "$(id -u)" = 0 ]; }
+
+install_packages() { DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"; }
+
+# The C# tests' framework, where the system has a package of it.
+setup_nunit() {
+  [ ! -e "$NUNIT" ] || return 0
+  if ! may_install; then fail "$NUNIT is missing. Install it; on Debian 12 or Ubuntu as root: apt-get install libnunit-cil-dev"; fi
+  logged package-lists apt-get update
+  if [ -n "$(candidate libnunit-cil-dev)" ]; then logged nunit install_packages libnunit-cil-dev; fi
 }
 
 # The JDK that runs the simulations: the newest of those present, or the one that COLLEKTIVE_JAVA_HOME names.
@@ -54,16 +138,17 @@ is_jdk() { [ -e "$1/lib/server/libjvm.so" ] && [ -x "$1/bin/javac" ] && [ -e "$1
 jdk_version() { sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$1/release" | grep . || echo 0; }
 
 setup_flatbuffers() {
-  once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers/Cargo.toml") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers
+  once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers
 }
 
 fetch_flatbuffers() {
-  local work="$BUILD/flatbuffers-fetch" crate
+  local work="$BUILD/flatbuffers-fetch" cargo crate
   rm -rf "$work" "$FLATBUFFERS"
   mkdir -p "$work"
   cp "$ROOT"/tools/flatbuffers/* "$work/"
-  (cd "$work" && cargo fetch) || return 1
-  crate=$(cd "$work" && cargo metadata --offline --format-version 1 |
+  cargo=$(tool cargo) || return 1
+  (cd "$work" && "$cargo" fetch --locked) || return 1
+  crate=$(cd "$work" && "$cargo" metadata --offline --format-version 1 |
     python3 -c 'import json,os,sys; print([os.path.dirname(p["manifest_path"]) for p in json.load(sys.stdin)["packages"] if p["name"] == "flatc-fork"][0])') || return 1
   mkdir -p "$FLATBUFFERS"
   cp -R "$crate"/flatbuffers/. "$FLATBUFFERS/"
@@ -90,18 +175,18 @@ cmake_configure() {
 }
 
 setup_npm() {
-  once npm-tools "$(fingerprint "$ROOT/tools/npm/package.json" "$ROOT/tools/npm/package-lock.json")" fetch_npm
+  once npm-tools "$(fingerprint "$ROOT/tools/npm")" fetch_npm
 }
 
 fetch_npm() {
   mkdir -p "$BUILD/npm"
   cp "$ROOT"/tools/npm/package.json "$ROOT"/tools/npm/package-lock.json "$ROOT"/tools/npm/.npmrc "$BUILD/npm/"
-  (cd "$BUILD/npm" && npm ci --ignore-scripts)
+  (cd "$BUILD/npm" && npm ci --ignore-scripts) && node "$ROOT/tools/npm/unpack-chromium.mjs" "$BUILD/npm/node_modules"
 }
 
 setup_roslyn() {
   setup_npm
-  once roslyn "$(fingerprint "$ROOT/tools/roslyn" "$ROOT/tools/npm/package.json")" build_roslyn
+  once roslyn "$(fingerprint "$ROOT/tools/roslyn" "$ROOT/tools/npm/package.json") $(declare -f build_roslyn | sha256sum)" build_roslyn
 }
 
 build_roslyn() {
@@ -112,6 +197,7 @@ build_roslyn() {
   cp "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.dll "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.CSharp.dll \
     "$sdk/sdk/$version"/Roslyn/bincore/System.*.dll "$out/"
   cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472/System.*.dll "$out/"
+  cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk/tools/net472/Newtonsoft.Json.dll "$out/"
   cp "$sdk"/packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1/*.dll "$out/ref/"
   mcs -nologo -out:"$out/roslyn.exe" -r:"$out/Microsoft.CodeAnalysis.dll" -r:"$out/Microsoft.CodeAnalysis.CSharp.dll" \
     -r:"$out/System.Collections.Immutable.dll" -r:/usr/lib/mono/4.8-api/Facades/netstandard.dll "$ROOT/tools/roslyn/Roslyn.cs"

@@ -4,12 +4,14 @@ PROBE="$ROOT/unity/Headless~/Tests/Simulation/Probe"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --faults [WORDS] | --exits | --sanitize
+usage: ./collektive test [SUITE]... | --faults [WORDS] | --exits | --sanitize | bare [ROOT]...
 
 Builds and tests everything, or the suites named: shim, jvm, csharp, assets, roundtrip, page, acceptance, bench, faults, exits.
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
   --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
+  bare        the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
+              as root; one whose packages cannot be had is skipped
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. A changed public API of the JVM
 side fails the suite jvm, which then shows the difference from jvm-host/*/api/*.api and the command that accepts it.
 H
@@ -91,6 +93,7 @@ P
 }
 
 build_csharp_tests() {
+  [ -e "$NUNIT" ] || fail "this system has no package of NUnit 2.6, which the C# tests need"
   local work="$BUILD/csharp-tests" schema key
   key=$(fingerprint "$ROOT/schema" "$PROBE/probe.fbs" "$GENERATOR_JAR")
   once test-schemas "$key" generate_test_schemas "$work"
@@ -121,7 +124,7 @@ csharp_tests() {
   local jar
   setup_kotlin
   jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs") || return 1
-  cp -u "$NUNIT" "$NEWTONSOFT" "$CSHARP/"
+  cp -u "$NUNIT" "$CSHARP/"
   COLLEKTIVE_ROOT="$ROOT" COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
     managed "$1" "$CSHARP/Collektive.TestRunner.exe" "$CSHARP/Collektive.Headless.Tests.dll" ${3:+"$3"}
 }
@@ -156,17 +159,22 @@ test_acceptance() {
   python3 "$ROOT/scripts/acceptance/acceptance.py" "$ROOT"
 }
 
-wanted() { [ ${#SUITES[@]} = 0 ] || [[ " ${SUITES[*]} " == *" $1 "* ]]; }
+wanted() {
+  if [ ${#SUITES[@]} != 0 ]; then [[ " ${SUITES[*]} " == *" $1 "* ]]; return; fi
+  if [[ " csharp faults exits " == *" $1 "* ]] && [ ! -e "$NUNIT" ]; then say "test $1: skipped, this system has no package of NUnit 2.6"; return 1; fi
+}
 
 cmd_test() {
   local known="shim jvm csharp assets roundtrip page acceptance bench faults exits" name jdk
   case ${1:-} in
     --faults) test_at_length --faults "${*:2}"; return ;;
+    bare) test_bare "${@:2}"; return ;;
     --exits | --sanitize) [ $# = 1 ] || fail "test: $1 takes no arguments"; test_at_length "$1"; return ;;
   esac
   SUITES=("$@")
   for name in "$@"; do [[ " $known " == *" $name "* ]] || fail "test: unknown suite '$name'; known: $known"; done
   setup_system
+  setup_nunit
   build_native
   if wanted jvm; then
     setup_flatc
@@ -201,6 +209,7 @@ cmd_test() {
 # What takes long, with its whole output.
 test_at_length() {
   setup_system
+  setup_nunit
   build_native
   if [ "$1" = --sanitize ]; then test_sanitized_shim; return; fi
   build_jvm

@@ -7,12 +7,19 @@ const FLAGS = [
   '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--hide-scrollbars', '--force-color-profile=srgb',
 ];
 
-/** `modules` is the folder of playwright-core, CHROMIUM the browser (default: Debian's). */
+/**
+ * `modules` is the folder of playwright-core and of the browser, as `./collektive setup` makes it; CHROMIUM names another browser.
+ * The browser finds its libraries and its only fonts beside it: pictures are the same on each system.
+ */
 export function launch(modules = process.env.COLLEKTIVE_NODE_MODULES, extraFlags = []) {
   if (!modules) {
-    console.error('Set COLLEKTIVE_NODE_MODULES to the folder of playwright-core.');
+    console.error('Set COLLEKTIVE_NODE_MODULES to the folder of playwright-core and @sparticuz/chromium.');
     process.exit(2);
   }
   const { chromium } = createRequire(resolve(modules, 'x.js'))('playwright-core');
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: [...FLAGS, ...extraFlags] });
+  const args = [...FLAGS, ...extraFlags];
+  if (process.env.CHROMIUM) return chromium.launch({ executablePath: process.env.CHROMIUM, args });
+  const folder = resolve(modules, '@sparticuz/chromium/bin');
+  const env = { ...process.env, LD_LIBRARY_PATH: resolve(folder, 'lib'), FONTCONFIG_PATH: folder, XDG_CACHE_HOME: resolve(folder, 'cache') };
+  return chromium.launch({ executablePath: resolve(folder, 'chromium'), env, args });
 }
