@@ -11,8 +11,8 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import metas  # noqa: E402  (lies beside this file)
-from validator.assets import guid_of  # noqa: E402
+import metas
+from validator.assets import guid_of
 
 HEADER = "%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n"
 PREFAB = 100100000
@@ -156,7 +156,8 @@ MANAGER_SCRIPT = "unity/Runtime/Unity/SimulationManager.cs"
 def make_manager(maker):
     manager = GameObject(MANAGER, "Simulation Manager")
     manager.add_script(maker, MANAGER_SCRIPT)
-    manager.add_script(maker, "unity/Runtime/Unity/Views/LinkView.cs", f"  material: {{fileID: 2100000, guid: {maker.guid('unity/Materials/Link.mat')}, type: 2}}\n")
+    material = f"  material: {{fileID: 2100000, guid: {maker.guid('unity/Materials/Link.mat')}, type: 2}}\n"
+    manager.add_script(maker, "unity/Runtime/Unity/Views/LinkView.cs", material)
     maker.write(MANAGER, manager.documents())
 
 
@@ -252,10 +253,11 @@ def make_scene(maker, sample):
     fields = "".join(f"  {name}: {number(value)}\n" for name, value in scenario.get("fields", {}).items())
     builder.add_script(maker, f"{folder}/{scenario['scene'].split('.')[-1]}.cs", fields)
     instance = file_id(path, "Simulation Manager")
-    roots = [camera.transform, light.transform, instance, builder.transform]
+    roots = "".join(f"  - {{fileID: {root}}}\n" for root in [camera.transform, light.transform, instance, builder.transform])
     maker.write(path, [
-        *SCENE_SETTINGS, *camera.documents(), *light.documents(), manager_instance(maker, instance, settings_of(maker, folder, scenario)), *builder.documents(),
-        document(1660057539, 9223372036854775807, "SceneRoots", "  m_ObjectHideFlags: 0\n  m_Roots:\n" + "".join(f"  - {{fileID: {root}}}\n" for root in roots)),
+        *SCENE_SETTINGS, *camera.documents(), *light.documents(),
+        manager_instance(maker, instance, settings_of(maker, folder, scenario)), *builder.documents(),
+        document(1660057539, 9223372036854775807, "SceneRoots", "  m_ObjectHideFlags: 0\n  m_Roots:\n" + roots),
     ])
 
 

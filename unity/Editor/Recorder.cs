@@ -28,8 +28,10 @@ namespace Collektive.Unity.Editor
             if (Jvm.State != JvmState.Running) return;
             // Not with each repaint: it is a question to the JVM.
             if (EditorApplication.timeSinceStartup - asked >= Interval) Ask();
-            EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections + " collections");
-            EditorGUILayout.LabelField("Flight recording", status.Recording.ToString().ToLowerInvariant() + (status.RecordingPath.Length > 0 ? ": " + status.RecordingPath : ""));
+            EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections
+                + " collections");
+            EditorGUILayout.LabelField("Flight recording", status.Recording.ToString().ToLowerInvariant()
+                + (status.RecordingPath.Length > 0 ? ": " + status.RecordingPath : ""));
             if (status.RecordingError.Length > 0) EditorGUILayout.HelpBox(status.RecordingError, MessageType.Error);
             if (status.Recording == RecordingState.Off)
             {

@@ -25,7 +25,8 @@ namespace Collektive.Unity.Editor
             var isRunning = EditorApplication.isPlaying && manager.Programs.Count > 0;
             if (isRunning) Remember(manager);
             DrawDefaultInspector();
-            if (isRunning) EditorGUILayout.HelpBox("Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.", MessageType.Info);
+            if (isRunning) EditorGUILayout.HelpBox("Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.",
+                MessageType.Info);
             else DrawPrograms();
             DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);

@@ -10,7 +10,8 @@ namespace Collektive.Unity.Editor
         private const string Menu = "Tools/Collektive/";
 
         [MenuItem(Menu + "Generate Schema Code", false, 1)]
-        private static void GenerateSchemaCode() => ForEach("Generating code", project => true, SchemaCode.MakeCSharp, project => project.Schema + ": C# in " + project.Generated);
+        private static void GenerateSchemaCode() =>
+            ForEach("Generating code", project => true, SchemaCode.MakeCSharp, project => project.Schema + ": C# in " + project.Generated);
 
         [MenuItem(Menu + "Rebuild Programs", false, 2)]
         private static void RebuildPrograms() =>
@@ -23,7 +24,10 @@ namespace Collektive.Unity.Editor
             {
                 EditorUtility.DisplayProgressBar("Collektive", "Building the package from its sources", 0.5f);
                 var archive = BackendBuild.Make();
-                if (archive != null) Debug.Log("built " + archive + ": install it with Package Manager > + > Install package from tarball, then restart the editor (the JVM of this one runs the old backend)");
+                if (archive != null)
+                    Debug.Log("built " + archive
+                        + ": install it with Package Manager > + > Install package from tarball, then restart the editor "
+                        + "(the JVM of this one runs the old backend)");
                 return archive != null;
             });
         }
@@ -62,7 +66,8 @@ namespace Collektive.Unity.Editor
             var projects = SchemaProject.FindAll().FindAll(isWanted);
             if (projects.Count == 0)
             {
-                Debug.LogWarning(title + ": there is nothing to do. Schemas are files *.fbs below Assets; their programs are *.kt in the folder Programs beside them");
+                Debug.LogWarning(title
+                    + ": there is nothing to do. Schemas are files *.fbs below Assets; their programs are *.kt in the folder Programs beside them");
                 return;
             }
             Guarded(() =>

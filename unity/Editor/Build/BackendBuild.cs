@@ -10,9 +10,12 @@ namespace Collektive.Unity.Editor
         internal static string Make()
         {
             var checkout = ProjectSettings.instance.sourceCheckout;
-            if (checkout.Length == 0) throw new ToolException("the backend is built from a source checkout of the package: name its folder in Project Settings > Collektive");
+            if (checkout.Length == 0)
+                throw new ToolException("the backend is built from a source checkout of the package: name its folder in Project Settings > Collektive");
             var command = Path.Combine(checkout, "collektive");
-            if (!File.Exists(command)) throw new ToolException(checkout + " is no source checkout of the package (it has no command collektive): correct it in Project Settings > Collektive");
+            if (!File.Exists(command))
+                throw new ToolException(checkout
+                    + " is no source checkout of the package (it has no command collektive): correct it in Project Settings > Collektive");
             var (code, output) = ToolRun.Try(checkout, command, "package");
             ToolConsole.Show("collektive package", code, output);
             if (code != 0) return null;

@@ -22,7 +22,8 @@ namespace Collektive.Unity.Editor
             {
                 // An imported sample has sources too, but runs from the package's own jar.
                 if (!manager.Settings.jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
-                if (!ToolsMenu.Guarded(() => ProgramBuild.Make(project))) Debug.LogWarning(project.Jar + " is older than its sources: it could not be built, see above", manager);
+                if (!ToolsMenu.Guarded(() => ProgramBuild.Make(project)))
+                    Debug.LogWarning(project.Jar + " is older than its sources: it could not be built, see above", manager);
             }
         }
     }

@@ -43,7 +43,8 @@ namespace Collektive.Unity.Editor
         {
             var part = Path.Combine(work, "programs.jar");
             // The schema's service entry lies beside the Java code.
-            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", java, "META-INF", "-C", classes, "." })) return false;
+            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", java, "META-INF", "-C", classes, "." }))
+                return false;
             if (File.Exists(jar)) File.Delete(jar);
             File.Move(part, jar);
             return true;

@@ -10,7 +10,8 @@ namespace Collektive.Unity.Editor
     {
         // flatc: "x.fbs:3: 12: error: text", on Windows "x.fbs(3, 12): error: text". Kotlin: "X.kt:3:12: error: text". javac: "X.java:3: error: text".
         private static readonly Regex Place = new Regex(
-            @"^\s*(?:file://)?(?<file>(?:[A-Za-z]:)?[^:(]+\.(?:fbs|kt|kts|java))(?::(?<line>\d+)(?::\s?(?<column>\d+))?|\((?<line>\d+)(?:,\s*(?<column>\d+))?\)):\s*(?<kind>error|warning):\s*(?<text>.*)$");
+            @"^\s*(?:file://)?(?<file>(?:[A-Za-z]:)?[^:(]+\.(?:fbs|kt|kts|java))"
+            + @"(?::(?<line>\d+)(?::\s?(?<column>\d+))?|\((?<line>\d+)(?:,\s*(?<column>\d+))?\)):\s*(?<kind>error|warning):\s*(?<text>.*)$");
 
         // flatc finds some errors at the end of a file, and adds where they come from.
         private static readonly Regex Origin = new Regex(@", originally at: (?<file>(?:[A-Za-z]:)?[^:]+):(?<line>\d+)$");

@@ -26,7 +26,8 @@ namespace Collektive.Unity.Editor
         /// <summary>flatc, where it may be executed: package managers drop the permission, and the package's folder is not to be written to.</summary>
         internal static string Flatc()
         {
-            if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux)) throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
+            if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux))
+                throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
             var shipped = Shipped("linux-x64/flatc");
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc");
             if (File.Exists(copy) && File.GetLastWriteTimeUtc(copy) >= File.GetLastWriteTimeUtc(shipped)) return copy;
@@ -42,7 +43,9 @@ namespace Collektive.Unity.Editor
         internal static string FindJdk()
         {
             var named = ProjectSettings.instance.jdk;
-            if (named.Length > 0) return IsJdk(named) ? named : throw new ToolException("the JDK of the project settings, " + named + ", has no bin/javac: correct it in Project Settings > Collektive");
+            if (named.Length > 0)
+                return IsJdk(named) ? named
+                    : throw new ToolException("the JDK of the project settings, " + named + ", has no bin/javac: correct it in Project Settings > Collektive");
             var candidates = new List<string> { Environment.GetEnvironmentVariable("JAVA_HOME") ?? "" };
             if (Directory.Exists("/usr/lib/jvm"))
             {
@@ -52,7 +55,8 @@ namespace Collektive.Unity.Editor
             }
             var found = candidates.Find(home => IsJdk(home) && Version(home) >= 17);
             return found ?? throw new ToolException(
-                "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, else adoptium.net) and name its folder in Project Settings > Collektive, or set JAVA_HOME");
+                "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, else adoptium.net) "
+                + "and name its folder in Project Settings > Collektive, or set JAVA_HOME");
         }
 
         /// <summary>Root of the Kotlin compiler: what the settings name, else <c>KOTLIN_HOME</c>, else the one on <c>PATH</c>.</summary>
@@ -67,12 +71,15 @@ namespace Collektive.Unity.Editor
                 if (File.Exists(Path.Combine(folder, "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt"))) candidates.Add(parent);
             }
             var home = candidates.Find(candidate => candidate.Length > 0);
-            var wanted = "get kotlin-compiler-" + KotlinVersion + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and name its folder kotlinc in Project Settings > Collektive";
+            var wanted = "get kotlin-compiler-" + KotlinVersion
+                + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and name its folder kotlinc in Project Settings > Collektive";
             if (home == null) throw new ToolException("no Kotlin compiler was found: " + wanted);
             var version = Path.Combine(home, "build.txt");
-            if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version)) throw new ToolException(home + " is no Kotlin compiler (it has no lib and build.txt): " + wanted);
+            if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version))
+                throw new ToolException(home + " is no Kotlin compiler (it has no lib and build.txt): " + wanted);
             var text = File.ReadAllText(version).Trim();
-            if (!text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal)) throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
+            if (!text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal))
+                throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
             return home;
         }
 
@@ -95,7 +102,9 @@ namespace Collektive.Unity.Editor
         private static string Shipped(string name)
         {
             var path = Installation.PathOf(Tools + name);
-            return File.Exists(path) ? path : throw new ToolException("the package's tool " + path + " is missing: install the package from its tarball (a source checkout has no built tools)");
+            return File.Exists(path) ? path
+                : throw new ToolException("the package's tool " + path
+                + " is missing: install the package from its tarball (a source checkout has no built tools)");
         }
     }
 }

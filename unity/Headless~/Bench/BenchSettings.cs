@@ -13,7 +13,8 @@ namespace Collektive.Headless.Bench
         /// <summary>
         /// The same for this process's JVM and for the second one: what the product gives a JVM, and a fixed heap, all of it in memory from the start.
         /// </summary>
-        internal static readonly string[] JvmOptions = { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2", "-XX:+UseCondCardMark" };
+        internal static readonly string[] JvmOptions =
+            { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2", "-XX:+UseCondCardMark" };
 
         internal string JavaHome { get; private set; }
 
@@ -40,7 +41,8 @@ namespace Collektive.Headless.Bench
                 if (i + 1 == arguments.Length) throw new BenchException(arguments[i] + " needs a value\nusage: " + Usage);
                 settings.Set(arguments[i], arguments[++i]);
             }
-            if (settings.JavaHome == null || settings.HostJar == null || settings.Jars.Count == 0 || settings.Out == null) throw new BenchException("usage: " + Usage);
+            if (settings.JavaHome == null || settings.HostJar == null || settings.Jars.Count == 0 || settings.Out == null)
+                throw new BenchException("usage: " + Usage);
             return settings;
         }
 

@@ -33,7 +33,8 @@ namespace Collektive.Headless.Bench
             {
                 foreach (var nodes in settings.Nodes) Measure(nodes, () => Ticks(probe, host, engine, nodes));
                 Measure(0, () => new List<Variant> { new InProcess(settings, probe, "crossing", "in-process", 0, 1) });
-                foreach (var nodes in new[] { 500, 10000 }) if (Array.IndexOf(settings.Nodes, nodes) >= 0) Measure(nodes, () => new List<Variant> { new Spawn(settings, probe, nodes, Threads) });
+                foreach (var nodes in new[] { 500, 10000 })
+                    if (Array.IndexOf(settings.Nodes, nodes) >= 0) Measure(nodes, () => new List<Variant> { new Spawn(settings, probe, nodes, Threads) });
                 if (!settings.Quick) rows.Add(new Soak(settings, probe, Say).Run());
             }
             Write();
@@ -99,7 +100,8 @@ namespace Collektive.Headless.Bench
             calls = Jvm.StepCalls - calls;
             if (calls != (ulong)(count * variant.CallsPerTick))
             {
-                throw new BenchException(variant.Row.Variant + " made " + calls + " calls into the JVM in " + count + " ticks, not " + variant.CallsPerTick + " a tick");
+                throw new BenchException(variant.Row.Variant + " made " + calls + " calls into the JVM in " + count + " ticks, not " + variant.CallsPerTick
+                    + " a tick");
             }
             jvm = variant.JvmBytes() - jvm;
             if (variant.Rounds != null) variant.Row.AddRounds(variant.Rounds, count);
@@ -107,12 +109,14 @@ namespace Collektive.Headless.Bench
         }
 
         /// <summary>Nodes, or what is as much work.</summary>
-        private static int Weight(Variant variant) => variant is PerNodeCall ? variant.Row.Nodes * 20 : variant is Spawn ? variant.Row.Nodes * 4 : variant.Row.Nodes;
+        private static int Weight(Variant variant) => variant is PerNodeCall ? variant.Row.Nodes * 20 : variant is Spawn ? variant.Row.Nodes * 4
+            : variant.Row.Nodes;
 
         /// <summary>Ticks until the compilers are done: some seconds' worth at first, then enough for caches.</summary>
         private int WarmUp(int weight) => Math.Max(10, (settings.Quick ? 1500000 : 4000000) / Math.Max(weight, 400));
 
-        private int BatchSize(int weight, bool paced) => paced ? 50 : Math.Max(8, Math.Min(settings.Quick ? 300 : 1000, (settings.Quick ? 400000 : 1500000) / Math.Max(weight, 1)));
+        private int BatchSize(int weight, bool paced) => paced ? 50
+            : Math.Max(8, Math.Min(settings.Quick ? 300 : 1000, (settings.Quick ? 400000 : 1500000) / Math.Max(weight, 1)));
 
         private void Write()
         {

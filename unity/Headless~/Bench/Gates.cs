@@ -56,7 +56,8 @@ namespace Collektive.Headless.Bench
 
         private static void Line(TextWriter output, string what, double value, string relation, double limit, bool met)
         {
-            output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#} {2} {3:0.0#}{4}", what, value, relation, limit, met ? "" : "   MISSED"));
+            output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#} {2} {3:0.0#}{4}", what, value, relation, limit,
+                met ? "" : "   MISSED"));
         }
     }
 }

@@ -79,7 +79,8 @@ namespace Collektive.Headless.Bench
     /// <summary>The seed's manner over the same shim: a call for each node.</summary>
     internal sealed class PerNodeCall : InProcess
     {
-        internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads) : base(settings, probe, "tick", "per-node-call", nodes, threads)
+        internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
+            : base(settings, probe, "tick", "per-node-call", nodes, threads)
         {
         }
 

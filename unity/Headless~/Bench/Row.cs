@@ -69,7 +69,8 @@ namespace Collektive.Headless.Bench
         {
             var json = new JObject(
                 new JProperty("name", Name), new JProperty("variant", Variant), new JProperty("program", Program), new JProperty("topology", Topology),
-                new JProperty("nodes", Nodes), new JProperty("threads", Threads), new JProperty("median_us", Round(Median)), new JProperty("p99_us", Round(P99)),
+                new JProperty("nodes", Nodes), new JProperty("threads", Threads), new JProperty("median_us", Round(Median)),
+                new JProperty("p99_us", Round(P99)),
                 new JProperty("min_us", Round(Quantile(0))), new JProperty("managed_bytes_per_tick", Bytes(ManagedBytes)),
                 new JProperty("jvm_bytes_per_tick", Bytes(JvmBytes)));
             json.Merge(More);

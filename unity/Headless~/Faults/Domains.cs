@@ -12,7 +12,8 @@ namespace Collektive.Headless.Faults
         /// <summary>Whether all plays went well and left no session, slot or thread behind.</summary>
         internal static bool Play()
         {
-            var arguments = Array.FindAll(Environment.GetCommandLineArgs(), argument => argument.Contains("=") && !argument.StartsWith("act=", StringComparison.Ordinal));
+            var arguments = Array.FindAll(Environment.GetCommandLineArgs(),
+                argument => argument.Contains("=") && !argument.StartsWith("act=", StringComparison.Ordinal));
             Array.Resize(ref arguments, arguments.Length + 1);
             var threads = 0;
             for (var i = 0; i < Times; i++)

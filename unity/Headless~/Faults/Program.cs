@@ -48,7 +48,8 @@ namespace Collektive.Headless.Faults
         {
             var works = act == "domains" ? Domains.Play() : Play(faulty, fault, act);
             // A JVM that runs keeps its options.
-            if (!works) works = Jvm.State == JvmState.Running ? Said("next session", Play(faulty.With(good), "none", "none")) : Said("next start", Play(good, "none", "none"));
+            if (!works) works = Jvm.State == JvmState.Running ? Said("next session", Play(faulty.With(good), "none", "none"))
+                : Said("next start", Play(good, "none", "none"));
             else works = Said("next tick", true) && Said("next play", Play(faulty, "none", "none"));
             var csharp = Acts.CSharpWorks();
             try

@@ -71,7 +71,8 @@ namespace Collektive.Headless
         {
             if (inFrame || finished) throw Order(nameof(BeginFrame), inFrame ? "the frame before is not ended" : "the replay is finished");
             if (!(time > lastTime) || double.IsInfinity(time))
-                throw new ArgumentException("Frame " + Number(frames) + " of the replay has time " + Number(time) + ": it must be finite and later than " + Number(lastTime) + ".", nameof(time));
+                throw new ArgumentException("Frame " + Number(frames) + " of the replay has time " + Number(time) + ": it must be finite and later than "
+                    + Number(lastTime) + ".", nameof(time));
             lastTime = time;
             frames++;
             inFrame = true;
@@ -86,9 +87,11 @@ namespace Collektive.Headless
         {
             if (!inFrame) throw Order(nameof(Node), "no frame has begun");
             if (!IsFinite(x) || !IsFinite(y) || !IsFinite(z))
-                throw new ArgumentException("Node " + Number(id) + " is at (" + Number(x) + ", " + Number(y) + ", " + Number(z) + ") in frame " + Number(frames - 1) + " of the replay: positions must be finite.");
+                throw new ArgumentException("Node " + Number(id) + " is at (" + Number(x) + ", " + Number(y) + ", " + Number(z) + ") in frame "
+                    + Number(frames - 1) + " of the replay: positions must be finite.");
             if (float.IsInfinity(scalar))
-                throw new ArgumentException("Node " + Number(id) + " has an infinite scalar in frame " + Number(frames - 1) + " of the replay: give a finite one, or NaN for none.");
+                throw new ArgumentException("Node " + Number(id) + " has an infinite scalar in frame " + Number(frames - 1)
+                    + " of the replay: give a finite one, or NaN for none.");
             if (!slotOfId.TryGetValue(id, out var slot)) slot = NewSlot(id);
             else if (lastFrameOfSlot[slot] == frames)
                 throw new ArgumentException("Node " + Number(id) + " is given twice in frame " + Number(frames - 1) + " of the replay: give each node once.");
@@ -105,7 +108,8 @@ namespace Collektive.Headless
             if (!inFrame) throw Order(nameof(Link), "no frame has begun");
             int slotA = PresentSlot(a, a, b), slotB = PresentSlot(b, a, b);
             if (slotA == slotB)
-                throw new ArgumentException("Node " + Number(a) + " is linked to itself in frame " + Number(frames - 1) + " of the replay: leave that link out.");
+                throw new ArgumentException("Node " + Number(a) + " is linked to itself in frame " + Number(frames - 1)
+                    + " of the replay: leave that link out.");
             if (linkCount == links.Length) Array.Resize(ref links, linkCount * 2);
             links[linkCount++] = slotA < slotB ? Key(slotA, slotB) : Key(slotB, slotA);
         }
@@ -160,7 +164,8 @@ namespace Collektive.Headless
 
         private int NewSlot(int id)
         {
-            if (slots == MaxSlots) throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " different node ids, the most that it can hold.");
+            if (slots == MaxSlots)
+                throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " different node ids, the most that it can hold.");
             if (slots == idOfSlot.Length)
             {
                 Array.Resize(ref idOfSlot, slots * 2);
@@ -178,7 +183,8 @@ namespace Collektive.Headless
         private int PresentSlot(int id, int a, int b)
         {
             if (slotOfId.TryGetValue(id, out var slot) && lastFrameOfSlot[slot] == frames) return slot;
-            throw new ArgumentException("Link " + Number(a) + " - " + Number(b) + ": node " + Number(id) + " is not in frame " + Number(frames - 1) + " of the replay. Give a frame's nodes before its links.");
+            throw new ArgumentException("Link " + Number(a) + " - " + Number(b) + ": node " + Number(id) + " is not in frame " + Number(frames - 1)
+                + " of the replay. Give a frame's nodes before its links.");
         }
 
         private void WriteNodes()
@@ -312,6 +318,7 @@ namespace Collektive.Headless
         private static string Number(double value) => value.ToString("R", CultureInfo.InvariantCulture);
 
         private static InvalidOperationException Order(string call, string why) =>
-            new InvalidOperationException("ReplayWriter." + call + ": " + why + ". The order is BeginFrame, Node..., Link..., EndFrame for each frame, then Finish.");
+            new InvalidOperationException("ReplayWriter." + call + ": " + why
+                + ". The order is BeginFrame, Node..., Link..., EndFrame for each frame, then Finish.");
     }
 }

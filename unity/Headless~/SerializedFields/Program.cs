@@ -65,7 +65,8 @@ static class Program
         if (typeof(UnityEngine.Object).IsAssignableFrom(type)) return "reference";
         if (ElementOf(type) is Type element) return ElementOf(element) == null && KindOf(element) != null ? "list" : null;
         if (type.Assembly == typeof(MonoBehaviour).Assembly && type.IsValueType) return "value";
-        if (type.IsDefined(typeof(SerializableAttribute), false) && !type.IsAbstract && !type.IsGenericType && !typeof(Delegate).IsAssignableFrom(type)) return "fields";
+        if (type.IsDefined(typeof(SerializableAttribute), false) && !type.IsAbstract && !type.IsGenericType && !typeof(Delegate).IsAssignableFrom(type))
+            return "fields";
         return null;
     }
 

@@ -27,7 +27,8 @@ namespace UnityEditor
             var path = GetFilePath();
             Directory.CreateDirectory(Path.GetDirectoryName(path));
             using (var file = new StreamWriter(path))
-                foreach (var field in typeof(T).GetFields(BindingFlags.Instance | BindingFlags.Public)) file.WriteLine(field.Name + ": " + field.GetValue(this));
+                foreach (var field in typeof(T).GetFields(BindingFlags.Instance | BindingFlags.Public))
+                    file.WriteLine(field.Name + ": " + field.GetValue(this));
         }
 
         protected static string GetFilePath() => typeof(T).GetCustomAttribute<FilePathAttribute>().relativePath;

@@ -46,7 +46,8 @@ namespace Collektive.Bridge
                 status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
             new JvmSetting(
                 nameof(JvmSettings.collector), "Collector",
-                "The garbage collector. Automatic is Serial: rounds leave little behind, and run fastest with it. Parallel, G1 or Z for programs that keep much. " +
+                "The garbage collector. Automatic is Serial: rounds leave little behind, and run fastest with it. Parallel, G1 or Z " +
+                "for programs that keep much. " +
                 "Shenandoah is not in every JVM.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
                 nameof(JvmSettings.compiler), "Compiler",

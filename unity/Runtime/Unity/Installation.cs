@@ -57,13 +57,16 @@ namespace Collektive.Unity
             switch (settings.location)
             {
                 case JvmLocation.Bundled:
-                    return Directory.Exists(Bundled) ? Bundled : throw Missing("the package has no JVM of its own: install the package that has one, or choose another location");
+                    return Directory.Exists(Bundled) ? Bundled
+                        : throw Missing("the package has no JVM of its own: install the package that has one, or choose another location");
                 case JvmLocation.JavaHome:
-                    return FromEnvironment.Length > 0 ? FromEnvironment : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
+                    return FromEnvironment.Length > 0 ? FromEnvironment
+                        : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
                 case JvmLocation.Folder:
                     return Path.GetFullPath(settings.home);
                 default:
-                    return JavaHome.Length > 0 ? JavaHome : throw Missing("there is no JVM: install the package that has one, set JAVA_HOME, or choose a folder in the JVM settings");
+                    return JavaHome.Length > 0 ? JavaHome
+                        : throw Missing("there is no JVM: install the package that has one, set JAVA_HOME, or choose a folder in the JVM settings");
             }
         }
 

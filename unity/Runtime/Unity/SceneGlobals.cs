@@ -29,7 +29,8 @@ namespace Collektive.Unity
         private static string Write<T>(GlobalBuffer buffer, Action<T> write)
         {
             if (buffer == null) return "global data were set, but the session's schema has no GlobalData: add it to the schema";
-            if (!(buffer is GlobalBuffer<T> typed)) return "global data were set as " + typeof(T).FullName + ", the session's schema has " + buffer.DataType.FullName;
+            if (!(buffer is GlobalBuffer<T> typed))
+                return "global data were set as " + typeof(T).FullName + ", the session's schema has " + buffer.DataType.FullName;
             write(typed.Data);
             var field = buffer.FindNotFinite();
             return field == null ? null : "global data hold a number that is not finite in " + field;

@@ -77,7 +77,8 @@ namespace Collektive.Samples.GradientAscent
         {
             if (nodes < 1 || !(range >= 0) || !(bodyRadius > 0))
             {
-                manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range + " m: there must be at least one node, of some size");
+                manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range
+                    + " m: there must be at least one node, of some size");
                 return;
             }
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };

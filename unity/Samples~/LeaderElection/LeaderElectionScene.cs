@@ -72,7 +72,8 @@ namespace Collektive.Samples.LeaderElection
         {
             if (nodes < 1 || !(range >= 0) || !(radius > 0))
             {
-                manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m and regions of " + radius + " m: there must be at least one node, and regions of some size");
+                manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m and regions of " + radius
+                    + " m: there must be at least one node, and regions of some size");
                 return;
             }
             this.manager = manager;

@@ -6,9 +6,11 @@ namespace Collektive.Unity.Editor.Tests
     {
         [TestCase("Assets/Swarm/swarm.fbs:3: 12: error: expecting: ; instead got: }", "Assets/Swarm/swarm.fbs", 3, 12, "expecting: ; instead got: }")]
         [TestCase("  C:/Project/Assets/swarm.fbs(3, 12): error: expecting: ;", "C:/Project/Assets/swarm.fbs", 3, 12, "expecting: ;")]
-        [TestCase("/home/ada/Assets/Programs/Hops.kt:10:21: error: unresolved reference 'nesting'.", "/home/ada/Assets/Programs/Hops.kt", 10, 21, "unresolved reference 'nesting'.")]
+        [TestCase("/home/ada/Assets/Programs/Hops.kt:10:21: error: unresolved reference 'nesting'.", "/home/ada/Assets/Programs/Hops.kt", 10, 21,
+            "unresolved reference 'nesting'.")]
         [TestCase("file:///home/ada/Hops.kt:10:21: error: no", "/home/ada/Hops.kt", 10, 21, "no")]
-        [TestCase("Library/Collektive/java/SensorData.java:7: error: cannot find symbol", "Library/Collektive/java/SensorData.java", 7, 0, "cannot find symbol")]
+        [TestCase("Library/Collektive/java/SensorData.java:7: error: cannot find symbol", "Library/Collektive/java/SensorData.java", 7, 0,
+            "cannot find symbol")]
         public void Each_tools_errors_are_read_with_file_and_line(string output, string file, int line, int column, string text)
         {
             var messages = ToolMessage.Parse(output);

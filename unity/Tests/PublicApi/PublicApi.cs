@@ -9,7 +9,8 @@ namespace Collektive.Unity.PublicApi.Tests
     /// <summary>The public and protected members of an assembly as text, one a line, sorted.</summary>
     internal static class PublicApi
     {
-        private const BindingFlags Declared = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
+        private const BindingFlags Declared =
+            BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
         /// <summary>The types in namespaces that begin with Collektive; generated code is left out.</summary>
         internal static string Of(Assembly assembly)
@@ -32,7 +33,8 @@ namespace Collektive.Unity.PublicApi.Tests
         private static string Kind(Type type)
         {
             if (type.IsEnum) return "enum";
-            var kind = type.IsInterface ? "interface" : type.IsValueType ? "struct" : type.IsAbstract && type.IsSealed ? "static class" : type.IsAbstract ? "abstract class" : type.IsSealed ? "sealed class" : "class";
+            var kind = type.IsInterface ? "interface" : type.IsValueType ? "struct" : type.IsAbstract && type.IsSealed ? "static class" : type.IsAbstract
+                ? "abstract class" : type.IsSealed ? "sealed class" : "class";
             return type.BaseType == null || type.IsValueType || type.BaseType == typeof(object) ? kind : kind + ", " + Name(type.BaseType);
         }
 
@@ -47,7 +49,8 @@ namespace Collektive.Unity.PublicApi.Tests
                 case PropertyInfo property:
                     var get = IsVisible(property.GetMethod) ? "get; " : "";
                     var set = IsVisible(property.SetMethod) ? "set; " : "";
-                    return get + set == "" ? null : property.Name + Parameters(property.GetIndexParameters(), "[", "]") + " : " + Name(property.PropertyType) + " { " + get + set + "}";
+                    return get + set == "" ? null : property.Name + Parameters(property.GetIndexParameters(), "[", "]") + " : " + Name(property.PropertyType)
+                        + " { " + get + set + "}";
                 case EventInfo happening:
                     return IsVisible(happening.AddMethod) ? happening.Name + " : event " + Name(happening.EventHandlerType) : null;
                 case ConstructorInfo constructor:
@@ -70,7 +73,8 @@ namespace Collektive.Unity.PublicApi.Tests
         private static string Parameters(ParameterInfo[] parameters, string open, string close)
         {
             if (parameters.Length == 0 && open == "[") return "";
-            var parts = Array.ConvertAll(parameters, parameter => Name(parameter.ParameterType) + " " + parameter.Name + (parameter.IsOptional ? " = " + Convert.ToString(parameter.DefaultValue ?? "null", CultureInfo.InvariantCulture) : ""));
+            var parts = Array.ConvertAll(parameters, parameter => Name(parameter.ParameterType) + " " + parameter.Name
+                + (parameter.IsOptional ? " = " + Convert.ToString(parameter.DefaultValue ?? "null", CultureInfo.InvariantCulture) : ""));
             return open + string.Join(", ", parts) + close;
         }
 

@@ -49,7 +49,8 @@ namespace Collektive.Unity.PublicApi.Tests
 
         protected override void Build(SimulationManager manager)
         {
-            manager.Ticked += ticked => Debug.Log(ticked.Tick + " at " + ticked.SimulatedTime + " s, " + ticked.LinkCount + " links, " + ticked.ErrorCount + " errors");
+            manager.Ticked += ticked =>
+                Debug.Log(ticked.Tick + " at " + ticked.SimulatedTime + " s, " + ticked.LinkCount + " links, " + ticked.ErrorCount + " errors");
             for (var i = 0; i < nodes; i++)
             {
                 var node = new GameObject("Node " + i).AddComponent<Node>();

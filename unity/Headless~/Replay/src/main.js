@@ -97,10 +97,12 @@ class Player {
     element('selected-name').textContent = `Node ${ids[selected]}`;
     const here = state.present[selected] === 1;
     const value = state.scalar[selected];
-    element('selected-scalar').textContent = !here ? 'not there at this time' : `${metadata.scalar.name} ${Number.isNaN(value) ? 'has no value' : withUnit(value, metadata)}`;
+    const told = Number.isNaN(value) ? 'has no value' : withUnit(value, metadata);
+    element('selected-scalar').textContent = here ? `${metadata.scalar.name} ${told}` : 'not there at this time';
     element('selected-position').textContent = here ? `at ${[0, 1, 2].map((axis) => positions[3 * selected + axis].toFixed(2)).join(', ')} m` : '';
     const neighbours = here ? this.neighbours(selected) : [];
-    element('selected-neighbours').textContent = here ? `${plural(neighbours.length, 'neighbour')}${neighbours.length ? ': ' : ''}${neighbours.join(', ')}` : '';
+    const listed = neighbours.length ? `: ${neighbours.join(', ')}` : '';
+    element('selected-neighbours').textContent = here ? `${plural(neighbours.length, 'neighbour')}${listed}` : '';
   }
 
   neighbours(slot) {
@@ -342,7 +344,9 @@ const ready = started.then(
           frame: state.frame,
           time: player.time,
           playing: player.playing,
-          nodes: Array.from(state.slots.subarray(0, state.count), (s) => ({ id: ids[s], x: state.x[s], y: state.y[s], z: state.z[s], scalar: state.scalar[s] })),
+          nodes: Array.from(state.slots.subarray(0, state.count), (s) => ({
+            id: ids[s], x: state.x[s], y: state.y[s], z: state.z[s], scalar: state.scalar[s],
+          })),
           links: Array.from({ length: linkCount }, (_, i) => [ids[pairs[2 * i]], ids[pairs[2 * i + 1]]]),
         };
       },

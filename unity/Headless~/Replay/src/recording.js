@@ -53,7 +53,9 @@ class Recording {
     const { data } = this;
     if (data.getUint32(0, true) !== MAGIC) throw new ReplayError('The data of this page is not a recording.');
     const version = data.getUint32(4, true);
-    if (version !== VERSION) throw new ReplayError(`The recording has version ${version}, this page reads version ${VERSION}: build page and recording from one release.`);
+    if (version !== VERSION) {
+      throw new ReplayError(`The recording has version ${version}, this page reads version ${VERSION}: build page and recording from one release.`);
+    }
     const metadataLength = data.getUint32(8, true);
     this.metadata = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(new Uint8Array(buffer, 12, metadataLength)));
     this.times = [];

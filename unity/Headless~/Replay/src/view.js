@@ -8,8 +8,14 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const THEMES = {
-  light: { background: '#eef1f4', floor: '#fbfcfd', grid: '#dfe4ea', border: '#b4bec9', shape: '#8793a3', edge: '#4d5967', outline: '#2f3a46', link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, accent: '#d6336c' },
-  dark: { background: '#0d1014', floor: '#191e24', grid: '#262d35', border: '#48525e', shape: '#5d6875', edge: '#98a4b1', outline: '#c3ccd6', link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, accent: '#ff5c8a' },
+  light: {
+    background: '#eef1f4', floor: '#fbfcfd', grid: '#dfe4ea', border: '#b4bec9', shape: '#8793a3', edge: '#4d5967', outline: '#2f3a46',
+    link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, accent: '#d6336c',
+  },
+  dark: {
+    background: '#0d1014', floor: '#191e24', grid: '#262d35', border: '#48525e', shape: '#5d6875', edge: '#98a4b1', outline: '#c3ccd6',
+    link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, accent: '#ff5c8a',
+  },
 };
 const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
 const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow

@@ -65,7 +65,8 @@ namespace Collektive.Headless.Tests.Editor
         {
             Write("kotlinc/build.txt", version);
             Directory.CreateDirectory("kotlinc/lib");
-            foreach (var jar in Directory.GetFiles(Path.Combine(Root, "build/kotlinc"), "*.jar")) File.Copy(jar, Path.Combine("kotlinc/lib", Path.GetFileName(jar)));
+            foreach (var jar in Directory.GetFiles(Path.Combine(Root, "build/kotlinc"), "*.jar"))
+                File.Copy(jar, Path.Combine("kotlinc/lib", Path.GetFileName(jar)));
             Unity.Editor.ProjectSettings.instance.kotlin = Path.GetFullPath("kotlinc");
         }
 

@@ -17,7 +17,8 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Act("Build before Play", false);
             Draw();
             Assert.That(ProjectSettings.instance.jdk, Is.EqualTo("/opt/jdk"));
-            Assert.That(File.ReadAllText("ProjectSettings/Collektive.asset"), Is.StringContaining("jdk: /opt/jdk").And.StringContaining("buildBeforePlay: False"));
+            Assert.That(File.ReadAllText("ProjectSettings/Collektive.asset"),
+                Is.StringContaining("jdk: /opt/jdk").And.StringContaining("buildBeforePlay: False"));
         }
 
         [Test]

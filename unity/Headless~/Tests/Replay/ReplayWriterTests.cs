@@ -311,7 +311,8 @@ namespace Collektive.Headless.Tests
             Assert.IsTrue(expected.Links.SetEquals(actual.Links), "the links differ"); // AreEquivalent takes minutes
             float extent = 0;
             foreach (var node in expected.Nodes.Values)
-                extent = Math.Max(extent, Math.Max(Math.Abs(node.X), Math.Max(Math.Abs(node.Y), Math.Max(Math.Abs(node.Z), float.IsNaN(node.Scalar) ? 0 : Math.Abs(node.Scalar)))));
+                extent = Math.Max(extent,
+                    Math.Max(Math.Abs(node.X), Math.Max(Math.Abs(node.Y), Math.Max(Math.Abs(node.Z), float.IsNaN(node.Scalar) ? 0 : Math.Abs(node.Scalar)))));
             var tolerance = 2 * extent / 65534;
             foreach (var pair in expected.Nodes)
             {

@@ -119,7 +119,8 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(0);
             var ball = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             var other = MakeNode(0).Actuator;
-            var switches = new[] { node.Node.gameObject.AddComponent<Switch>(), node.Node.gameObject.AddComponent<Switch>(), node.Node.gameObject.AddComponent<Switch>() };
+            var switches = new[] { node.Node.gameObject.AddComponent<Switch>(), node.Node.gameObject.AddComponent<Switch>(),
+                node.Node.gameObject.AddComponent<Switch>() };
             switches[0].Target = ball.GetComponent<Renderer>();
             switches[1].Target = ball.GetComponent<Collider>();
             switches[2].Target = other;

@@ -97,7 +97,8 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(capsule.ClosestPoint(new Vector3(3f, 1f, 0f)) == new Vector3(0.5f, 1f, 0f), Is.True);
             capsule.direction = 0;
             Assert.That(capsule.ClosestPoint(new Vector3(9f, 0f, 0f)) == new Vector3(2f, 0f, 0f), Is.True);
-            Assert.That(Physics.ClosestPoint(new Vector3(9f, 0f, 0f), capsule, new Vector3(1f, 0f, 0f), Quaternion.identity) == new Vector3(3f, 0f, 0f), Is.True);
+            Assert.That(Physics.ClosestPoint(new Vector3(9f, 0f, 0f), capsule, new Vector3(1f, 0f, 0f), Quaternion.identity) == new Vector3(3f, 0f, 0f),
+                Is.True);
         }
 
         [Test]

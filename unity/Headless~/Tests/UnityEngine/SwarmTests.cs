@@ -127,7 +127,8 @@ namespace Collektive.Headless.Tests.Engine
                 for (var round = 0; round < rounds; round++)
                     foreach (var body in bodies) Physics.OverlapSphereNonAlloc(body.transform.position, 3f, Results);
             });
-            Console.WriteLine($"{count} bodies, processor time: {physics / rounds:0.00} ms a step, {overlaps / rounds:0.00} ms for {count} overlap queries of 3 m");
+            Console.WriteLine($"{count} bodies, processor time: {physics / rounds:0.00} ms a step, "
+                + $"{overlaps / rounds:0.00} ms for {count} overlap queries of 3 m");
             foreach (var body in bodies) Assert.That(body.transform.position.y, Is.InRange(0.2f, 3f));
         }
 

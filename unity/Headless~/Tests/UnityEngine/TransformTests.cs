@@ -31,7 +31,8 @@ namespace Collektive.Headless.Tests.Engine
             return last;
         }
 
-        static void Same(Vector3 actual, Vector3 expected, float tolerance = 1e-2f) => Assert.That((actual - expected).magnitude, Is.LessThan(tolerance), $"{actual} is not {expected}");
+        static void Same(Vector3 actual, Vector3 expected, float tolerance = 1e-2f) =>
+            Assert.That((actual - expected).magnitude, Is.LessThan(tolerance), $"{actual} is not {expected}");
 
         [Test]
         public void Points_vectors_and_directions_come_back_from_the_world()

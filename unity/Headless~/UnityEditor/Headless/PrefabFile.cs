@@ -13,7 +13,8 @@ namespace UnityEditor.Headless
     {
         static readonly Dictionary<string, Type> BuiltIn = new Dictionary<string, Type>
         {
-            ["MeshFilter"] = typeof(MeshFilter), ["MeshRenderer"] = typeof(MeshRenderer), ["SphereCollider"] = typeof(SphereCollider), ["Rigidbody"] = typeof(Rigidbody),
+            ["MeshFilter"] = typeof(MeshFilter), ["MeshRenderer"] = typeof(MeshRenderer), ["SphereCollider"] = typeof(SphereCollider),
+            ["Rigidbody"] = typeof(Rigidbody),
         };
 
         internal static GameObject Load(string path)

@@ -71,7 +71,8 @@ namespace UnityEngine
         public Component AddComponent(Type componentType)
         {
             ThrowIfDestroyed();
-            if (componentType == null || componentType.IsAbstract || !typeof(Component).IsAssignableFrom(componentType) || typeof(Transform).IsAssignableFrom(componentType))
+            if (componentType == null || componentType.IsAbstract || !typeof(Component).IsAssignableFrom(componentType)
+                || typeof(Transform).IsAssignableFrom(componentType))
             {
                 Debug.LogError($"'{componentType}' is not a component that can be added to '{NameImpl}'.", this);
                 return null;

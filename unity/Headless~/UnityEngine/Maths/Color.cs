@@ -76,6 +76,7 @@ namespace UnityEngine
         public override readonly string ToString() => ToString("F3");
         public readonly string ToString(string format) => ToString(format, CultureInfo.InvariantCulture);
         public readonly string ToString(string format, IFormatProvider formatProvider) =>
-            $"RGBA({r.ToString(format, formatProvider)}, {g.ToString(format, formatProvider)}, {b.ToString(format, formatProvider)}, {a.ToString(format, formatProvider)})";
+            $"RGBA({r.ToString(format, formatProvider)}, {g.ToString(format, formatProvider)}, "
+            + $"{b.ToString(format, formatProvider)}, {a.ToString(format, formatProvider)})";
     }
 }

@@ -100,7 +100,8 @@ namespace UnityEngine
             var result = default(Matrix4x4);
             for (var row = 0; row < 4; row++)
                 for (var column = 0; column < 4; column++)
-                    result[row, column] = lhs[row, 0] * rhs[0, column] + lhs[row, 1] * rhs[1, column] + lhs[row, 2] * rhs[2, column] + lhs[row, 3] * rhs[3, column];
+                    result[row, column] = lhs[row, 0] * rhs[0, column] + lhs[row, 1] * rhs[1, column] + lhs[row, 2] * rhs[2, column]
+                        + lhs[row, 3] * rhs[3, column];
             return result;
         }
 

@@ -95,7 +95,8 @@ namespace UnityEngine
                 var sineX = 2f * (q.w * q.x - q.y * q.z);
                 Vector3 angles;
                 if (Mathf.Abs(sineX) > 0.999999f) // straight up or down: only y - z or y + z is defined, so z is 0
-                    angles = new Vector3(Mathf.Sign(sineX) * 90f, Mathf.Atan2(-2f * (q.x * q.z - q.w * q.y), 1f - 2f * (q.y * q.y + q.z * q.z)) * Mathf.Rad2Deg, 0f);
+                    angles = new Vector3(Mathf.Sign(sineX) * 90f, Mathf.Atan2(-2f * (q.x * q.z - q.w * q.y), 1f - 2f * (q.y * q.y + q.z * q.z)) * Mathf.Rad2Deg,
+                        0f);
                 else
                     angles = new Vector3(
                         Mathf.Asin(sineX),
@@ -221,6 +222,7 @@ namespace UnityEngine
         public override readonly string ToString() => ToString("F5");
         public readonly string ToString(string format) => ToString(format, CultureInfo.InvariantCulture);
         public readonly string ToString(string format, IFormatProvider formatProvider) =>
-            $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, {z.ToString(format, formatProvider)}, {w.ToString(format, formatProvider)})";
+            $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, "
+            + $"{z.ToString(format, formatProvider)}, {w.ToString(format, formatProvider)})";
     }
 }

@@ -167,7 +167,8 @@ namespace UnityEngine
                 var unturn = Quaternion.Inverse(Body.owner.TransformUnchecked.rotation);
                 shape = shape.Within(unturn * (transform.position - Body.owner.TransformUnchecked.position), unturn * transform.rotation);
             }
-            var same = local.Center.Equals(shape.Center) && local.Rotation.Equals(shape.Rotation) && local.Half.Equals(shape.Half) && local.Radius == shape.Radius;
+            var same = local.Center.Equals(shape.Center) && local.Rotation.Equals(shape.Rotation) && local.Half.Equals(shape.Half)
+                && local.Radius == shape.Radius;
             local = shape;
             if (!same)
             {

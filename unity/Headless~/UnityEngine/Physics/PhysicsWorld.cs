@@ -54,10 +54,12 @@ namespace UnityEngine
             }
             catch (DllNotFoundException exception)
             {
-                throw new DllNotFoundException("The physics engine ODE (libode.so.8) is missing: install it, on Debian or Ubuntu with 'apt-get install libode8'.", exception);
+                throw new DllNotFoundException(
+                    "The physics engine ODE (libode.so.8) is missing: install it, on Debian or Ubuntu with 'apt-get install libode8'.", exception);
             }
             if (Ode.dCheckConfiguration("ODE_double_precision") == 0)
-                throw new NotSupportedException("The installed ODE (libode.so.8) is a single precision build; the headless player needs double precision, as Debian and Ubuntu build it.");
+                throw new NotSupportedException(
+                    "The installed ODE (libode.so.8) is a single precision build; the headless player needs double precision, as Debian and Ubuntu build it.");
             initialized = true;
         }
 

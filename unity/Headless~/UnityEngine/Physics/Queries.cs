@@ -43,7 +43,8 @@ namespace UnityEngine
             return true;
         }
 
-        public static bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit nearest, float maxDistance, int layerMask, QueryTriggerInteraction triggers)
+        public static bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit nearest, float maxDistance, int layerMask,
+            QueryTriggerInteraction triggers)
         {
             nearest = default;
             var unit = direction.normalized;
@@ -57,7 +58,8 @@ namespace UnityEngine
             return !(nearest.collider is null);
         }
 
-        public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask, QueryTriggerInteraction triggers)
+        public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
+            QueryTriggerInteraction triggers)
         {
             var unit = direction.normalized;
             if (unit.sqrMagnitude == 0f) return 0;

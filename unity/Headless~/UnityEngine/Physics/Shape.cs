@@ -125,7 +125,8 @@ namespace UnityEngine
             }
             var end = new Vector3(0f, 0f, Half.z);
             if ((from - end).sqrMagnitude < Radius * Radius || (from + end).sqrMagnitude < Radius * Radius) return false;
-            bool top = HitsBall(from, way, end, out var topDistance, out var topNormal), bottom = HitsBall(from, way, -end, out var bottomDistance, out var bottomNormal);
+            bool top = HitsBall(from, way, end, out var topDistance, out var topNormal),
+                bottom = HitsBall(from, way, -end, out var bottomDistance, out var bottomNormal);
             if (!top && !bottom) return false;
             var useTop = top && (!bottom || topDistance <= bottomDistance);
             distance = useTop ? topDistance : bottomDistance;

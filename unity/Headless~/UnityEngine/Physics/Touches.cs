@@ -154,7 +154,8 @@ namespace UnityEngine
             {
                 if (!(to.components[index] is MonoBehaviour script) || !script.didAwake) continue;
                 var messages = script.messages;
-                Messages.Send(touch.LastStep != step ? messages.OnTriggerExit : touch.FirstStep == step ? messages.OnTriggerEnter : messages.OnTriggerStay, script, other);
+                Messages.Send(touch.LastStep != step ? messages.OnTriggerExit : touch.FirstStep == step ? messages.OnTriggerEnter : messages.OnTriggerStay,
+                    script, other);
             }
         }
 
@@ -173,7 +174,8 @@ namespace UnityEngine
             {
                 if (!(target.components[index] is MonoBehaviour script) || !script.didAwake) continue;
                 var messages = script.messages;
-                Messages.Send(touch.LastStep != step ? messages.OnCollisionExit : touch.FirstStep == step ? messages.OnCollisionEnter : messages.OnCollisionStay, script, message);
+                Messages.Send(touch.LastStep != step ? messages.OnCollisionExit : touch.FirstStep == step ? messages.OnCollisionEnter
+                    : messages.OnCollisionStay, script, message);
             }
         }
 
@@ -195,7 +197,8 @@ namespace UnityEngine
                 message.impulse += impulse;
                 message.Contacts.Add(new ContactPoint
                 {
-                    point = contact.Point, normal = contact.Normal * sign, impulse = impulse, separation = -contact.Depth, thisCollider = to, otherCollider = other,
+                    point = contact.Point, normal = contact.Normal * sign, impulse = impulse, separation = -contact.Depth, thisCollider = to,
+                    otherCollider = other,
                 });
             }
         }

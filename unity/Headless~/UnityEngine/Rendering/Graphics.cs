@@ -26,11 +26,15 @@ namespace UnityEngine
         public static void RenderMesh(in RenderParams rparams, Mesh mesh, int submeshIndex, Matrix4x4 objectToWorld, Matrix4x4? prevObjectToWorld = null) =>
             Headless.DrawLog.Add(rparams.material, mesh, 1);
 
-        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1, int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount, instanceData, startInstance);
+        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1,
+            int startInstance = 0)
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount,
+                instanceData, startInstance);
 
-        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, List<T> instanceData, int instanceCount = -1, int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount, instanceData, startInstance);
+        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, List<T> instanceData, int instanceCount = -1,
+            int startInstance = 0)
+            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount,
+                instanceData, startInstance);
     }
 
     public sealed class Gizmos

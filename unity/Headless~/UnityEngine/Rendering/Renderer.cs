@@ -26,9 +26,11 @@ namespace UnityEngine
                 if (!mesh) return new Bounds(transform.position, Vector3.zero);
                 var matrix = transform.localToWorldMatrix;
                 var extents = mesh.bounds.extents;
-                Vector3 x = matrix.MultiplyVector(new Vector3(extents.x, 0f, 0f)), y = matrix.MultiplyVector(new Vector3(0f, extents.y, 0f)), z = matrix.MultiplyVector(new Vector3(0f, 0f, extents.z));
+                Vector3 x = matrix.MultiplyVector(new Vector3(extents.x, 0f, 0f)), y = matrix.MultiplyVector(new Vector3(0f, extents.y, 0f)),
+                    z = matrix.MultiplyVector(new Vector3(0f, 0f, extents.z));
                 var reach = new Vector3(
-                    Mathf.Abs(x.x) + Mathf.Abs(y.x) + Mathf.Abs(z.x), Mathf.Abs(x.y) + Mathf.Abs(y.y) + Mathf.Abs(z.y), Mathf.Abs(x.z) + Mathf.Abs(y.z) + Mathf.Abs(z.z));
+                    Mathf.Abs(x.x) + Mathf.Abs(y.x) + Mathf.Abs(z.x), Mathf.Abs(x.y) + Mathf.Abs(y.y) + Mathf.Abs(z.y),
+                        Mathf.Abs(x.z) + Mathf.Abs(y.z) + Mathf.Abs(z.z));
                 return new Bounds(matrix.MultiplyPoint3x4(mesh.bounds.center), reach * 2f);
             }
             set => ownBounds = value;

@@ -34,7 +34,8 @@ namespace Collektive.Bridge
         public abstract ulong WriteChildren(DraftWriter writer);
 
         /// <summary>
-        /// Fills the row after <see cref="WriteChildren"/>. <paramref name="vtable"/> and <paramref name="place"/> are where the vtable and the row lie, in bytes
+        /// Fills the row after <see cref="WriteChildren"/>. <paramref name="vtable"/> and <paramref name="place"/> are where the vtable and the row lie, in
+        /// bytes
         /// from the end of the frame.
         /// </summary>
         public abstract void Fill(ref TRow row, int vtable, int place);

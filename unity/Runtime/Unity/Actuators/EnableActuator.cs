@@ -25,7 +25,8 @@ namespace Collektive.Unity
             if (target is Behaviour behaviour) behaviour.enabled = on;
             else if (target is Renderer renderer) renderer.enabled = on;
             else if (target is Collider collider) collider.enabled = on;
-            else throw new InvalidOperationException("its target is " + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": name a behaviour, a renderer or a collider");
+            else throw new InvalidOperationException("its target is "
+                + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": name a behaviour, a renderer or a collider");
         }
 
         /// <summary>Whether the program's answer wants the component enabled.</summary>

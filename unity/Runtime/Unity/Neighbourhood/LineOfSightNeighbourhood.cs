@@ -77,7 +77,8 @@ namespace Collektive.Unity
         {
             int found;
             // A full array may have left some out.
-            while ((found = Physics.RaycastNonAlloc(here, other.position - here, inTheWay, distance, layers, QueryTriggerInteraction.Ignore)) == inTheWay.Length)
+            while ((found = Physics.RaycastNonAlloc(here, other.position - here, inTheWay, distance, layers,
+                QueryTriggerInteraction.Ignore)) == inTheWay.Length)
             {
                 inTheWay = new RaycastHit[2 * inTheWay.Length];
             }

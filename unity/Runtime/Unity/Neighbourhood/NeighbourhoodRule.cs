@@ -117,7 +117,8 @@ namespace Collektive.Unity
         {
             if (!ReferenceEquals(asked, this)) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
             if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
-            if (!IsAmount(attenuation)) throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
+            if (!IsAmount(attenuation))
+                throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
             // Nodes may have joined since the update began.
             if (other.Id >= places.Length) Array.Resize(ref places, SimulationManager.Current.IdCapacity);
             Connect(other.Id, length, attenuation);

@@ -151,7 +151,8 @@ namespace Collektive.Unity
             var reach = radius * (1 + 1e-6);
             var from = new Cell
             {
-                X = Math.Max(CellOf(centre.x - reach), least.X), Y = Math.Max(CellOf(centre.y - reach), least.Y), Z = Math.Max(CellOf(centre.z - reach), least.Z),
+                X = Math.Max(CellOf(centre.x - reach), least.X), Y = Math.Max(CellOf(centre.y - reach), least.Y),
+                Z = Math.Max(CellOf(centre.z - reach), least.Z),
             };
             var to = new Cell
             {
