@@ -20,9 +20,9 @@ build_bench() {
   build_native
   build_jvm
   build_csharp
-  assembly Collektive.Headless.Bench.exe "$CSHARP/Collektive.FlatBuffers.dll $CSHARP/Collektive.Bridge.dll $NEWTONSOFT" \
-    "$ROOT/unity/Headless~/Bench" "$ROOT/unity/Headless~/Player/Quantiles.cs" "$ROOT/unity/Samples~/GradientAscent/Generated" -- \
-    $GENERATED_CODE_SYMBOLS -target:exe
+  assembly Collektive.Headless.Bench.exe "$ROOT/unity/Headless~/Bench" "$ROOT/unity/Headless~/Player/Quantiles.cs" \
+    "$ROOT/unity/Samples~/GradientAscent/Generated" -- "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll" \
+    "-r:$CSHARP/Collektive.Bridge.dll" "-r:$NEWTONSOFT" -target:exe
 }
 
 cmd_bench() {
@@ -46,7 +46,7 @@ bench_tick() {
   setup_system
   build_bench
   managed mono-sgen "$CSHARP/Collektive.Headless.Bench.exe" --java-home "$(find_jdk)" --host-jar "$HOST_JAR" --jar "$SAMPLES_JAR" --jar "$BENCH_JAR" \
-    --out "$out" "${arguments[@]}" || exit 1
+    --out "$out" "${arguments[@]}"
   say "wrote $out"
 }
 
@@ -55,11 +55,11 @@ bench_rounds() {
   setup_system
   build_jvm
   mkdir -p "$BUILD/bench"
-  local java quiet=
+  local java quiet=()
   java="$(find_jdk)/bin/java"
   # JMH uses what newer JVMs warn of, in each process that it starts.
-  "$java" --sun-misc-unsafe-memory-access=allow -version >/dev/null 2>&1 && quiet=--sun-misc-unsafe-memory-access=allow
-  "$java" $quiet -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
-    "$BUILD/bench/rounds.json" "$@" || exit 1
+  "$java" --sun-misc-unsafe-memory-access=allow -version >/dev/null 2>&1 && quiet=(--sun-misc-unsafe-memory-access=allow)
+  "$java" "${quiet[@]}" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
+    "$BUILD/bench/rounds.json" "$@"
   say "wrote build/bench/rounds.json"
 }

@@ -31,6 +31,6 @@ cmd_generate() {
   [ -n "$csharp" ] || [ -n "$java" ] || csharp="$(dirname "$schema")/Generated"
   setup_system
   build_jvm
-  generator "$schema" ${csharp:+--csharp "$csharp"} ${java:+--java "$java"} || exit 1
+  generator "$schema" ${csharp:+--csharp "$csharp"} ${java:+--java "$java"}
   say "generated${csharp:+ C# into $csharp}${java:+ Java into $java}"
 }

@@ -1,40 +1,78 @@
-# Shared by the parts of ./collektive: places, output, and "do it once" steps.
+# Shared by the parts of ./collektive: places, output, the lock, and "do it once" steps.
 # Sourced, never run.
 
 BUILD="$ROOT/build"
 FLATC="$BUILD/flatc"
 FLATBUFFERS="$BUILD/flatbuffers"
 CSHARP="$BUILD/csharp"
-STARTED=$(date +%s)
+export COLLEKTIVE_STARTED=${COLLEKTIVE_STARTED:-$(date +%s)}
 
-say() { printf '[%4ds] %s\n' "$(($(date +%s) - STARTED))" "$*" >&2; }
+say() { printf '[%4ds] %s\n' "$(($(date +%s) - COLLEKTIVE_STARTED))" "$*" >&2; }
 fail() { printf 'collektive: %s\n' "$*" >&2; exit 1; }
 
 have() { command -v "$1" >/dev/null 2>&1; }
 
-# logged NAME COMMAND...: runs a step with its output in build/log/NAME.log, shown only when it fails.
+# pom_value NAME: a version of the JVM side, by the name of its element in the parent POM.
+pom_value() { sed -n "/<$1>/{s:.*<$1>\(.*\)</$1>.*:\1:p;q}" "$ROOT/jvm-host/pom.xml"; }
+
+# lock -s|-x: locks the outputs of this checkout until the process ends: shared to use them, exclusive to change them. Processes started
+# by the holder share its lock. Waits for other commands, and says so.
+lock() {
+  # The lock is on the folder itself: `clean` removes every file that could carry it.
+  [ /proc/self/fd/9 -ef "$ROOT" ] || exec 9<"$ROOT"
+  if flock -n "$1" 9; then return 0; fi
+  say "waiting for another collektive command that uses build/ ..."
+  flock "$1" 9
+}
+
+# unlock: for what runs other commands beside each other; each of them locks by itself.
+unlock() { exec 9<&-; }
+
+# logged LOG FUNCTION ARGUMENT...: runs a step with its output in a file, shown only when it fails. A step is a function in a process of its own:
+# there `set -e` holds, while bash ignores it in all that an `if`, `&&` or `||` calls.
 logged() {
-  local name=$1 log="$BUILD/log/$1.log"
+  local log=$1
   shift
-  mkdir -p "$BUILD/log"
-  say "$name ..."
-  if ! "$@" >"$log" 2>&1; then
-    tail -n 60 "$log" >&2
-    fail "$name failed; the whole log is build/log/$name.log"
-  fi
+  mkdir -p "$(dirname "$log")"
+  say "$(basename "$log" .log) ..."
+  if "$ROOT/collektive" step "$@" >"$log" 2>&1; then return 0; fi
+  tail -n 60 "$log" >&2
+  printf 'collektive: %s failed; the whole log is %s\n' "$(basename "$log" .log)" "${log#"$ROOT/"}" >&2
+  return 1
 }
 
-# fingerprint PATH...: one hash over the contents of files and folders, build outputs left out.
+# fingerprint PATH...: one hash over the contents of files and folders, build outputs left out. Files count by their places in the folder, not by
+# where that lies: checkouts can be moved, and copies of a project share what is compiled.
 fingerprint() {
-  { find "$@" \( -name target -o -name node_modules -o -name .git \) -prune -o -type f -print0 | LC_ALL=C sort -z | xargs -0 -r sha256sum; } | sha256sum | cut -c1-32
+  local path
+  for path in "$@"; do
+    if [ -d "$path" ]; then
+      (cd "$path" && find . \( -name target -o -name node_modules -o -name .git \) -prune -o -type f -print0 | LC_ALL=C sort -z | xargs -0 -r sha256sum)
+    else
+      sha256sum <"$path"
+    fi
+  done | sha256sum | cut -c1-32
 }
 
-# once NAME KEY COMMAND...: runs COMMAND unless it was done for this KEY (a hash of all that it depends on).
+# once NAME KEY COMMAND...: runs COMMAND as a step unless it was done for this KEY (a hash of all that it depends on). A step that starts
+# over after it was killed finds INTERRUPTED=yes: what it left behind may be incomplete.
 once() {
-  local name=$1 key=$2 stamp="$BUILD/stamp/$1"
+  local name=$1 key=$2 stamp="$BUILD/stamp/$1" INTERRUPTED= code=0
   shift 2
   if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$key" ]; then return 0; fi
-  logged "$name" "$@"
-  mkdir -p "$BUILD/stamp"
-  printf '%s\n' "$key" >"$stamp"
+  lock -x
+  if [ ! -f "$stamp" ] || [ "$(cat "$stamp")" != "$key" ]; then
+    mkdir -p "$BUILD/stamp"
+    if [ -f "$stamp.started" ]; then INTERRUPTED=yes; fi
+    export INTERRUPTED
+    rm -f "$stamp"
+    : >"$stamp.started"
+    # shellcheck disable=SC2310 # what can fail in it is the step, a process
+    logged "$BUILD/log/$name.log" "$@" || code=$?
+    rm -f "$stamp.started"
+    if [ "$code" != 0 ]; then exit "$code"; fi
+    printf '%s\n' "$key" >"$stamp.part"
+    mv "$stamp.part" "$stamp"
+  fi
+  lock -s
 }

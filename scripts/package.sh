@@ -1,7 +1,5 @@
 # ./collektive package: the Unity package as a tarball.
 
-PACKAGE="$BUILD/package"
-
 help_package() {
   cat <<'H'
 usage: ./collektive package [--out DIR] [--jre]
@@ -28,63 +26,64 @@ cmd_package() {
   build_native
   build_jvm
   build_csharp
-  logged stage-package stage_package
-  [ -z "$jre" ] || logged stage-jre stage_jre
+  local archive package
+  # Each command makes the package in a folder of its own, so that several can do it at once.
+  package=$(mktemp -d)
+  mkdir "$package/archive" "$package/content"
+  # shellcheck disable=SC2064 # the folder of now
+  trap "rm -rf '$package'" EXIT
+  logged "$BUILD/log/stage-package.log" stage_package "$package/content"
+  if [ -n "$jre" ]; then logged "$BUILD/log/stage-jre.log" stage_jre "$package/content"; fi
   mkdir -p "$out"
-  local archive
-  archive=$(npm pack "$PACKAGE" --pack-destination "$out" --ignore-scripts --silent) || fail "npm could not pack $PACKAGE"
-  if [ -n "$jre" ]; then
-    mv "$out/$archive" "$out/${archive%.tgz}$jre.tgz"
-    archive="${archive%.tgz}$jre.tgz"
-  fi
-  echo "$out/$archive"
+  archive=$(npm pack "$package/content" --pack-destination "$package/archive" --ignore-scripts --silent)
+  mv "$package/archive/$archive" "$out/${archive%.tgz}$jre.tgz"
+  echo "$out/${archive%.tgz}$jre.tgz"
 }
 
 # What the host and its programs use; jcmd and jfr attach to the JVM of the editor, jdwp lets debuggers in.
 JRE_MODULES=java.base,java.logging,java.management,jdk.management,jdk.jfr,jdk.unsupported,jdk.jcmd,jdk.jdwp.agent
 
-# stage_jre: a trimmed JVM into build/package. npm drops links, so the licences that jlink links to are copied.
+# stage_jre PACKAGE: a trimmed JVM into the package. npm drops links, so the licences that jlink links to are copied.
 stage_jre() {
-  local jdk jre="$BUILD/jre" target="$PACKAGE/unity/Jvm~/linux-x64"
-  jdk=$(find_jdk) || return 1
-  once jre "$JRE_MODULES $(fingerprint "$jdk/release") $(declare -f link_jre | sha256sum)" link_jre "$jdk" "$jre" || return 1
-  rm -rf "$target"
+  local jdk jre="$BUILD/jre" target="$1/unity/Jvm~/linux-x64"
+  jdk=$(find_jdk)
+  once jre "$JRE_MODULES $(fingerprint "$jdk/release") $(declare -f link_jre | sha256sum)" link_jre "$jdk" "$jre"
   cp -RL "$jre" "$target"
 }
 
 link_jre() {
-  local jdk=$1 jre=$2 compress=2
+  local jdk=$1 jre=$2 compress=2 version
   # The numbers of older JDKs have another name since 21.
-  [ "$(sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$jdk/release")" -lt 21 ] || compress=zip-9
+  version=$(jdk_version "$jdk")
+  if [ "$version" -ge 21 ]; then compress=zip-9; fi
   rm -rf "$jre"
   "$jdk/bin/jlink" --add-modules "$JRE_MODULES" --strip-native-debug-symbols=exclude-debuginfo-files --no-header-files --no-man-pages \
     --compress "$compress" --generate-cds-archive --output "$jre"
 }
 
-# stage_package: makes the whole package in build/package, from the allow-list of package.json and what was built.
+# stage_package PACKAGE: makes the whole package, from the allow-list of package.json and what was built.
 stage_package() {
-  local path sample unity="$PACKAGE/unity"
-  rm -rf "$PACKAGE"
-  mkdir -p "$PACKAGE"
-  python3 "$ROOT/scripts/package_json.py" "$ROOT" --sources | while read -r path; do
-    (cd "$ROOT" && cp -R --parents "$path" "$PACKAGE") || exit 1
-  done || return 1
+  local path sample sources unity="$1/unity"
+  sources=$(python3 "$ROOT/scripts/package_json.py" "$ROOT" --sources)
+  while read -r path; do (cd "$ROOT" && cp -R --parents "$path" "$1"); done <<<"$sources"
 
   mkdir -p "$unity/Runtime/Plugins/linux-x64" "$unity/Jvm~" "$unity/Tools~/linux-x64"
-  cp "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Plugins/" || return 1
-  strip --strip-unneeded -o "$unity/Runtime/Plugins/linux-x64/libcollektive_shim.so" "$SHIM/libcollektive_shim.so" || return 1
-  cp "$HOST_JAR" "$unity/Jvm~/collektive-host.jar" || return 1
-  cp "$SAMPLES_JAR" "$unity/Jvm~/collektive-samples.jar" || return 1
+  cp "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Plugins/"
+  strip --strip-unneeded -o "$unity/Runtime/Plugins/linux-x64/libcollektive_shim.so" "$SHIM/libcollektive_shim.so"
+  cp "$HOST_JAR" "$unity/Jvm~/collektive-host.jar"
+  cp "$SAMPLES_JAR" "$unity/Jvm~/collektive-samples.jar"
 
-  cp "$GENERATOR_JAR" "$ROOT/schema/types.fbs" "$unity/Tools~/" || return 1
-  cp "$COMPILER_PLUGIN" "$unity/Tools~/collektive-compiler-plugin.jar" || return 1
-  strip --strip-unneeded -o "$unity/Tools~/linux-x64/flatc" "$FLATC" || return 1
+  cp "$GENERATOR_JAR" "$ROOT/schema/types.fbs" "$unity/Tools~/"
+  cp "$COMPILER_PLUGIN" "$unity/Tools~/collektive-compiler-plugin.jar"
+  strip --strip-unneeded -o "$unity/Tools~/linux-x64/flatc" "$FLATC"
 
   # A sample's Kotlin lies in the reactor, where it is compiled and tested.
   for sample in "$unity/Samples~"/*/; do
     path="$ROOT/jvm-host/programs/src/main/kotlin/$(basename "$sample" | tr '[:upper:]' '[:lower:]')"
-    [ -d "$path" ] || continue
-    mkdir -p "$sample/Programs" && cp "$path"/*.kt "$sample/Programs/" || return 1
+    if [ -d "$path" ]; then
+      mkdir -p "$sample/Programs"
+      cp "$path"/*.kt "$sample/Programs/"
+    fi
   done
-  python3 "$ROOT/scripts/metas.py" "$PACKAGE"
+  python3 "$ROOT/scripts/metas.py" "$1"
 }

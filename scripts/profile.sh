@@ -24,11 +24,9 @@ cmd_profile() {
   [ -n "$out" ] || out="out/$(basename "$scenario" .json)-profile"
   local recording="$out/profile.jfr" code=0
   rm -f "$recording"
-  # A run whose rounds failed has a recording too, and that one is wanted most. Behind "||" nothing would end at an error any more.
-  set +e
-  (set -e; cmd_run "$scenario" --out "$out" --recording "$recording" "${arguments[@]}")
-  code=$?
-  set -e
-  [ ! -f "$recording" ] || "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$HOST_JAR" org.collektive.host.jfr.ProfileReport "$recording"
+  # A run whose rounds failed has a recording too, and that one is wanted most.
+  "$ROOT/collektive" run "$scenario" --out "$out" --recording "$recording" "${arguments[@]}" || code=$?
+  if [ ! -f "$recording" ]; then return "$code"; fi
+  "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$HOST_JAR" org.collektive.host.jfr.ProfileReport "$recording"
   return "$code"
 }

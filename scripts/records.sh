@@ -24,9 +24,7 @@ H
 records() {
   setup_system
   build_jvm
-  local code=0
-  "$(find_jdk)/bin/java" -cp "$HOST_JAR" org.collektive.host.record.RecordsKt "$@" || code=$?
-  exit "$code"
+  "$(find_jdk)/bin/java" -cp "$HOST_JAR" org.collektive.host.record.RecordsKt "$@"
 }
 
 cmd_replay() { records replay "$@"; }

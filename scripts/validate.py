@@ -8,9 +8,9 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import metas  # noqa: E402  (lies beside this file)
-from validator import asmdefs, guids, packing, references, serialized_fields  # noqa: E402
-from validator.assets import Assets  # noqa: E402
+import metas
+from validator import asmdefs, guids, packing, references, serialized_fields
+from validator.assets import Assets
 
 
 def problems(root, classes, ledger=guids.LEDGER):

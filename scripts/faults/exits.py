@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
 
-exits.py PLACES.json RUNS [KIND]...; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. Without a KIND all of them.
+exits.py PLACES.json RUNS [KIND]... [--results FILE.xml]; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. Without
+a KIND all of them; FILE gets the results as JUnit XML.
 """
+import argparse
 import collections
 import concurrent.futures
 import json
@@ -16,6 +18,9 @@ import sys
 import tempfile
 import threading
 import time
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import junit
 
 # How a run ends, and its exit code.
 KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
@@ -90,21 +95,31 @@ def run(places, kind, index):
 
 
 def main():
-    with open(sys.argv[1]) as file:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("places")
+    parser.add_argument("runs", type=int)
+    parser.add_argument("kinds", nargs="*", default=list(KINDS))
+    parser.add_argument("--results")
+    arguments = parser.parse_args()
+    runs, kinds = arguments.runs, arguments.kinds
+    with open(arguments.places) as file:
         places = json.load(file)
-    runs, kinds = int(sys.argv[2]), sys.argv[3:] or list(KINDS)
     # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    passed = failed = 0
+    cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
         rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in kinds}
         for kind, futures in rows.items():
-            problems = [problem for problem in (future.result() for future in futures) if problem]
+            outcomes = [future.result() for future in futures]
+            cases += [junit.Case(f"{kind}, run {index}", problem) for index, problem in enumerate(outcomes)]
+            problems = [problem for problem in outcomes if problem]
             print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)
             for problem, count in collections.Counter(problems).most_common(5):
                 print(f"  {count} times: {problem}")
-            passed, failed = passed + runs - len(problems), failed + len(problems)
-    print(f"{passed} passed, {failed} failed")
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if arguments.results:
+        junit.write(arguments.results, "exits", cases)
     sys.exit(failed > 0)
 
 

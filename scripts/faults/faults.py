@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Has each fault of faults.json happen in a process of its own and prints what comes of it: a table, and "N passed, N failed".
+"""Makes each fault of faults.json happen in a process of its own and prints what comes of it: a table, and "N passed, N failed".
 
-faults.py PLACES.json [WORDS]; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built.
+faults.py PLACES.json [WORDS] [--results FILE.xml]; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. With WORDS
+only faults with these words in their name; FILE gets the results as JUnit XML.
 """
+import argparse
 import concurrent.futures
 import json
 import os
@@ -16,6 +18,9 @@ import tempfile
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(HERE))
+import junit  # noqa: E402  (lies in the folder above)
+
 LIMIT_S = 180
 ORDER = ["next tick", "next session", "next start", "restart"]
 
@@ -140,11 +145,16 @@ def short(text, width):
 
 
 def main():
-    with open(sys.argv[1]) as file:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("places")
+    parser.add_argument("words", nargs="?", default="")
+    parser.add_argument("--results")
+    arguments = parser.parse_args()
+    words = arguments.words
+    with open(arguments.places) as file:
         places = json.load(file)
     with open(os.path.join(HERE, "faults.json")) as file:
         faults = json.load(file)
-    words = sys.argv[2] if len(sys.argv) > 2 else ""
     faults = [fault for fault in faults if words in fault["fault"]]
     if not faults:
         sys.stderr.write(f"collektive: no fault of faults.json has '{words}' in its name\n")
@@ -154,7 +164,7 @@ def main():
           '. "ok": the process survived, and what is said here came true.\n')
     head = f"{'fault':52} " + " ".join(f"{index + 1:>2}" for index in range(len(kinds))) + f" {'works afterwards':16}  the user reads"
     print(head + "\n" + "-" * len(head))
-    passed = failed = 0
+    cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
         rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds]) for fault in faults]
         for fault, futures in rows:
@@ -163,11 +173,14 @@ def main():
             read = next((read for _, read, _, _ in results if read), "")
             print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
             for (wrong, _, _, text), (runtime, jdk) in zip(results, kinds):
-                passed, failed = (passed, failed + 1) if wrong else (passed + 1, failed)
+                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}", wrong))
                 if wrong:
                     lines = [short(line, 300) for line in text.splitlines()]
                     print(f"    ! {runtime}, {os.path.basename(jdk)}: {wrong}\n        " + "\n        ".join(lines[:15] + ["..."] + lines[15:][-15:]))
-    print(f"{passed} passed, {failed} failed")
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if arguments.results:
+        junit.write(arguments.results, "faults", cases)
     sys.exit(failed > 0)
 
 

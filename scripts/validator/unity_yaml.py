@@ -82,7 +82,7 @@ def mapping(rows, at, indent):
         at += 1
         if match[2]:
             result[match[1]] = scalar(match[2], number)
-        elif at < len(rows) and (rows[at][0] > indent or rows[at][0] == indent and rows[at][1].startswith("- ")):
+        elif at < len(rows) and (rows[at][0] > indent or (rows[at][0] == indent and rows[at][1].startswith("- "))):
             result[match[1]], at = parse(rows, at)
         else:
             result[match[1]] = ""

@@ -1,15 +1,16 @@
-// Tests a replay page in headless Chromium: node test.mjs replay.html [expected.json]
+// Tests a replay page in headless Chromium: node test.mjs replay.html [expected.json] [--results results.xml]
 // expected.json (written by the sample run) holds what some frames must show: [{ frame, time, nodes: [[id, x, y, z, scalar]], links: [[a, b]] }].
-// Prints a line for each test, then "N passed, M failed"; exits 1 if one failed.
+// Prints a line for each test, then "N passed, M failed"; exits 1 if one failed. results.xml gets the results as JUnit XML at the end.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
 import { launch } from './browser.mjs';
 
-const [file, expected] = process.argv.slice(2);
+const { values: { results }, positionals: [file, expected] } = parseArgs({ allowPositionals: true, options: { results: { type: 'string' } } });
 if (!file) {
-  console.error('Usage: node test.mjs replay.html [expected.json]');
+  console.error('Usage: node test.mjs replay.html [expected.json] [--results results.xml]');
   process.exit(2);
 }
 
@@ -17,18 +18,31 @@ const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
 const browser = await launch();
-let passed = 0;
-let failed = 0;
+const cases = [];
+
+function record(name, failure) {
+  cases.push({ name, failure });
+  console.log(failure === undefined ? `ok    ${name}` : `FAIL  ${name}\n      ${failure.split('\n').join('\n      ')}`);
+}
 
 async function test(name, run) {
   try {
     await run();
-    passed++;
-    console.log(`ok    ${name}`);
+    record(name);
   } catch (error) {
-    failed++;
-    console.log(`FAIL  ${name}\n      ${error.message.split('\n').join('\n      ')}`);
+    record(name, error.message);
   }
+}
+
+/** Text as XML, which has no place for most control characters. */
+const xml = (text) => text.replace(/[^\n\P{Cc}]/gu, '?').replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);
+
+function junit() {
+  const lines = cases.map(({ name, failure }) => {
+    const outcome = failure === undefined ? '' : `<failure>${xml(failure)}</failure>`;
+    return `  <testcase classname="page" name="${xml(name)}">${outcome}</testcase>`;
+  });
+  return `<testsuite name="page" tests="${cases.length}">\n${lines.join('\n')}\n</testsuite>\n`;
 }
 
 function check(holds, message) {
@@ -41,7 +55,10 @@ async function open(path, { in: where = browser, ...options } = {}) {
   const tab = await context.newPage();
   const url = pathToFileURL(resolve(path)).href;
   const complaints = [];
-  tab.on('console', (message) => ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall due to ReadPixels') && complaints.push(message.text()));
+  tab.on('console', (message) => {
+    const complains = ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall due to ReadPixels');
+    if (complains) complaints.push(message.text());
+  });
   tab.on('pageerror', (error) => complaints.push(error.message));
   tab.on('request', (request) => request.url() !== url && !request.url().startsWith('data:') && complaints.push(`fetched ${request.url()}`));
   await tab.goto(url);
@@ -116,7 +133,8 @@ try {
         const byId = new Map(found.nodes.map((node) => [node.id, node]));
         for (const [id, x, y, z, scalar] of wanted.nodes) {
           const node = byId.get(id);
-          const near = node && [[node.x, x], [node.y, y], [node.z, z], [node.scalar, scalar ?? NaN]].every(([a, b]) => Math.abs(a - b) < 0.005 || (Number.isNaN(a) && Number.isNaN(b)));
+          const same = ([a, b]) => Math.abs(a - b) < 0.005 || (Number.isNaN(a) && Number.isNaN(b));
+          const near = node && [[node.x, x], [node.y, y], [node.z, z], [node.scalar, scalar ?? NaN]].every(same);
           check(near, `frame ${wanted.frame}: node ${id} is ${JSON.stringify(node)}`);
         }
         const links = (pairs) => pairs.map((pair) => pair.sort((a, b) => a - b).join('-')).sort().join(' ');
@@ -320,13 +338,13 @@ try {
     check(complaints.length === 0, complaints.join('\n'));
   });
 } catch (error) {
-  failed++;
-  console.log(`FAIL  the page opens\n      ${error.message}`);
+  record('the page opens', error.message);
 } finally {
   await close();
 }
 
-await test('data cut short gives a clear message', () => expectMessage(withData('short', (data) => data.slice(0, (data.length >> 3) * 4)), /damaged or cut short/));
+await test('data cut short gives a clear message', () =>
+  expectMessage(withData('short', (data) => data.slice(0, (data.length >> 3) * 4)), /damaged or cut short/));
 await test('a flipped byte gives a clear message', () => expectMessage(withData('flipped', (data) => {
   const bytes = Buffer.from(data, 'base64');
   bytes[bytes.length >> 1] ^= 0x55;
@@ -341,5 +359,7 @@ await test('without WebGL there is a clear message', () => expectMessage(file, /
 await blind.close();
 rmSync(folder, { recursive: true });
 
-console.log(`${passed} passed, ${failed} failed`);
+const failed = cases.filter(({ failure }) => failure !== undefined).length;
+console.log(`${cases.length - failed} passed, ${failed} failed`);
+if (results) writeFileSync(results, junit());
 process.exit(failed === 0 ? 0 : 1);

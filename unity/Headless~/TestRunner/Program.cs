@@ -3,12 +3,15 @@ using System.Collections;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Reflection;
+using System.Xml;
+using System.Xml.Linq;
 using NUnit.Framework;
 using UnityEngine.Headless;
 using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
-/// Usage: Collektive.TestRunner.exe ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed or none ran.
+/// Usage: Collektive.TestRunner.exe [--results FILE] ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed or none ran.
+/// FILE gets the results as JUnit XML at the end; a run that does not come to its end leaves none.
 /// Tests of an assembly that uses Unity's test framework get what it gives them: log assertions, coroutines, and, unless it uses the
 /// editor, play mode.
 static class Program
@@ -18,11 +21,14 @@ static class Program
     /// Of a frame in play mode.
     const float FrameSeconds = 0.02f;
 
+    static readonly XElement results = new XElement("testsuite");
     static int passed, failed;
     static bool isUnity, isPlayMode;
 
     static int Main(string[] arguments)
     {
+        var file = arguments[0] == "--results" ? arguments[1] : null;
+        if (file != null) arguments = arguments.AsSpan(2).ToArray();
         var filter = arguments.Length > 1 ? arguments[1] : "";
         var assembly = Assembly.LoadFrom(arguments[0]);
         var references = Array.ConvertAll(assembly.GetReferencedAssemblies(), reference => reference.Name);
@@ -44,6 +50,11 @@ static class Program
             }
         }
         Console.WriteLine($"{passed} passed, {failed} failed");
+        if (file != null)
+        {
+            results.Add(new XAttribute("name", assembly.GetName().Name), new XAttribute("tests", passed + failed), new XAttribute("failures", failed));
+            results.Save(file);
+        }
         return failed == 0 && passed > 0 ? 0 : 1;
     }
 
@@ -62,15 +73,19 @@ static class Program
                 if (failure == null) Try(() => Finish(setUp.Invoke(fixture, null)), ref failure);
             if (failure == null)
             {
-                var result = Try(() => Finish(method.Invoke(fixture, Converted(arguments, method))), ref failure);
+                var returned = Try(() => Finish(method.Invoke(fixture, Converted(arguments, method))), ref failure);
                 if (failure == null && testCase != null && testCase.HasExpectedResult)
-                    Try(() => { Assert.AreEqual(testCase.ExpectedResult, result); return null; }, ref failure);
+                    Try(() => { Assert.AreEqual(testCase.ExpectedResult, returned); return null; }, ref failure);
             }
             var tearDowns = Marked(type, typeof(TearDownAttribute), typeof(UnityTearDownAttribute));
             tearDowns.Reverse();
             foreach (var tearDown in tearDowns) Try(() => Finish(tearDown.Invoke(fixture, null)), ref failure);
         }
         if (isUnity) Try(End, ref failure);
+        var result = new XElement("testcase", new XAttribute("classname", type.FullName),
+            new XAttribute("name", Printable(name.Substring(type.FullName.Length + 1))),
+            new XAttribute("time", clock.Elapsed.TotalSeconds));
+        results.Add(result);
         if (failure == null || failure is SuccessException)
         {
             passed++;
@@ -78,7 +93,17 @@ static class Program
             return;
         }
         failed++;
+        result.Add(new XElement("failure", new XAttribute("message", Printable(failure.Message)), Printable(failure.ToString())));
         Console.WriteLine($"FAIL {name}\n{failure}");
+    }
+
+    /// XML has no place for control characters.
+    static string Printable(string text)
+    {
+        var characters = text.ToCharArray();
+        for (var index = 0; index < characters.Length; index++)
+            if (!XmlConvert.IsXmlChar(characters[index])) characters[index] = '?';
+        return new string(characters);
     }
 
     static void Begin()
@@ -132,7 +157,8 @@ static class Program
         var parameters = method.GetParameters();
         var converted = (object[])arguments.Clone();
         for (var index = 0; index < converted.Length; index++)
-            if (converted[index] is IConvertible && !parameters[index].ParameterType.IsInstanceOfType(converted[index]) && !parameters[index].ParameterType.IsEnum)
+            if (converted[index] is IConvertible && !parameters[index].ParameterType.IsInstanceOfType(converted[index])
+                && !parameters[index].ParameterType.IsEnum)
                 converted[index] = Convert.ChangeType(converted[index], parameters[index].ParameterType);
         return converted;
     }

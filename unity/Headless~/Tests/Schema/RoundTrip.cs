@@ -7,7 +7,7 @@ using Google.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// The C# half of <c>schema/test/roundtrip.sh</c>: writes random sensor and global data for the JVM, and compares actuator
+    /// The C# half of <c>schema/test/test_roundtrip.py</c>: writes random sensor and global data for the JVM, and compares actuator
     /// data that the JVM wrote. A file is a row of records: sensors, globals (-1 for none), count, frame, text; see Record.
     /// </summary>
     internal static class RoundTrip

@@ -10,7 +10,7 @@ import java.nio.ByteOrder
 import java.util.Random
 
 /**
- * The Kotlin half of `schema/test/roundtrip.sh`: compares sensor and global data that C# wrote, and writes random actuator data
+ * The Kotlin half of `schema/test/test_roundtrip.py`: compares sensor and global data that C# wrote, and writes random actuator data
  * for C#. The files are those of the C# half.
  */
 internal object RoundTrip {

@@ -1,0 +1,68 @@
+"""Uses ./collektive as its users do; shared by the acceptance tests."""
+import atexit
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from places import COLLEKTIVE, ROOT
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
+# Of all tests of this process: what one has compiled, the next one finds again at the same place.
+WORK = tempfile.mkdtemp(prefix="collektive-test-")
+atexit.register(shutil.rmtree, WORK, ignore_errors=True)
+
+
+def collektive(*arguments, cwd=None):
+    return subprocess.run([COLLEKTIVE, *arguments], cwd=cwd, capture_output=True, text=True)
+
+
+def last_error(result):
+    """The error line of a failed command."""
+    lines = [line for line in result.stderr.splitlines() if line.startswith("collektive: ")]
+    return lines[-1] if lines else result.stderr
+
+
+def jdk():
+    """The JDK that runs simulations."""
+    return subprocess.run([COLLEKTIVE, "step", "find_jdk"], capture_output=True, text=True, check=True).stdout.strip()
+
+
+class Folder(unittest.TestCase):
+    """A test with an empty folder."""
+
+    def setUp(self):
+        self.folder = os.path.join(WORK, "test")
+        os.mkdir(self.folder)
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def manifest(self, out):
+        with open(os.path.join(out, "manifest.json")) as file:
+            return json.load(file)
+
+
+class Project(Folder):
+    """A project outside the clone: own schema, Kotlin, C# and scenario."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
+
+    def programs_jar(self):
+        """The jar that a run has made of the programs as they are now."""
+        command = [COLLEKTIVE, "step", "programs_jar", self.path("project", "light.fbs"), self.path("project", "programs")]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    def change(self, file, old, new):
+        path = self.path("project", file)
+        with open(path) as opened:
+            text = opened.read()
+        self.assertIn(old, text)
+        with open(path, "w") as opened:
+            opened.write(text.replace(old, new))

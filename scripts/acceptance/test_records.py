@@ -1,0 +1,58 @@
+"""Recorded runs are replayed and compared."""
+import os
+
+import pytest
+from command import Project, collektive, last_error
+from places import ROOT
+
+
+class Records(Project):
+    """Recorded runs of the foreign project."""
+
+    def setUp(self):
+        super().setUp()
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+        self.a = self.record("a")
+
+    def record(self, name, *arguments):
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path(name), *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.path(name, "run.clkrec")
+
+    @pytest.mark.quick
+    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self):
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks replayed, every digest is that of the record", result.stdout)
+        self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
+        self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
+
+    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self):
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", "val mine = if (sensors.brightness() == 5f) 9f else sensors.brightness()")
+        self.record("b")
+        jar = self.programs_jar()
+        result = collektive("replay", self.a, "--programs", jar)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stdout, r"tick \d+ is the first that differs.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
+
+    def test_two_runs_are_compared(self):
+        self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
+        result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("tick 1: input of node 9, nodesAdded: present in A, absent in B", result.stdout)
+
+    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self):
+        with open(self.a, "rb") as file:
+            data = file.read()
+        with open(self.a, "wb") as file:
+            file.write(data[:-100])
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
+        self.assertIn("9 ticks replayed, every digest is that of the record", result.stdout)
+
+    def test_what_is_no_record_is_refused(self):
+        for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
+            result = collektive(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(last_error(result).startswith("collektive: "), arguments)
