@@ -1,0 +1,18 @@
+// The scripts of the replay page; ./collektive test lint checks them. COLLEKTIVE_NODE_MODULES names where eslint lies.
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+
+const js = createRequire(join(process.env.COLLEKTIVE_NODE_MODULES, 'eslint.config.mjs'))('@eslint/js');
+const globals = (names) => Object.fromEntries(names.split(' ').map((name) => [name, 'readonly']));
+
+export default [
+  js.configs.recommended,
+  {
+    files: ['unity/Headless~/Replay/**/*.{js,mjs}'],
+    languageOptions: { globals: globals(
+      'Blob Buffer DecompressionStream OffscreenCanvas Response TextDecoder URL atob cancelAnimationFrame console devicePixelRatio document'
+        + ' innerWidth matchMedia performance process requestAnimationFrame window',
+    ) },
+    rules: { eqeqeq: 'error', 'no-var': 'error', 'prefer-const': 'error', 'no-unused-vars': ['error', { argsIgnorePattern: '^_' }] },
+  },
+];

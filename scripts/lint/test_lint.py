@@ -1,0 +1,84 @@
+"""The sources are clean under their linters, and lines are no longer than .editorconfig allows."""
+import fnmatch
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from places import BUILD, ROOT
+
+# Made by generators, whose lines are their own.
+GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
+# Not formatted yet: no linter looks at them.
+WAITING = ("*.kt", "*.kts", "native-shim/*.c", "native-shim/*.h")
+TEXT = (".bat", ".c", ".cs", ".css", ".fbs", ".h", ".html", ".java", ".js", ".json", ".kt", ".kts", ".mjs", ".mustache", ".py", ".sh", ".toml", ".txt", ".xml")
+
+
+def sources(*patterns: str) -> list[str]:
+    """Files of the repository, new ones included, whose paths match one of the patterns."""
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True)
+    paths = [path for path in listed.stdout.split("\0") if path and os.path.isfile(os.path.join(ROOT, path))]
+    found = sorted(path for path in paths if _matches(path, patterns) and not _matches(path, WAITING) and not GENERATED.search(path))
+    if not found:
+        pytest.skip(f"no file matches {' '.join(patterns)}")
+    return found
+
+
+def _matches(path: str, patterns: tuple[str, ...]) -> bool:
+    return any(fnmatch.fnmatch(path, pattern) for pattern in patterns)
+
+
+def clean(*command: str) -> None:
+    result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, "npm/node_modules")})
+    if result.returncode != 0:
+        pytest.fail(result.stdout[-20000:], pytrace=False)
+
+
+def test_bash_is_clean_under_shellcheck():
+    command = [os.path.join(BUILD, "python/bin/shellcheck"), "--external-sources"]
+    # The parts are one program.
+    clean(*command, "--check-sourced", "collektive")
+    clean(*command, *sources("scripts/acceptance/*.sh", ".ci/run"))
+
+
+def test_python_is_clean_under_ruff():
+    clean(sys.executable, "-m", "ruff", "check", "--no-cache", *sources("*.py"))
+
+
+def test_javascript_is_clean_under_eslint():
+    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay")
+
+
+def test_c_is_formatted_by_clang_format():
+    clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror", *sources("native-shim/*.c", "native-shim/*.h"))
+
+
+def test_kotlin_is_clean_under_ktlint():
+    clean(os.environ["COLLEKTIVE_JAVA"], "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
+          *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "*.kts"))
+
+
+def test_lines_end_within_the_columns_of_editorconfig():
+    limits = column_limits()
+    long = []
+    for path in sources(*("*" + ending for ending in TEXT), "collektive", ".ci/run"):
+        limit = next(limit for pattern, limit in limits if re.fullmatch(pattern, os.path.basename(path)))
+        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+            long += [f"{path}:{number}: {len(line.rstrip())} columns of {limit}" for number, line in enumerate(file, 1) if len(line.rstrip()) > limit]
+    if long:
+        pytest.fail("\n".join(long), pytrace=False)
+
+
+def column_limits() -> list[tuple[str, int]]:
+    """Patterns of file names and their limits, the one that counts first."""
+    limits, section = [], ""
+    with open(os.path.join(ROOT, ".editorconfig")) as file:
+        for line in file:
+            if match := re.match(r"\[(.*)]", line):
+                names = re.sub(r"{(.*)}", lambda words: "(" + words[1].replace(",", "|") + ")", match[1].replace(".", r"\."))
+                section = names.replace("*", ".*")
+            elif match := re.match(r"max_line_length *= *(\d+|off)", line):
+                limits.insert(0, (section, sys.maxsize if match[1] == "off" else int(match[1])))
+    return limits
