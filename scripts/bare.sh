@@ -148,7 +148,9 @@ bare_clients() {
 
 # The variables of this machine that tell clients how to reach registries.
 bare_environment() {
-  env | grep -E '^((https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*|MAVEN_(OPTS|ARGS))=' || true
+  local names='(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)'
+  names+='|PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*'
+  env | grep -E "^($names)=" || true
 }
 
 # bare_run NAME ROOT COMMAND...: runs a command in the clone inside the root; its output goes to the log, its steps are shown.

@@ -4,7 +4,8 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Tools &gt; Collektive &gt; Diagnostics: nodes with their values and neighbours, errors, durations, the JVM's log, memory and recordings.</summary>
+    /// <summary>Tools &gt; Collektive &gt; Diagnostics: nodes with their values and neighbours, errors, durations, the JVM's log, memory and
+    /// recordings.</summary>
     internal sealed class DiagnosticsWindow : EditorWindow
     {
         private const int MaxRows = 200;
@@ -91,7 +92,8 @@ namespace Collektive.Unity.Editor
             EditorGUILayout.LabelField("Neighbours", EditorStyles.boldLabel);
             foreach (var row in diagnostics.Neighbours(node.Id))
             {
-                EditorGUILayout.LabelField((row.IsHeard ? "hears " : "heard by ") + row.Id, row.Link.Length.ToString("0.00") + " m, attenuation " + row.Link.Attenuation.ToString("0.##"));
+                EditorGUILayout.LabelField((row.IsHeard ? "hears " : "heard by ") + row.Id,
+                    row.Link.Length.ToString("0.00") + " m, attenuation " + row.Link.Attenuation.ToString("0.##"));
             }
             EditorGUI.indentLevel--;
         }

@@ -60,7 +60,8 @@ namespace Collektive.Headless
                 var before = manifest[key][property.Name];
                 if (JToken.DeepEquals(before, property.Value)) continue;
                 Console.Error.WriteLine(
-                    "collektive: not as in the run of " + path + ": " + property.Name + " is " + Text(property.Value) + ", it was " + (before == null ? "not named" : Text(before)));
+                    "collektive: not as in the run of " + path + ": " + property.Name + " is " + Text(property.Value) + ", it was "
+                        + (before == null ? "not named" : Text(before)));
             }
         }
 

@@ -31,7 +31,8 @@ namespace Collektive.Headless
         /// <param name="parameters">Of the programs that ran.</param>
         /// <param name="ticks">That were done.</param>
         internal void AddResults(
-            SimulationManager manager, JObject parameters, int ticks, SceneBuilder scene, IReadOnlyList<double> start, IReadOnlyList<double> end, double wallSeconds)
+            SimulationManager manager, JObject parameters, int ticks, SceneBuilder scene, IReadOnlyList<double> start, IReadOnlyList<double> end,
+            double wallSeconds)
         {
             var description = Jvm.Description.Split('\n');
             Root.Add(new JProperty("parameters", parameters));

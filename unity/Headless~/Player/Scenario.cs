@@ -52,7 +52,8 @@ namespace Collektive.Headless
             Pictures = file.Optional(outputs, "pictures", false);
             Record = file.Optional(outputs, "record", false);
             Count(message => file.Error(root["seconds"], message));
-            if (Pictures && !Replay) throw file.Error(outputs["pictures"], "'outputs.pictures' needs 'outputs.replay': pictures are taken from the replay page");
+            if (Pictures && !Replay)
+                throw file.Error(outputs["pictures"], "'outputs.pictures' needs 'outputs.replay': pictures are taken from the replay page");
         }
 
         internal JsonFile File { get; }
@@ -118,7 +119,8 @@ namespace Collektive.Headless
             }
             var former = new FormerRun(file, path);
             folder = System.IO.Path.GetFullPath(folder ?? former.Folder);
-            if (!Directory.Exists(folder)) throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
+            if (!Directory.Exists(folder))
+                throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
             return new Scenario(file, path, run, folder) { Former = former };
         }
 
@@ -164,7 +166,9 @@ namespace Collektive.Headless
             // A delta time that cannot be is refused with the other settings.
             var ticks = DeltaTime > 0 ? System.Math.Round(Seconds / DeltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
-            if (ticks > MaxTicks) throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(DeltaTime) + " these are " + Text(ticks) + " ticks, and a run has at most 100 million");
+            if (ticks > MaxTicks)
+                throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(DeltaTime) + " these are " + Text(ticks)
+                    + " ticks, and a run has at most 100 million");
             Ticks = (int)System.Math.Max(1, ticks);
         }
 

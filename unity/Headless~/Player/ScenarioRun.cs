@@ -36,7 +36,8 @@ namespace Collektive.Headless
             this.options = options;
             if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count > 0))
             {
-                throw new ScenarioException(scenario.Path + ": a manifest's run is repeated as it was: leave out --seed, --seconds and --set, or run its scenario");
+                throw new ScenarioException(scenario.Path
+                    + ": a manifest's run is repeated as it was: leave out --seed, --seconds and --set, or run its scenario");
             }
             scenario.Override(options.Seed, options.Seconds);
         }
@@ -105,7 +106,8 @@ namespace Collektive.Headless
             if (type == null || !typeof(SceneBuilder).IsAssignableFrom(type) || type.IsAbstract)
             {
                 throw new ScenarioException(
-                    scenario.Path + ": 'scene' names '" + scenario.Scene + "': there must be a class of that full name in " + scenario.Scripts + " that derives from SceneBuilder");
+                    scenario.Path + ": 'scene' names '" + scenario.Scene + "': there must be a class of that full name in " + scenario.Scripts
+                        + " that derives from SceneBuilder");
             }
             var holder = new GameObject(type.Name);
             holder.SetActive(false);
@@ -167,7 +169,9 @@ namespace Collektive.Headless
             if (done < ticks && !manager.Finished)
             {
                 Console.Error.WriteLine(
-                    "collektive: " + done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager; end a run with Application.Quit or a stop condition");
+                    "collektive: " + done + " of " + ticks
+                        + " ticks were done: a script paused, disabled or destroyed the Simulation Manager; "
+                        + "end a run with Application.Quit or a stop condition");
                 return 1;
             }
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;

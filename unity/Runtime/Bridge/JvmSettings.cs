@@ -113,7 +113,8 @@ namespace Collektive.Bridge
             foreach (var flag in flags)
             {
                 if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove it"));
-                else if (flag.Contains(" -")) problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' is more than one flag: give each an entry of its own"));
+                else if (flag.Contains(" -"))
+                    problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' is more than one flag: give each an entry of its own"));
             }
             return problems;
         }

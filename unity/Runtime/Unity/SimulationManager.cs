@@ -224,7 +224,8 @@ namespace Collektive.Unity
             if (!isActiveAndEnabled || session == null)
             {
                 Debug.LogError(
-                    Failure.Length > 0 ? "the simulation has stopped: " + Failure : "the simulation has not started: step it from Update on, in play mode", this);
+                    Failure.Length > 0 ? "the simulation has stopped: " + Failure : "the simulation has not started: step it from Update on, in play mode",
+                        this);
                 return;
             }
             if (stepping) throw new InvalidOperationException("Step was called from within a tick");
@@ -584,7 +585,8 @@ namespace Collektive.Unity
             }
             if (Links.Count > MaxLinks)
             {
-                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name + "': use smaller neighbourhoods, or place the nodes apart", node);
+                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name
+                    + "': use smaller neighbourhoods, or place the nodes apart", node);
             }
         }
 
@@ -608,7 +610,8 @@ namespace Collektive.Unity
                 var field = request.Sensors.FindNotFinite(index);
                 if (field != null)
                 {
-                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field + ": correct the sensor that writes it", node);
+                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
+                        + ": correct the sensor that writes it", node);
                     return;
                 }
                 request.AddDue(node.Id);
@@ -711,7 +714,8 @@ namespace Collektive.Unity
             errors.Add(part.GetType().Name, node.Id, tickInProgress, error.Message);
             node.LastError = error.Message;
             Debug.LogException(
-                new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tickInProgress + ": " + error.Message, error), part);
+                new InvalidOperationException(part.GetType().Name + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tickInProgress + ": "
+                    + error.Message, error), part);
             part.Failed();
         }
 
@@ -756,7 +760,8 @@ namespace Collektive.Unity
         }
 
         private static string Mismatch(string kind, Type type, Node node, Type has, Type wants) =>
-            kind + " " + type.Name + " of node " + node.Id + " ('" + node.name + "') is made for " + has.FullName + ", the session's schema has " + wants.FullName;
+            kind + " " + type.Name + " of node " + node.Id + " ('" + node.name + "') is made for " + has.FullName + ", the session's schema has "
+                + wants.FullName;
 
         private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;
     }

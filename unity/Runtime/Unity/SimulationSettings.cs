@@ -48,7 +48,8 @@ namespace Collektive.Unity
         public float stopAfter;
 
         /// <summary>When nodes run, and which messages a round sees.</summary>
-        [Tooltip("Lockstep: all nodes run in each tick and see what was sent before it. Sequential: in id order, each sees what earlier nodes sent. Asynchronous: each node has its own period and phase.")]
+        [Tooltip("Lockstep: all nodes run in each tick and see what was sent before it. Sequential: in id order, each sees what earlier nodes sent. " +
+            "Asynchronous: each node has its own period and phase.")]
         public Schedule schedule = Schedule.Lockstep;
 
         /// <summary>When nodes without a timing of their own run under the asynchronous schedule.</summary>
@@ -56,7 +57,8 @@ namespace Collektive.Unity
         public RoundTiming timing = new RoundTiming();
 
         /// <summary>What happens to messages between sending and receiving; ideal as made.</summary>
-        [Tooltip("Probability that a message is lost, and what a link's metres and attenuation add to it; seconds of delay, of jitter, and for which a message stays valid (0: until the next one). All 0: ideal.")]
+        [Tooltip("Probability that a message is lost, and what a link's metres and attenuation add to it; seconds of delay, of jitter, " +
+            "and for which a message stays valid (0: until the next one). All 0: ideal.")]
         public NetworkModel network = new NetworkModel();
 
         /// <summary>Threads of the JVM that run rounds.</summary>
@@ -70,7 +72,8 @@ namespace Collektive.Unity
         public int stepLimitMs = 10000;
 
         /// <summary>File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder.</summary>
-        [Tooltip("File to record all frames in, for ./collektive replay and diff; overwritten at each start. Empty: none. Relative paths start at the project's folder.")]
+        [Tooltip("File to record all frames in, for ./collektive replay and diff; overwritten at each start. " +
+            "Empty: none. Relative paths start at the project's folder.")]
         public string record = "";
 
         /// <summary>What the JVM is started with, once per process; null for the usual.</summary>
@@ -83,11 +86,13 @@ namespace Collektive.Unity
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
             if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
-            if (deltaTime / (double)physicsStep > MaxSubSteps) return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would have more than a million of them";
+            if (deltaTime / (double)physicsStep > MaxSubSteps)
+                return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would have more than a million of them";
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
-            if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace)) return "no jar with programs is named, or one has no path: add the path to the settings";
+            if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace))
+                return "no jar with programs is named, or one has no path: add the path to the settings";
             var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(deltaTime);
         }

@@ -35,7 +35,8 @@ namespace Collektive.Headless.Tests.Editor
             MakeThree();
             var diagnostics = new Diagnostics(Manager);
             var rows = diagnostics.Nodes("");
-            Assert.That(rows.ConvertAll(row => (row.Node.Id, row.Program, row.Hears, row.Heard)), Is.EqualTo(new[] { (0, "double", 1, 2), (1, "double", 1, 1), (2, "double", 1, 0) }));
+            Assert.That(rows.ConvertAll(row => (row.Node.Id, row.Program, row.Hears, row.Heard)),
+                Is.EqualTo(new[] { (0, "double", 1, 2), (1, "double", 1, 1), (2, "double", 1, 0) }));
             Assert.That(diagnostics.Nodes("2").Count, Is.EqualTo(1));
             Assert.That(diagnostics.Nodes("DOUB").Count, Is.EqualTo(3));
             Assert.That(diagnostics.Nodes("nothing"), Is.Empty);
@@ -110,7 +111,8 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             Draw();
-            foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"), (3, "toolbar Nodes Errors Times Log JVM: Log") })
+            foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"),
+                (3, "toolbar Nodes Errors Times Log JVM: Log") })
             {
                 Gui.Act("toolbar", tab);
                 Draw();
@@ -144,7 +146,8 @@ namespace Collektive.Headless.Tests.Editor
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
             inspector.OnInspectorGUI();
             Assert.That(inspector.RequiresConstantRepaint(), Is.True);
-            foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired", "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
+            foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired",
+                "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
             {
                 Assert.That(Gui.Lines, Has.Some.EqualTo(line));
             }

@@ -53,7 +53,8 @@ namespace Collektive.Headless.Tests
                 "-Xms64m -Xmx128m -XX:+UseZGC -XX:TieredStopAtLevel=1 -XX:CompileThresholdScaling=0.5 -XX:ReservedCodeCacheSize=48m -ea " +
                 "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
                 "-XX:+UnlockDiagnosticVMOptions -XX:-UseLibmIntrinsic -Xss2m"));
-            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }), Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2 -Xint"));
+            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }),
+                Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2 -Xint"));
         }
 
         [Test]

@@ -514,7 +514,8 @@ namespace Collektive.Headless.Tests.Simulation
             node.OwnTiming = true;
             node.Timing.period = 0;
             var second = new GameObject("Second");
-            Assert.That(new Selection(() => second.AddComponent<SimulationManager>()).By("second Simulation Manager"), Is.SameAs(second.GetComponent<SimulationManager>()));
+            Assert.That(new Selection(() => second.AddComponent<SimulationManager>()).By("second Simulation Manager"),
+                Is.SameAs(second.GetComponent<SimulationManager>()));
             Assert.That(new Selection(() => Play(1)).By("period is 0"), Is.SameAs(node));
             Configure("double");
             Node twin = null;

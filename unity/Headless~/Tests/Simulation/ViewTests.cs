@@ -44,7 +44,8 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(bars.Count, Is.EqualTo(4));
             foreach (var bar in bars)
             {
-                Vector3 side = bar.Place.MultiplyVector(Vector3.right), top = bar.Place.MultiplyVector(Vector3.up), way = bar.Place.MultiplyVector(Vector3.forward);
+                Vector3 side = bar.Place.MultiplyVector(Vector3.right), top = bar.Place.MultiplyVector(Vector3.up),
+                    way = bar.Place.MultiplyVector(Vector3.forward);
                 Assert.That(Vector3.Dot(side, top), Is.EqualTo(0).Within(1e-6f));
                 Assert.That(Vector3.Dot(side, way), Is.EqualTo(0).Within(1e-6f));
                 Assert.That(Vector3.Dot(top, way), Is.EqualTo(0).Within(1e-6f));
