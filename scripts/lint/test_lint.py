@@ -66,7 +66,10 @@ def test_lines_end_within_the_columns_of_editorconfig():
     for path in sources(*("*" + ending for ending in TEXT), "collektive", ".ci/run"):
         limit = next(limit for pattern, limit in limits if re.fullmatch(pattern, os.path.basename(path)))
         with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            long += [f"{path}:{number}: {len(line.rstrip())} columns of {limit}" for number, line in enumerate(file, 1) if len(line.rstrip()) > limit]
+            for number, line in enumerate(map(str.rstrip, file), 1):
+                # A word alone, like a path, cannot be broken.
+                if len(line) > limit and " " in line.strip():
+                    long.append(f"{path}:{number}: {len(line)} columns of {limit}")
     if long:
         pytest.fail("\n".join(long), pytrace=False)
 

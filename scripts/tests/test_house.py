@@ -7,12 +7,12 @@ from places import ROOT
 
 
 def declaration(path, test):
-    """How a file declares a test; a page has a heading of that name."""
+    """How a file declares a test; a page of checks by hand numbers it."""
     name = re.escape(test)
     return {
         ".cs": rf"\[(?:Test|TestCase|UnityTest)\b[^;{{]*\s{name}\(",
         ".kt": rf"@Test\s+fun `?{name}`?\(",
-        ".md": rf"(?m)^#+ {name}$",
+        ".md": rf"(?m)^\d+\. \*\*{name}\.\*\*",
         ".py": rf"(?m)^ *def {name}\(",
     }[os.path.splitext(path)[1]]
 

@@ -55,8 +55,9 @@ def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with():
 
 
 def third_party(name):
-    """The version in the row of THIRD-PARTY.md that begins with a name."""
-    return re.search(rf"(?m)^\| `?{re.escape(name)}[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))[1]
+    """The version in the row of THIRD-PARTY.md about a name."""
+    row = re.search(rf"(?m)^\|[^|]*(?<![\w@/-]){re.escape(name)}(?![\w-])[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))
+    return row and row[1]
 
 
 def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
