@@ -178,11 +178,15 @@ build_flatc() {
 }
 
 cmake_configure() {
-  local cache="$BUILD/cmake/CMakeCache.txt" flags="-ffile-prefix-map=\"$ROOT\"=."
-  # CMake refuses a tree whose checkout was moved, and make trusts what a killed compiler left behind.
-  if [ -n "${INTERRUPTED:-}" ] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" "$cache"; then rm -rf "$BUILD/cmake"; fi
+  local flags="-ffile-prefix-map=\"$ROOT\"=."
+  clean_cmake "$ROOT" "$BUILD/cmake"
   cmake -S "$ROOT" -B "$BUILD/cmake" -DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags" \
     -DCOLLEKTIVE_FLATBUFFERS="$FLATBUFFERS" -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
+}
+
+# clean_cmake SOURCES TREE: CMake refuses a tree whose checkout was moved, and make trusts what a killed compiler left behind.
+clean_cmake() {
+  if [ -n "${INTERRUPTED:-}" ] || ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$1" "$2/CMakeCache.txt"; then rm -rf "$2"; fi
 }
 
 setup_npm() {

@@ -46,7 +46,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
     newest = jdks[-1:]
     return [
         Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint"], quick=True),
-        Suite("scripts", ["test_scripts"], ["setup_python"], quick=True),
+        Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers"], quick=True),
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
         *(Suite("shim", ["test_shim", jdk], ["build_native"], [jdk] == newest, label="shim-on-" + os.path.basename(jdk)) for jdk in jdks),
         Suite("csharp", ["test_unity"], nunit, quick=True, nunit=True, label="unity"),
@@ -131,19 +131,22 @@ def verdict(cases: list[junit.Case], skipped: str = "") -> int:
 def main(names: list[str]) -> int:
     if names[:1] == ["sum"]:
         return verdict(results(names[1], int(names[2])), *names[3:])
-    jdks = step("test_jdks", stdout=subprocess.PIPE, text=True, check=True).stdout.split("\n")[:-1]
     try:
-        suites = chosen(all_suites(jdks), names)
+        chosen(all_suites([]), names)
     except ValueError as error:
         print(f"collektive: test: {error}", file=sys.stderr)
         return 1
+    if step("setup_system").returncode != 0:
+        return 1
+    jdks = step("test_jdks", stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
+    suites = chosen(all_suites(jdks), names)
     ready: set[str] = set()
     cases: list[junit.Case] = []
     for suite in suites:
         if suite.nunit and suite.name not in names and not has_nunit():
             say(f"test {suite.title}: skipped, this system has no package of NUnit 2.6")
             continue
-        for need in ["setup_system", *suite.needs]:
+        for need in suite.needs:
             if need not in ready and step(need).returncode != 0:
                 return 1
             ready.add(need)

@@ -59,6 +59,7 @@ build_all_faults() {
 
 sanitize_at_length() {
   local jdk results="$BUILD/results/sanitized" failed=0
+  clean_cmake "$ROOT/native-shim" "$BUILD/sanitized"
   cmake -S "$ROOT/native-shim" -B "$BUILD/sanitized" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCOLLEKTIVE_SANITIZE=ON \
     -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
   cmake --build "$BUILD/sanitized" -j 2

@@ -14,15 +14,50 @@ from command import HERE, collektive, jdk, last_error
 from places import ROOT
 
 
-@pytest.mark.xdist_group("package")
-class ThePackage(unittest.TestCase):
-    """The tarball, unpacked into a project of its own."""
+class InstalledProject:
+    """A project of a user who installed the package from its tarball, with a player for it."""
+
+    def __init__(self, archive):
+        self.folder = tempfile.mkdtemp(prefix="collektive-project-")
+        self.package = os.path.join(self.folder, "Packages/org.collektive.unity")
+        os.makedirs(self.package)
+        subprocess.run(["tar", "-xzf", archive, "-C", self.package, "--strip-components=1"], check=True)
+        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, self.folder], check=True, capture_output=True)
+        sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
+        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample,
+                    "schema": sample + "/gradient_ascent.fbs", "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar",
+                    "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
+        with open(os.path.join(self.folder, "scenario.json"), "w") as file:
+            json.dump(scenario, file)
+
+    def play(self, hidden=(), **environment):
+        """Runs its scene with these variables alone, and with nothing in the hidden folders."""
+        command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
+                   "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"]
+        if hidden:
+            hide = 'until [ "$1" = -- ]; do mount -t tmpfs none "$1" || exit 99; shift; done; shift; exec "$@"'
+            command = ["unshare", "--mount", "sh", "-c", hide, "sh", *hidden, "--", *command]
+        plugins = os.path.join(self.package, "unity/Runtime/Plugins/linux-x64")
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True,
+                              env={"PATH": "/usr/bin:/bin", "HOME": self.folder, "LD_LIBRARY_PATH": plugins, **environment})
+
+    def manifest(self):
+        with open(os.path.join(self.folder, "out/manifest.json")) as file:
+            return json.load(file)
+
+    def remove(self):
+        shutil.rmtree(self.folder)
+
+
+class Packaged(unittest.TestCase):
+    """A tarball made with OPTIONS, and a project that has it installed."""
+    OPTIONS = ()
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="collektive-package-")
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        result = collektive("package", "--out", cls.folder)
+        result = collektive("package", *cls.OPTIONS, "--out", cls.folder)
         if result.returncode != 0:
             raise AssertionError(result.stderr)
         cls.archive = result.stdout.strip()
@@ -30,6 +65,9 @@ class ThePackage(unittest.TestCase):
         cls.addClassCleanup(cls.project.remove)
         cls.root = cls.project.package
 
+
+@pytest.mark.xdist_group("package")
+class ThePackage(Packaged):
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
 
@@ -81,54 +119,13 @@ class ThePackage(unittest.TestCase):
         self.assertIn("--nonesuch", last_error(result))
 
 
-class InstalledProject:
-    """A project of a user who installed the package from its tarball, with a player for it."""
-
-    def __init__(self, archive):
-        self.folder = tempfile.mkdtemp(prefix="collektive-project-")
-        self.package = os.path.join(self.folder, "Packages/org.collektive.unity")
-        os.makedirs(self.package)
-        subprocess.run(["tar", "-xzf", archive, "-C", self.package, "--strip-components=1"], check=True)
-        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, self.folder], check=True, capture_output=True)
-        sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
-        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample,
-                    "schema": sample + "/gradient_ascent.fbs", "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar",
-                    "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
-        with open(os.path.join(self.folder, "scenario.json"), "w") as file:
-            json.dump(scenario, file)
-
-    def play(self, hidden=(), **environment):
-        """Runs its scene with these variables alone, and with nothing in the hidden folders."""
-        command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
-                   "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"]
-        if hidden:
-            hide = 'until [ "$1" = -- ]; do mount -t tmpfs none "$1" || exit 99; shift; done; shift; exec "$@"'
-            command = ["unshare", "--mount", "sh", "-c", hide, "sh", *hidden, "--", *command]
-        plugins = os.path.join(self.package, "unity/Runtime/Plugins/linux-x64")
-        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True,
-                              env={"PATH": "/usr/bin:/bin", "HOME": self.folder, "LD_LIBRARY_PATH": plugins, **environment})
-
-    def manifest(self):
-        with open(os.path.join(self.folder, "out/manifest.json")) as file:
-            return json.load(file)
-
-    def remove(self):
-        shutil.rmtree(self.folder)
-
-
 @pytest.mark.xdist_group("package with a JVM")
-class ThePackageWithAJvm(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.mkdtemp(prefix="collektive-package-")
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
-        result = collektive("package", "--jre", "--out", cls.folder)
-        if result.returncode != 0:
-            raise AssertionError(result.stderr)
-        cls.archive = result.stdout.strip()
-        cls.project = InstalledProject(cls.archive)
-        cls.addClassCleanup(cls.project.remove)
-        cls.home = os.path.join(cls.project.package, "unity/Jvm~/linux-x64")
+class ThePackageWithAJvm(Packaged):
+    OPTIONS = ("--jre",)
+
+    @property
+    def home(self):
+        return os.path.join(self.root, "unity/Jvm~/linux-x64")
 
     def test_it_is_told_from_the_one_without(self):
         self.assertRegex(os.path.basename(self.archive), r"^org\.collektive\.unity-[0-9.]+-jre\.tgz$")
