@@ -2,6 +2,7 @@
 
 SHIM="$BUILD/cmake/native-shim"
 HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
+TOOLS_JAR="$ROOT/jvm-host/tools/target/collektive-tools.jar"
 SAMPLES_JAR="$ROOT/jvm-host/programs/target/collektive-programs.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
 COMPILER_PLUGIN="$ROOT/jvm-host/compiler-plugin/target/compiler-plugin-$(pom_value version).jar"
@@ -29,7 +30,7 @@ jvm_fingerprint() {
 
 build_jvm() {
   setup_flatc
-  [ -f "$HOST_JAR" ] && [ -f "$GENERATOR_JAR" ] || rm -f "$BUILD/stamp/jvm-host"
+  [ -f "$HOST_JAR" ] && [ -f "$TOOLS_JAR" ] && [ -f "$GENERATOR_JAR" ] || rm -f "$BUILD/stamp/jvm-host"
   once jvm-host "$(jvm_fingerprint)" package_jvm -Dmaven.test.skip=true
 }
 

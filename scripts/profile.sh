@@ -27,6 +27,6 @@ cmd_profile() {
   # A run whose rounds failed has a recording too, and that one is wanted most.
   "$ROOT/collektive" run "$scenario" --out "$out" --recording "$recording" "${arguments[@]}" || code=$?
   if [ ! -f "$recording" ]; then return "$code"; fi
-  "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$HOST_JAR" org.collektive.host.jfr.ProfileReport "$recording"
+  "$(find_jdk)/bin/java" -XX:+UseSerialGC -cp "$TOOLS_JAR:$HOST_JAR" org.collektive.tools.profile.ProfileReport "$recording"
   return "$code"
 }

@@ -24,7 +24,7 @@ H
 records() {
   setup_system
   build_jvm
-  "$(find_jdk)/bin/java" -cp "$HOST_JAR" org.collektive.host.record.RecordsKt "$@"
+  "$(find_jdk)/bin/java" -cp "$TOOLS_JAR:$HOST_JAR" org.collektive.tools.record.RecordsKt "$@"
 }
 
 cmd_replay() { records replay "$@"; }

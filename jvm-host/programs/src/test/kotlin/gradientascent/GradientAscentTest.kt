@@ -2,10 +2,10 @@ package gradientascent
 
 import org.collektive.api.Device
 import org.collektive.api.Parameters
-import org.collektive.api.Philox
+import org.collektive.engine.Philox
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.Export
-import org.collektive.runtime.Inbox
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 

@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
 import org.collektive.engine.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntimes
+import org.collektive.spi.DeviceRuntimes
 import samples.Swarm
 import kotlin.math.hypot
 import kotlin.random.Random

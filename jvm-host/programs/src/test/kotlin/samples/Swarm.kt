@@ -1,19 +1,20 @@
 package samples
 
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import it.unibo.collektive.stdlib.util.Point2D
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
+import org.collektive.engine.LinkList
 import org.collektive.engine.NewNode
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundData
+import org.collektive.engine.RoundDevice
 import org.collektive.engine.Schedule
 import org.collektive.engine.Tick
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntimes
+import org.collektive.spi.DeviceRuntimes
 
 /**
  * Devices on the ground that all run [round] in each tick on what [sense] gives for their id and place. Two hear each other while they are
@@ -39,9 +40,9 @@ internal class Swarm<S : Any, A : Any>(
         override val name = "sample"
 
         @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device) = aggregate.round(sensors as S, device)
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice) = (aggregate as Aggregate<Int>).round(sensors as S, device)
 
-        override fun describe(failure: Throwable, place: ProgramPlace?) = failure.toString()
+        override fun describe(failure: Throwable, place: String?) = failure.toString()
     }
 
     /** The answers of one tick, by id. @throws IllegalStateException when a round failed. */
@@ -56,7 +57,7 @@ internal class Swarm<S : Any, A : Any>(
         val data = object : RoundData {
             override fun sensors(worker: Int, index: Int) = seen[index]
 
-            override fun fault(worker: Int, index: Int, answer: Any): String? = null
+            override fun pack(worker: Int, index: Int, answer: Any): String? = null
         }
         val result = engine.step(tick, data, System.nanoTime() + LIMIT)
         return (0 until result.size).associate { index ->
@@ -91,7 +92,7 @@ internal class Swarm<S : Any, A : Any>(
             tick.linksRemoved.add(from)
             tick.linksRemoved.add(to)
         }
-        for ((from, to) in near - links) tick.links.add(from, to, 1f, 0f)
+        tick.links = LinkList().also { made -> for ((from, to) in near - links) made.add(from, to, 1f, 0f) }
         links.clear()
         links += near
     }

@@ -9,7 +9,7 @@ import org.jetbrains.kotlin.name.Name
 internal object DslNames {
     private val aggregatePackage = FqName("it.unibo.collektive.aggregate")
     val apiPackage = FqName("it.unibo.collektive.aggregate.api")
-    private val implPackage = FqName("it.unibo.collektive.aggregate.api.impl")
+    private val alignmentPackage = FqName("org.collektive.alignment")
 
     val field = ClassId(aggregatePackage, Name.identifier("Field"))
     val aggregate = ClassId(apiPackage, Name.identifier("Aggregate"))
@@ -24,8 +24,8 @@ internal object DslNames {
     val context = Name.identifier("context")
     val local = Name.identifier("local")
 
-    val pushToken = CallableId(implPackage, Name.identifier("pushToken"))
-    val popToken = CallableId(implPackage, Name.identifier("popToken"))
-    val noteFailure = CallableId(implPackage, Name.identifier("noteFailure"))
-    val project = CallableId(implPackage, Name.identifier("project"))
+    val pushToken = CallableId(alignmentPackage, Name.identifier("pushToken"))
+    val popToken = CallableId(alignmentPackage, Name.identifier("popToken"))
+    val noteFailure = CallableId(alignmentPackage, Name.identifier("noteFailure"))
+    val project = CallableId(alignmentPackage, Name.identifier("project"))
 }

@@ -1,7 +1,7 @@
 package org.collektive.compiler
 
 import it.unibo.collektive.aggregate.AlignmentClashException
-import it.unibo.collektive.aggregate.api.impl.readable
+import org.collektive.alignment.readable
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith

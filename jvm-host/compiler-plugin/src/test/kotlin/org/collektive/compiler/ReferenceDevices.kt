@@ -9,9 +9,9 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
-import it.unibo.collektive.aggregate.api.impl.AlignmentStack
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import it.unibo.collektive.aggregate.api.impl.readable
+import org.collektive.alignment.AlignmentStack
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.readable
 
 /**
  * Devices that keep everything in maps by whole path: slow and obviously right.

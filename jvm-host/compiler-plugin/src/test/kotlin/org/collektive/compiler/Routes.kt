@@ -15,8 +15,9 @@ import it.unibo.collektive.path.Path
 import kotlinx.serialization.builtins.serializer
 import kotlinx.serialization.json.Json
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.Export
-import org.collektive.runtime.Inbox
+import org.collektive.runtime.round
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 
 /** Devices in a row, each linked with the one before and the one after, who read what was sent in the round before. */
 internal fun interface Row {
@@ -55,7 +56,7 @@ private fun inPlace(size: Int): Row {
                 override fun export(index: Int) = exports[senders[index]]
                 override fun wasKnown(index: Int) = true
             }
-            device.round(inbox) { it.program() }
+            device.round(inbox, program)
         }
         devices.forEachIndexed { id, device -> exports[id] = device.commit() }
         results

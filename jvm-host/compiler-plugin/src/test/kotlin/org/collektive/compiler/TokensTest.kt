@@ -1,7 +1,7 @@
 package org.collektive.compiler
 
-import it.unibo.collektive.aggregate.api.impl.location
-import it.unibo.collektive.aggregate.api.impl.readable
+import org.collektive.alignment.location
+import org.collektive.alignment.readable
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertSame

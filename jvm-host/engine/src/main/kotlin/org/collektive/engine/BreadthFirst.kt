@@ -1,23 +1,23 @@
 package org.collektive.engine
 
 /**
- * All nodes, so that neighbours stand near each other: breadth first along the links.
+ * The order in which rounds run: breadth first along the links, so that neighbours run soon after each other.
  *
- * Rounds run in this order. A round reads what its neighbours left in memory, and in this order most of it is still in the
- * processor's caches; collectors, too, lay out objects as they come upon them. No result depends on it.
+ * A round reads what its neighbours sent; in this order most of that is still in the processor's caches. Collectors, too, place
+ * objects in the order in which they find them. No result depends on this order.
  */
 internal class BreadthFirst {
     private var nodes = arrayOfNulls<Node>(0)
     private var size = 0
     private var turns = IntArray(0)
 
-    // How many nodes have been placed when each node's neighbours have: its round is the first to read those from here to the one before.
+    // reached[i]: end of the prefix of `nodes` that rounds 0..i read.
     private var reached = IntArray(0)
 
-    /** Links made and ended since the nodes were put in order. */
+    /** Number of links made and ended since the last [arrange]. */
     private var linksChanged = 0
 
-    /** Whether [turns] are those of all nodes, in the present order. */
+    /** Whether [turns] holds all nodes in their present order. */
     private var isForAll = false
 
     fun linkChanged() {
@@ -42,7 +42,7 @@ internal class BreadthFirst {
         isForAll = false
     }
 
-    /** Puts the nodes in order when so many of the [linkCount] links are others that it pays; [all] are the same nodes by id. */
+    /** Orders the nodes anew once enough of the [linkCount] links have changed; [all] holds the same nodes by id. */
     fun arrange(all: Peers, linkCount: Int, tick: Long) {
         if (linksChanged * CHANGES_WORTH_IT <= linkCount + size) return
         linksChanged = 0
@@ -62,7 +62,7 @@ internal class BreadthFirst {
         }
     }
 
-    /** The indices of the due nodes of [result] in this order, as many as [result] has. */
+    /** Indices into the due nodes of [result], in this order; the first `result.size` elements. */
     fun turns(result: TickResult): IntArray {
         if (isForAll && result.size == size) return turns
         if (turns.size < result.size) turns = IntArray(maxOf(result.size, turns.size + (turns.size shr 1)))
@@ -78,8 +78,10 @@ internal class BreadthFirst {
     }
 
     /**
-     * Reads the nodes that the rounds of these turns are the first to read, so that they are in the processor's caches by then. One after
-     * the other, each would wait for several reads that depend on each other; here those of different nodes wait at the same time.
+     * Prefetches the nodes that the rounds [begin] until [end] are the first to read. A round's own reads depend on each other and would
+     * wait one by one; here the misses of many nodes overlap.
+     *
+     * @return a value without meaning, which keeps the JIT from dropping the reads.
      */
     fun touch(begin: Int, end: Int): Int {
         if (!isForAll || end > reached.size) return 0
@@ -99,7 +101,7 @@ internal class BreadthFirst {
     }
 
     private companion object {
-        /** A fourth of the links must have changed: few orders when a swarm moves, and one at the start. */
+        /** A quarter of the links must have changed: rare while a swarm moves, and certain at the start. */
         const val CHANGES_WORTH_IT = 4
     }
 }

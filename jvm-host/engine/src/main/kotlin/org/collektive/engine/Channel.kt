@@ -1,18 +1,18 @@
 package org.collektive.engine
 
-import org.collektive.runtime.Export
+import org.collektive.spi.Export
 
-/** One link under a network model: the messages on their way, and the one that arrived. Used by one thread at a time. */
+/** One link under a network model: the messages on their way, and the one that arrived. One thread at a time. */
 internal class Channel {
     /** What arrived last and is still valid. */
     var held: Export? = null
         private set
 
-    /** Tick at which the newest message that arrived was sent; 0 before. */
+    /** Tick in which the newest message that arrived was sent; 0 before the first. */
     var heldAt = 0L
         private set
 
-    /** Tick of the sender's last message that was put on this link; 0 before. */
+    /** Tick of the last message put on this link; 0 before the first. */
     var takenAt = 0L
 
     private var validUntil = 0.0
@@ -36,7 +36,7 @@ internal class Channel {
         arrivals[count++] = arrival
     }
 
-    /** Lets all messages arrive whose time is [now] or earlier; the one sent last stays. */
+    /** Takes all messages that are due by [now]; of these and [held], the one sent last stays. */
     fun arrive(now: Double, retention: Double) {
         var index = 0
         while (index < count) {
@@ -61,7 +61,7 @@ internal class Channel {
         }
     }
 
-    /** Forgets a held message that was valid only until before [now]; `true` when there was one. */
+    /** Drops the held message if its validity ended before [now]; `true` when it did. */
     fun expire(now: Double): Boolean {
         val export = held
         if (export == null || validUntil >= now) return false
@@ -70,7 +70,7 @@ internal class Channel {
         return true
     }
 
-    /** Gives up all messages: the link is no more. */
+    /** Releases all messages, when the link ends. */
     fun close() {
         held?.release()
         for (index in 0 until count) exports[index]?.release()

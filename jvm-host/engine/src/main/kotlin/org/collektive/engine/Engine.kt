@@ -1,30 +1,26 @@
 package org.collektive.engine
 
-import it.unibo.collektive.aggregate.api.Aggregate
-import org.collektive.runtime.DeviceRuntime
-import org.collektive.runtime.DeviceRuntimes
-import org.collektive.runtime.RoundProgram
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.DeviceRuntimes
 
 /**
  * Nodes, links and their rounds: one simulation.
  *
- * All calls come from one thread at a time; rounds run on threads of the engine's own. No allocation per tick in steady state but
- * what programs do.
+ * One thread at a time calls it; rounds run on threads of its own. In steady state a tick allocates nothing but what programs
+ * allocate.
  */
 public class Engine(private val settings: EngineSettings, private val runtimes: DeviceRuntimes) : AutoCloseable {
-    // Before the nodes by id, so that collectors come upon nodes in this order.
+    // Declared before `nodes`, so that collectors find the nodes in this order.
     private val order = BreadthFirst()
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
     private val result = TickResult()
     private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
-    private val rounds = Array(settings.threads) { Round(it) }
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
     private val clock = Clock()
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
     private val deliveryTask = RoundPool.Task(::deliverRange)
-    private var data: RoundData? = null
     private var turns = IntArray(0)
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
@@ -34,14 +30,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     /** The last tick whose changes were applied; 0 before the first. */
     public val lastTick: Long get() = clock.tick
 
-    /** Nodes that there are. */
+    /** Number of nodes. */
     public val nodeCount: Int get() = nodes.size
 
-    /** Directed links that there are. */
+    /** Number of directed links. */
     public var linkCount: Int = 0
         private set
 
-    /** A tick comes soon: threads wake up meanwhile. */
+    /** Announces a tick, so that threads wake up meanwhile. */
     public fun wake() {
         pool.wake()
     }
@@ -49,12 +45,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     /**
      * Applies the changes of [tick], then runs one round of each due node.
      *
-     * A round that throws costs its node this round only: state and messages stay those of its last good one.
+     * A round that throws costs its node this round only: state and messages stay those of its last good round.
      *
-     * @param data used on the threads that run rounds.
+     * @param data called on the threads that run rounds.
      * @param deadline in terms of `System.nanoTime()`.
-     * @throws TickRefused when the tick breaks a rule; nothing has changed then.
-     * @throws RoundsNotFinished when rounds still ran at the deadline; this engine can only be closed then.
+     * @return valid until the next call.
+     * @throws TickRefused when the tick breaks a rule; then nothing has changed.
+     * @throws RoundsNotFinished when rounds still ran at the deadline; then this engine can only be closed.
      */
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
@@ -71,7 +68,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         return result
     }
 
-    /** Ends the engine's threads, those in a round when it ends. */
+    /** Ends the engine's threads: idle ones now, the others when their round ends. */
     override fun close() {
         pool.abandon()
     }
@@ -138,17 +135,16 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
-    /** Index of the due node whose turn comes as number [turn]: by id where each sees what those before sent. */
+    /** Index of the due node whose round is number [turn]; in id order under the sequential schedule. */
     private fun indexOf(turn: Int) = if (isSequential) turn else turns[turn]
 
     private fun runRounds(data: RoundData, deadline: Long) {
-        this.data = data
         if (!isSequential) turns = order.turns(result)
-        runOnPool(roundTask, result.size, deadline)
+        runOnPool(roundTask, data, result.size, deadline)
         result.countFailures()
     }
 
-    /** Puts what was sent on the links. An ideal network has nothing to do: receivers read what their senders sent last. */
+    /** Puts what was sent on the links. In an ideal network receivers read their senders' exports, and there is only counting to do. */
     private fun deliver(deadline: Long) {
         val counts = result.network
         if (settings.network.isIdeal) {
@@ -156,7 +152,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             if (allSent) counts.sent += linkCount else countSent(counts)
             return
         }
-        runOnPool(deliveryTask, nodes.size, deadline)
+        runOnPool(deliveryTask, transmitters, nodes.size, deadline)
         for (transmitter in transmitters) {
             counts.add(transmitter.counts)
             transmitter.counts.clear()
@@ -167,7 +163,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         for (index in 0 until result.size) if (result.failure(index) == null) counts.sent += result.node(index).outgoing.size
     }
 
-    private fun deliverRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
+    @Suppress("UNUSED_PARAMETER") // The signature of a task.
+    private fun deliverRange(transmitters: Array<Transmitter>, thread: RoundThread, worker: Int, begin: Int, end: Int) {
         for (index in begin until end) {
             if (pool.isClosed) return
             val incoming = nodes.node(index).incoming
@@ -176,10 +173,10 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
-    private fun runOnPool(task: RoundPool.Task, count: Int, deadline: Long) {
+    private fun <T> runOnPool(task: RoundPool.Task<T>, input: T, count: Int, deadline: Long) {
         val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
-        if (pool.run(task, count, range, deadline)) return
-        // Even when there is no memory for the dump.
+        if (pool.run(task, input, count, range, deadline)) return
+        // Abandons the pool even if there is no memory for the dump.
         val dump = try {
             pool.dump()
         } finally {
@@ -188,80 +185,58 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         throw RoundsNotFinished(clock.tick, dump)
     }
 
-    private fun runRange(thread: RoundThread, worker: Int, begin: Int, end: Int) {
-        val round = rounds[worker]
+    private fun runRange(data: RoundData, thread: RoundThread, worker: Int, begin: Int, end: Int) {
         var touched = begin
         for (turn in begin until end) {
             if (pool.isClosed) return
-            if (turn == touched) touched = round.touch(turn, minOf(turn + TOUCHED_TOGETHER, end))
+            if (turn == touched && !isSequential) {
+                touched = minOf(turn + TOUCHED_TOGETHER, end)
+                thread.touched += order.touch(turn, touched)
+            }
             val index = indexOf(turn)
             val node = result.node(index)
-            thread.program = node.program.name
-            thread.node = node.id
-            thread.rounds++
+            thread.begin(node)
             try {
-                if (isSequential) node.incoming.take(transmitters[worker])
-                node.incoming.advance(transmitters[worker])
-                val answer = round.run(node, index)
-                node.send(node.runtime.commit(), clock.tick, clock.time)
-                result.answered(index, answer)
+                result.answered(index, answer(node, data, worker, index))
             } catch (failure: Throwable) {
                 // Whatever a program throws, errors of the JVM included, is the failure of its round.
                 result.failed(index, describe(node, failure))
             }
-            thread.node = -1
+            thread.end()
         }
     }
 
-    /** On the thread of the round, since a program's exceptions are its code too. */
+    /** Runs the round of [node], packs its answer, and then makes its state and messages the valid ones. */
+    private fun answer(node: Node, data: RoundData, worker: Int, index: Int): Any {
+        if (isSequential) node.incoming.take(transmitters[worker])
+        node.incoming.advance(transmitters[worker])
+        val answer = node.runtime.round(node.incoming, node, data.sensors(worker, index)) ?: throw UnusableAnswer("the result is null")
+        data.pack(worker, index, answer)?.let { throw UnusableAnswer(it) }
+        node.send(node.runtime.commit(), clock.tick, clock.time)
+        return answer
+    }
+
+    /** Runs on the thread of the round: a program's exceptions are its code too. */
     private fun describe(node: Node, failure: Throwable): String = try {
         node.program.describe(failure, node.runtime.placeOf(failure))
     } catch (_: Throwable) {
         "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
     }
 
-    /** The round that one thread runs, made once. */
-    private inner class Round(private val worker: Int) : RoundProgram {
-        private var node: Node? = null
-        private var index = 0
-
-        // Kept: see Export.touch.
-        private var touched = 0
-
-        fun run(node: Node, index: Int): Any {
-            this.node = node
-            this.index = index
-            val answer = node.runtime.round(node.incoming, this) ?: throw UnusableAnswer("the result is null")
-            checkNotNull(data).fault(worker, index, answer)?.let { throw UnusableAnswer(it) }
-            return answer
-        }
-
-        /** Makes ready for the rounds of these turns; returns [end]. */
-        fun touch(begin: Int, end: Int): Int {
-            if (!isSequential) touched += order.touch(begin, end)
-            return end
-        }
-
-        override fun run(aggregate: Aggregate<Int>): Any? {
-            val node = checkNotNull(node)
-            return node.program.round(aggregate, checkNotNull(data).sensors(worker, index), node)
-        }
-    }
-
     private companion object {
-        // Ranges small enough that no thread waits long for another's last one, large enough that taking one costs nothing.
+        // Small enough that no thread waits long for another's last range, large enough that taking one costs little.
         const val RANGES_PER_THREAD = 32
         const val MIN_RANGE = 16
         const val MAX_RANGE = 128
 
-        // Enough for the processor to wait for many reads at once, few enough to stay in its nearest caches.
+        // Enough misses to overlap, few enough nodes to stay in the first-level cache.
         const val TOUCHED_TOGETHER = 64
     }
 }
 
-/** A program's answer that cannot be sent; the message says why. */
+/** A program's answer that cannot be packed; the message says why. */
 public class UnusableAnswer(message: String) : IllegalStateException(message)
 
-/** Rounds that still ran when the limit passed; [threads] tells what they were doing. */
+/** Rounds still ran at the deadline; [threads] is a dump of their stacks. */
 public class RoundsNotFinished(tick: Long, public val threads: String) :
     IllegalStateException("tick $tick: rounds did not finish within the limit")

@@ -1,7 +1,7 @@
 package org.collektive.engine
 
-import org.collektive.runtime.Export
-import org.collektive.runtime.Inbox
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 
 /** The links into the node [receiver], ascending by the sender's id, with their values; channels only unless [isIdeal]. */
 internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, private val clock: Clock) :

@@ -1,12 +1,11 @@
 package org.collektive.engine
 
-import org.collektive.api.Device
 import org.collektive.api.Parameters
-import org.collektive.api.Philox
-import org.collektive.runtime.DeviceRuntime
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.RoundProgram
 import kotlin.random.Random
 
-/** One node of a session: its links, its program, its device. */
+/** One node of a session: its links, its device, and its program, ready to run. */
 internal class Node(
     override val id: Int,
     val program: NodeProgram,
@@ -16,7 +15,8 @@ internal class Node(
     seed: Long,
     isIdeal: Boolean,
 ) : Outbox(),
-    Device {
+    RoundDevice,
+    RoundProgram {
     /** The one object that stands for [id] wherever ids are objects. */
     val boxedId: Any = id
     val incoming = IncomingLinks(id, isIdeal, clock)
@@ -34,6 +34,9 @@ internal class Node(
     override val deltaTime: Double
         get() = if (sentAt == 0L || sentAt == clock.tick - 1) clock.deltaTime else clock.time - sentTime
     override val globals: Any? get() = clock.globals
+    override val exports: Int get() = runtime.exports
+
+    override fun run(aggregate: Any, sensors: Any?): Any? = program.round(aggregate, sensors, this)
 }
 
 /** What all nodes of a session see alike; changes between rounds only. */

@@ -1,31 +1,31 @@
 package org.collektive.engine
 
-import org.collektive.runtime.Export
+import org.collektive.spi.Export
 
 /**
- * What a node sent in the last two rounds that gave an answer.
+ * What a node sent in its last two rounds that gave an answer.
  *
- * Rounds of a tick read what was sent before it, also those that run beside the sender's round or after it: they read one place while
- * that round writes the other. So nothing has to be published when all rounds have ended.
+ * Rounds of a tick read what was sent before the tick, even beside or after the sender's own round: they read one slot while that
+ * round writes the other. So there is no second pass that publishes exports.
  *
  * Threads: [send] by one at a time, [readable] by any at the same time; [last], [sentAt] and [sentTime] while no round runs.
  */
 internal abstract class Outbox {
-    // In a class of their own, whose fields stand before those of its subclass, side by side: neighbours read no more of a node.
+    // A superclass's fields come first in the object, side by side: neighbours read nothing else of a node.
     private var even: Export? = null
     private var odd: Export? = null
 
-    // The lowest bit names the place of the last export; the others are its tick.
+    // Lowest bit: slot of the last export; other bits: its tick.
     private var stamp = 0L
 
-    /** Simulated time of the round that sent [last]; 0 before. */
+    /** Simulated seconds of the round that sent [last]; 0 before the first. */
     var sentTime = 0.0
         private set
 
-    /** What the last round that gave an answer sent; `null` before. */
+    /** What the last round that gave an answer sent; `null` before the first. */
     val last: Export? get() = at(stamp)
 
-    /** Tick of that round; 0 before. */
+    /** Tick of that round; 0 before the first. */
     val sentAt: Long get() = stamp shr 1
 
     /** Makes [export], sent in [tick], the last one. */
@@ -36,10 +36,10 @@ internal abstract class Outbox {
         stamp = 2 * tick + (stamp.inv() and 1)
     }
 
-    /** What was sent last before [tick], which is the present one or the next. */
+    /** The last export from before [tick], which is the present tick or the next. */
     fun readable(tick: Long): Export? {
         val stamp = stamp
-        // Without a branch: whether a neighbour has run already is as good as random.
+        // Branchless: whether a neighbour has run already is unpredictable.
         val isLater = 2 * tick - 1 - stamp ushr 63
         return at(stamp xor isLater)
     }

@@ -5,34 +5,36 @@ import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
 
 /**
- * The threads of one session. [run] is called by one thread; it allocates nothing.
+ * The threads of one session. One thread at a time calls [run], which allocates nothing.
  *
- * Work is handed out in ranges of indices; who gets which depends on timing, so a task must give the same result in any order.
+ * Threads take work in ranges of indices. Which thread takes which depends on timing, so the results of a task must not depend on
+ * the order.
  */
 internal class RoundPool(private val size: Int) {
-    /** What the threads do: all of `begin until end`, on the thread [worker]. */
-    fun interface Task {
-        fun run(thread: RoundThread, worker: Int, begin: Int, end: Int)
+    /** What the threads do with [input]: all of `begin until end`, on the thread [worker]. */
+    fun interface Task<in T> {
+        fun run(input: T, thread: RoundThread, worker: Int, begin: Int, end: Int)
     }
 
     private val workers = Array(size) { Worker(it) }
 
-    // Where the next range of each thread's share begins.
+    // Start of the next range in each thread's share.
     private val next = AtomicIntegerArray(size * APART)
     private val busy = AtomicInteger()
-    private var task = Task { _, _, _, _ -> }
+    private var task = Task<Any?> { _, _, _, _, _ -> }
+    private var input: Any? = null
     private var count = 0
     private var range = 1
     private var needed = 0
 
-    // What a task threw: an error of ours, since rounds keep theirs.
+    // What a task threw: a defect of the engine, since the rounds' own exceptions are caught inside.
     @Volatile
     private var failure: Throwable? = null
 
     @Volatile
     private var caller: Thread? = null
 
-    // Until when idle threads stay awake.
+    // Idle threads spin until then; in terms of System.nanoTime().
     @Volatile
     private var awakeUntil = System.nanoTime()
 
@@ -44,19 +46,22 @@ internal class RoundPool(private val size: Int) {
         for (worker in workers) worker.thread.start()
     }
 
-    /** Wakes the threads that the last work needed: the next comes soon. */
+    /** Wakes the threads that the last work needed; they spin until the next comes. */
     fun wake() {
         awakeUntil = System.nanoTime() + WATCH_NANOS
         for (index in 0 until needed) LockSupport.unpark(workers[index].thread)
     }
 
     /**
-     * Runs [task] over `0 until count` in ranges of [range] and waits for the end; `false` when `System.nanoTime()` passed [deadline]
-     * first: then the pool is of no use any more, and must be abandoned.
+     * Runs [task] on [input] over `0 until count` in ranges of [range], and waits for the end.
+     *
+     * @return `false` when `System.nanoTime()` passed [deadline] first; then the pool must be abandoned.
      */
-    fun run(task: Task, count: Int, range: Int, deadline: Long): Boolean {
+    fun <T> run(task: Task<T>, input: T, count: Int, range: Int, deadline: Long): Boolean {
         if (count == 0) return true
-        this.task = task
+        @Suppress("UNCHECKED_CAST") // It only ever gets this input.
+        this.task = task as Task<Any?>
+        this.input = input
         this.count = count
         this.range = range
         caller = Thread.currentThread()
@@ -68,20 +73,20 @@ internal class RoundPool(private val size: Int) {
         while (busy.get() > 0) {
             val now = System.nanoTime()
             if (deadline - now <= 0) return false
-            // A processor that falls asleep meanwhile takes longer to wake up than the rounds of a small network last.
+            // Spin briefly: waking an idle core takes longer than the rounds of a small network.
             if (now - begin < WATCH_NANOS) Thread.yield() else LockSupport.parkNanos(this, deadline - now)
         }
         failure?.let { throw IllegalStateException("a thread of the engine failed", it) }
         return true
     }
 
-    /** Ends all idle threads now and busy ones at the end of the round they are in; interrupts those. */
+    /** Ends idle threads now, and interrupts busy ones, which end after their round. */
     fun abandon() {
         isClosed = true
         for (worker in workers) worker.thread.interrupt()
     }
 
-    /** What each thread is doing, for the log. */
+    /** The stack of each thread, for the log. */
     fun dump(): String = buildString {
         for (worker in workers) {
             val thread = worker.thread
@@ -92,7 +97,7 @@ internal class RoundPool(private val size: Int) {
         }
     }
 
-    /** Each thread has the same share each time, as long as the count is the same, since what it did last is in its caches; then it helps others. */
+    /** Works on the thread's own share, then on the others'. For one count the shares stay the same, so a thread's nodes stay in its caches. */
     private fun work(worker: Worker) {
         for (turn in 0 until needed) {
             val share = (worker.index + turn) % needed
@@ -100,7 +105,7 @@ internal class RoundPool(private val size: Int) {
             while (!isClosed) {
                 val begin = next.getAndAdd(share * APART, range)
                 if (begin >= end) break
-                task.run(worker.thread, worker.index, begin, minOf(begin + range, end))
+                task.run(input, worker.thread, worker.index, begin, minOf(begin + range, end))
             }
         }
     }
@@ -130,7 +135,7 @@ internal class RoundPool(private val size: Int) {
                 } catch (e: Throwable) {
                     failure = e
                 }
-                // A program may have left its thread interrupted, and park() would not wait any more.
+                // A program may have left its thread interrupted, which would make park() return at once.
                 Thread.interrupted()
                 if (busy.decrementAndGet() == 0) LockSupport.unpark(caller)
             }
@@ -138,7 +143,7 @@ internal class RoundPool(private val size: Int) {
     }
 
     private companion object {
-        // Threads write each other's shares rarely, and should not find them in one cache line.
+        // Padding against false sharing: in ints.
         const val APART = 16
         const val WATCH_NANOS = 500_000L
     }

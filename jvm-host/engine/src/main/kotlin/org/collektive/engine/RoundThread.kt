@@ -2,7 +2,7 @@ package org.collektive.engine
 
 import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 
-/** A thread that runs users' rounds: its stack is its own, so that endless recursion ends in an error and nothing else. */
+/** A thread that runs users' rounds. It has a stack of its own: endless recursion ends in an error and harms nothing else. */
 public class RoundThread internal constructor(name: String, task: Runnable) : Thread(null, task, name, STACK_BYTES) {
     init {
         isDaemon = true
@@ -11,18 +11,29 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
     @Volatile
     private var running = -1
 
-    /** Id of the node whose round runs here, or -1; other threads may see it late, since a round should not pay for that. */
-    public var node: Int
-        get() = running
-        internal set(id) = RUNNING.lazySet(this, id)
+    /** Id of the node whose round runs here, or -1. Other threads may see it late: a round does not pay for a full fence. */
+    public val node: Int get() = running
 
-    /** Rounds that this thread has begun. */
+    /** Number of rounds begun on this thread. */
     public var rounds: Long = 0
-        internal set
+        private set
 
     /** Name of the program of that round; on this thread only. */
     public var program: String = ""
-        internal set
+        private set
+
+    /** Sum of what [BreadthFirst.touch] read, kept so that the JIT does not drop the reads. */
+    internal var touched = 0
+
+    /** The round of [next] begins here. */
+    internal fun begin(next: Node) {
+        program = next.program.name
+        RUNNING.lazySet(this, next.id)
+        rounds++
+    }
+
+    /** The round is over. */
+    internal fun end() = RUNNING.lazySet(this, -1)
 
     override fun run() {
         MakerOfThread.set("")

@@ -26,8 +26,8 @@ public class Tick {
     /** Links that end: sender, receiver, sender, receiver... */
     public val linksRemoved: IntList = IntList()
 
-    /** Links that begin or get new values. */
-    public val links: LinkList = LinkList()
+    /** Links that begin or get new values; must stay as they are until the tick is over. */
+    public var links: Links = NoLinks
 
     /** Nodes that run a round, ascending. */
     public val due: IntList = IntList()
@@ -40,7 +40,7 @@ public class Tick {
         nodesRemoved.clear()
         nodesAdded.clear()
         linksRemoved.clear()
-        links.clear()
+        links = NoLinks
         due.clear()
         globals = null
     }
@@ -48,50 +48,6 @@ public class Tick {
 
 /** A node that comes: [id] 0 or greater and free, with the program that it runs. */
 public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
-
-/** Links with their values, without boxes. */
-public class LinkList {
-    private var from = IntArray(16)
-    private var to = IntArray(16)
-    private var lengths = FloatArray(16)
-    private var attenuations = FloatArray(16)
-
-    /** How many there are. */
-    public var size: Int = 0
-        private set
-
-    /** Appends the link by which [to] receives what [from] sends: [length] in metres, [attenuation] 0 (clear) or greater. */
-    public fun add(from: Int, to: Int, length: Float, attenuation: Float) {
-        if (size == this.from.size) {
-            this.from = this.from.copyOf(2 * size)
-            this.to = this.to.copyOf(2 * size)
-            lengths = lengths.copyOf(2 * size)
-            attenuations = attenuations.copyOf(2 * size)
-        }
-        this.from[size] = from
-        this.to[size] = to
-        lengths[size] = length
-        attenuations[size] = attenuation
-        size++
-    }
-
-    /** The sender of link [index]. */
-    public fun from(index: Int): Int = from[index]
-
-    /** The receiver of link [index]. */
-    public fun to(index: Int): Int = to[index]
-
-    /** Metres. */
-    public fun length(index: Int): Float = lengths[index]
-
-    /** 0 (clear) or greater. */
-    public fun attenuation(index: Int): Float = attenuations[index]
-
-    /** Forgets all links. */
-    public fun clear() {
-        size = 0
-    }
-}
 
 /** A tick that breaks a rule and was refused before it changed anything; [message] names the tick, the id and the value. */
 public class TickRefused(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

@@ -1,6 +1,5 @@
 package org.collektive.engine
 
-import org.collektive.api.Philox
 
 /**
  * One thread's share of the network: draws, and counts what happens.

@@ -1,9 +1,6 @@
 package org.collektive.engine
 
 import com.sun.management.ThreadMXBean
-import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
 import org.junit.jupiter.api.Test
@@ -19,15 +16,15 @@ class AllocationTest {
     private inner class Constant(private val allocates: Boolean) : NodeProgram {
         override val name = "constant"
 
-        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any = if (allocates) LongArray(4) else answer
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = if (allocates) LongArray(4) else answer
 
-        override fun describe(failure: Throwable, place: ProgramPlace?) = failure.toString()
+        override fun describe(failure: Throwable, place: String?) = failure.toString()
     }
 
     private object NoData : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
-        override fun fault(worker: Int, index: Int, answer: Any): String? = null
+        override fun pack(worker: Int, index: Int, answer: Any): String? = null
     }
 
     @Test
@@ -48,16 +45,18 @@ class AllocationTest {
         Engine(EngineSettings(1, 2, schedule, network), AggregateRuntimes()).use { engine ->
             val tick = Tick()
             for (id in 0 until NODES) tick.nodesAdded.add(NewNode(id, Constant(allocates), Parameters(emptyMap())))
-            for (id in 1 until NODES) tick.links.add(id - 1, id, 1f, 0f)
+            val links = LinkList()
+            tick.links = links
             fun step() {
                 tick.number++
                 tick.time += 0.1
                 for (id in 0 until NODES) tick.due.add(id)
-                for (part in 1 until NODES / 10) tick.links.add(10 * part - 1, 10 * part, tick.time.toFloat(), 0f)
+                for (part in 1 until NODES / 10) links.add(10 * part - 1, 10 * part, tick.time.toFloat(), 0f)
                 engine.step(tick, NoData, System.nanoTime() + TimeUnit.SECONDS.toNanos(10))
                 tick.clear()
+                links.clear()
+                tick.links = links
             }
-            tick.links.clear()
             repeat(WARM_UP) { step() }
             val own = Thread.getAllStackTraces().keys.filter { it is RoundThread || it === Thread.currentThread() }
             val ids = own.map { it.id }.toLongArray()

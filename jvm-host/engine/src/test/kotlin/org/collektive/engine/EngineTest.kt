@@ -213,8 +213,8 @@ class EngineTest {
                         if (number == 1L) add(1, 2, 3)
                         due(1, 2, 3)
                     }.toMap()
-                    assertEquals("java.lang.IllegalStateException: broken at outer > inner", answers[1])
-                    val recursion = Regex("java.lang.StackOverflowError at outer > deeper > .*deeper > … \\([0-9,]+ more\\) > deeper > deeper")
+                    assertEquals("java.lang.IllegalStateException: broken [node 1 at outer > inner]", answers[1])
+                    val recursion = Regex("java.lang.StackOverflowError \\[node 2 at outer > deeper > .*deeper > … \\([0-9,]+ more\\) > deeper > deeper]")
                     assertTrue(recursion.matches(answers[2].toString()), answers[2].toString())
                     assertEquals(true, answers[3])
                 }

@@ -6,9 +6,10 @@ import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import it.unibo.collektive.aggregate.api.sharing
 import it.unibo.collektive.aggregate.values
+import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntimes
-import org.collektive.runtime.SharingRule
+import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.SharingRule
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory

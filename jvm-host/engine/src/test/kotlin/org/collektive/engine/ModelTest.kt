@@ -3,9 +3,9 @@ package org.collektive.engine
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
-import org.collektive.api.Philox
+import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntimes
+import org.collektive.spi.DeviceRuntimes
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory

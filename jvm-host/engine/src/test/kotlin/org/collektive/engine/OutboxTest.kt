@@ -1,6 +1,6 @@
 package org.collektive.engine
 
-import org.collektive.runtime.Export
+import org.collektive.spi.Export
 import org.junit.jupiter.api.Test
 import kotlin.random.Random
 import kotlin.test.assertEquals

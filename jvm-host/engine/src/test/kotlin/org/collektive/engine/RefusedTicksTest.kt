@@ -37,11 +37,11 @@ class RefusedTicksTest {
             it.nodesRemoved.add(2)
             it.link(1, 2)
         },
-        Case("tick 3: link 1 -> 2 has length NaN; it must be finite and 0 or greater") { it.links.add(1, 2, Float.NaN, 0f) },
-        Case("tick 3: link 1 -> 2 has length -1.0; it must be finite and 0 or greater") { it.links.add(1, 2, -1f, 0f) },
-        Case("tick 3: link 1 -> 2 has attenuation -2.0; it must be finite and 0 or greater") { it.links.add(1, 2, 1f, -2f) },
+        Case("tick 3: link 1 -> 2 has length NaN; it must be finite and 0 or greater") { it.link(1, 2, Float.NaN, 0f) },
+        Case("tick 3: link 1 -> 2 has length -1.0; it must be finite and 0 or greater") { it.link(1, 2, -1f, 0f) },
+        Case("tick 3: link 1 -> 2 has attenuation -2.0; it must be finite and 0 or greater") { it.link(1, 2, 1f, -2f) },
         Case("tick 3: link 1 -> 2 has attenuation Infinity; it must be finite and 0 or greater") {
-            it.links.add(1, 2, 1f, Float.POSITIVE_INFINITY)
+            it.link(1, 2, 1f, Float.POSITIVE_INFINITY)
         },
         Case("tick 3: link 1 -> 2 is given twice") { tick -> repeat(2) { tick.link(1, 2) } },
         Case("tick 3: link 3 -> 1 is made twice") { tick ->

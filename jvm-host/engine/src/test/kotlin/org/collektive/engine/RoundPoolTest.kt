@@ -18,8 +18,8 @@ class RoundPoolTest {
                 val count = random.nextInt(1, 500)
                 val range = random.nextInt(1, 60)
                 val done = AtomicIntegerArray(count)
-                val task = RoundPool.Task { _, _, begin, end -> for (index in begin until end) done.incrementAndGet(index) }
-                assertTrue(pool.run(task, count, range, farOff))
+                val task = RoundPool.Task<AtomicIntegerArray> { counts, _, _, begin, end -> for (index in begin until end) counts.incrementAndGet(index) }
+                assertTrue(pool.run(task, done, count, range, farOff))
                 for (index in 0 until count) assertEquals(1, done[index], "index $index of $count in ranges of $range on $threads threads")
             }
             pool.abandon()
@@ -30,11 +30,11 @@ class RoundPoolTest {
     fun `a thread that is done helps the others`() {
         val pool = RoundPool(2)
         val workers = AtomicIntegerArray(100)
-        val task = RoundPool.Task { _, worker, begin, _ ->
+        val task = RoundPool.Task<AtomicIntegerArray> { doneBy, _, worker, begin, _ ->
             if (begin == 0) Thread.sleep(500)
-            workers[begin] = worker
+            doneBy[begin] = worker
         }
-        assertTrue(pool.run(task, 100, 1, farOff))
+        assertTrue(pool.run(task, workers, 100, 1, farOff))
         pool.abandon()
         val idle = 1 - workers[0]
         assertTrue((1 until 50).all { workers[it] == idle }, "the share of the thread that slept")

@@ -1,20 +1,20 @@
 package org.collektive.engine
 
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
 import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntimes
+import org.collektive.spi.DeviceRuntimes
 import java.util.concurrent.TimeUnit
 
 /** A program from a lambda. */
 internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any?): NodeProgram = object : NodeProgram {
     override val name = name
 
-    override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = aggregate.body(device)
+    @Suppress("UNCHECKED_CAST")
+    override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? = (aggregate as Aggregate<Int>).body(device)
 
-    override fun describe(failure: Throwable, place: ProgramPlace?): String = "$failure at ${place?.path}"
+    override fun describe(failure: Throwable, place: String?): String = "$failure [$place]"
 }
 
 /** An engine with the real runtime, ticked one by one. */
@@ -30,7 +30,7 @@ internal class TestEngine(
     private val data = object : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
-        override fun fault(worker: Int, index: Int, answer: Any): String? = if (answer == USELESS) "is useless" else null
+        override fun pack(worker: Int, index: Int, answer: Any): String? = if (answer == USELESS) "is useless" else null
     }
     var tick = 0L
         private set
@@ -49,7 +49,10 @@ internal class TestEngine(
 
     fun Tick.add(vararg ids: Int) = ids.forEach { nodesAdded.add(NewNode(it, program, Parameters(emptyMap()))) }
 
-    fun Tick.link(from: Int, to: Int, length: Float = 1f, attenuation: Float = 0f) = links.add(from, to, length, attenuation)
+    fun Tick.link(from: Int, to: Int, length: Float = 1f, attenuation: Float = 0f) {
+        val list = links as? LinkList ?: LinkList().also { links = it }
+        list.add(from, to, length, attenuation)
+    }
 
     fun Tick.unlink(from: Int, to: Int) {
         linksRemoved.add(from)

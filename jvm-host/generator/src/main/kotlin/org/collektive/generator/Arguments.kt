@@ -8,13 +8,15 @@ import java.nio.file.Path
  *
  * @property include folder of `types.fbs`.
  * @property csharp folder that gets the C# code, or `null` for none; the same for [java].
+ * @property layouts folder that gets a Java class with the layouts of all tables of a schema that need not be a user's, or `null`.
  */
-internal class Arguments(val flatc: Path, val schema: Path, val include: Path, val csharp: Path?, val java: Path?) {
+internal class Arguments(val flatc: Path, val schema: Path, val include: Path, val csharp: Path?, val java: Path?, val layouts: Path? = null) {
     companion object {
         const val USAGE: String =
-            "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER [--csharp FOLDER] [--java FOLDER]"
+            "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER " +
+                "[--csharp FOLDER] [--java FOLDER] [--layouts FOLDER]"
 
-        private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--java")
+        private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--java", "--layouts")
 
         fun parse(words: Array<String>): Arguments {
             val values = HashMap<String, Path>()
@@ -27,7 +29,7 @@ internal class Arguments(val flatc: Path, val schema: Path, val include: Path, v
 
             fun required(option: String) = values[option] ?: throw GeneratorException("$option is missing\n$USAGE")
             val arguments = Arguments(
-                required("--flatc"), required("--schema"), required("--include"), values["--csharp"], values["--java"],
+                required("--flatc"), required("--schema"), required("--include"), values["--csharp"], values["--java"], values["--layouts"],
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
             if (!Files.isRegularFile(arguments.schema)) throw GeneratorException("no schema file at ${arguments.schema}")

@@ -17,8 +17,9 @@ internal object Java {
                     "separator" to if (i == fingerprints.lastIndex) "" else ",",
                 )
             },
-            "layouts" to layouts.map(::layoutModel),
-            "filled" to layouts.any { it.fields.isNotEmpty() },
+            "layouts" to layouts.map { Layouts.layout(it, ::constant) },
+            "filled" to layouts.filter { it.fields.isNotEmpty() }.map { Layouts.layout(it, ::constant) },
+            "anyFilled" to layouts.any { it.fields.isNotEmpty() },
             "sensor" to schema.sensor.name.toString(),
             "actuator" to "${schema.actuator.name}T",
             "reader" to schema.actuator.name.toString(),
@@ -50,26 +51,6 @@ internal object Java {
     private fun elementLayout(type: Composite): String = when (type) {
         is StructType -> "${type.bytes}"
         is TableType -> constant(type)
-    }
-
-    private fun layoutModel(type: TableType) = mapOf(
-        "constant" to constant(type),
-        "fields" to type.fields.map(::fieldLayout),
-    )
-
-    private fun fieldLayout(field: Field): String {
-        val start = "\"${field.name}\", ${field.offset}, "
-        val end = ", ${field.required})"
-        return when (val type = field.type) {
-            is Scalar, is EnumType, is StructType -> "inline($start${bytes(type)}$end"
-            is StringType -> "string(${start.removeSuffix(", ")}$end"
-            is TableType -> "table($start${constant(type)}$end"
-            is VectorType -> when (val element = type.element) {
-                is StringType -> "strings(${start.removeSuffix(", ")}$end"
-                is TableType -> "tables($start${constant(element)}$end"
-                else -> "vector($start${bytes(element)}$end"
-            }
-        }
     }
 
     private fun ruleModel(type: Composite) = mapOf(
@@ -110,13 +91,6 @@ internal object Java {
         }
         roots.forEach(::visit)
         return found.sortedBy { it.name.toString() }
-    }
-
-    private fun bytes(type: Type): Int = when (type) {
-        is Scalar -> type.bytes
-        is EnumType -> type.underlying.bytes
-        is StructType -> type.bytes
-        else -> 4
     }
 
     private fun unique(type: Composite): String = type.name.toString().split('.').joinToString("") { upperCamel(it) }

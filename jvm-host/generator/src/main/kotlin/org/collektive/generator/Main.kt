@@ -37,6 +37,12 @@ private fun generate(arguments: Arguments, work: Path) {
     flatc.binarySchema(file, work)
     val binary = Files.readAllBytes(work.resolve(file.fileName.toString().substringBeforeLast('.') + ".bfbs"))
     val reader = SchemaReader(binary, file, include.resolve(CORE_TYPES))
+    arguments.layouts?.let { folder ->
+        val tables = reader.tables()
+        val name = Layouts.name(file.fileName.toString(), tables.first().name.namespace)
+        OutputFolder(folder).write("${path(name)}.java", Templates.render("Layouts.java", Layouts.model(file.fileName.toString(), tables)))
+    }
+    if (arguments.csharp == null && arguments.java == null) return
     val schema = reader.read()
 
     arguments.csharp?.let { folder ->
@@ -54,6 +60,6 @@ private fun generate(arguments: Arguments, work: Path) {
     }
 }
 
-private const val SERVICES = "META-INF/services/org.collektive.api.schema.DataSchema"
+private const val SERVICES = "META-INF/services/org.collektive.frames.data.DataSchema"
 
 private fun path(name: TypeName): String = name.toString().replace('.', '/')

@@ -41,6 +41,13 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         return user
     }
 
+    /** All tables that [file] defines, by name. */
+    fun tables(): List<TableType> = objects()
+        .filter { (_, type) -> !type.isStruct && plain(type.declarationFile()) == file }
+        .map { (index, _) -> composite(index) as TableType }
+        .sortedBy { it.name.toString() }
+        .ifEmpty { throw error("it defines no tables") }
+
     /** The binary schema holds numbers as signed 64 bits and turns larger ones into 0 without a word. */
     private fun checkNumbers(source: Path) {
         for ((index, line) in Files.readAllLines(source).withIndex()) {

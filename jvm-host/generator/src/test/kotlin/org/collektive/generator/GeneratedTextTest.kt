@@ -34,13 +34,13 @@ internal class GeneratedTextTest {
         assertEquals(
             setOf(
                 "csharp/a/b/ActuatorData.cs", "csharp/a/b/MySwarmSchema.cs", "csharp/a/b/SensorData.cs",
-                "java/META-INF/services/org.collektive.api.schema.DataSchema",
+                "java/META-INF/services/org.collektive.frames.data.DataSchema",
                 "java/a/b/ActuatorData.java", "java/a/b/ActuatorDataT.java", "java/a/b/MySwarmSchema.java",
                 "java/a/b/SensorData.java", "java/a/b/SensorDataT.java",
             ),
             texts(output).keys,
         )
-        assertEquals("a.b.MySwarmSchema\n", texts(output)["java/META-INF/services/org.collektive.api.schema.DataSchema"])
+        assertEquals("a.b.MySwarmSchema\n", texts(output)["java/META-INF/services/org.collektive.frames.data.DataSchema"])
     }
 
     @Test
@@ -51,7 +51,7 @@ internal class GeneratedTextTest {
             Files.writeString(schema, "namespace $namespace; struct SensorData { x: float; } struct ActuatorData { x: float; }")
             Workshop.generate(schema, work.resolve(output))
         }
-        fun announced(output: String) = texts(work.resolve(output))["java/META-INF/services/org.collektive.api.schema.DataSchema"]
+        fun announced(output: String) = texts(work.resolve(output))["java/META-INF/services/org.collektive.frames.data.DataSchema"]
         listOf("b", "a", "c", "a").forEach { generate(it, "one") }
         listOf("c", "a", "b").forEach { generate(it, "other") }
         assertEquals("a.ASchema\nb.BSchema\nc.CSchema\n", announced("one"))

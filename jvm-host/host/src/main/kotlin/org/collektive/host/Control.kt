@@ -1,31 +1,36 @@
 package org.collektive.host
 
-import com.google.flatbuffers.FlatBufferBuilder
 import com.sun.management.HotSpotDiagnosticMXBean
 import org.collektive.frame.ControlRequest
-import org.collektive.frame.ControlResponse
-import org.collektive.frame.Flag
 import org.collektive.frame.RecordingAction
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.session.JvmState
+import org.collektive.frames.session.controlRequest
+import org.collektive.frames.session.writeControlResponse
 import org.collektive.host.jfr.Recorder
+import org.collektive.host.session.ShimSlots
+import org.collektive.host.session.reading
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.host.shim.ShimCalls
 import java.lang.management.ManagementFactory
 import java.lang.management.MemoryType
 import java.nio.ByteBuffer
 
 /** Tells about the JVM itself, and starts and stops its recording. */
 internal class Control(shim: ShimCalls) {
-    private val verifier = FrameVerifier()
-    private val request = ControlRequest()
-    private val buffer = AnswerBuffer(shim)
+    private var request = ControlRequest()
+    private val buffer = AnswerBuffer(ShimSlots(shim))
     private val recorder = Recorder(shim)
     private val diagnostics by lazy { ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean::class.java) }
 
     /** Does what [frame] asks for, and writes the `ControlResponse`. */
     fun answer(frame: ByteBuffer, slot: Long, answer: ByteBuffer): Long {
-        request.__assign(verifier.verify(frame, FrameShapes.controlRequest), frame)
+        request = reading({ "the frame" }) { controlRequest(frame) }
         record()
         if (request.collect()) System.gc()
         buffer.begin(slot, answer)
-        return buffer.finish(write(buffer.builder))
+        return buffer.writeControlResponse(state())
     }
 
     /** Ends a running recording in order; waits for its file at most [limitMillis]. */
@@ -42,43 +47,40 @@ internal class Control(shim: ShimCalls) {
         }
     }
 
-    private fun write(builder: FlatBufferBuilder): Int {
-        val flags = (0 until request.flagsLength()).mapNotNull { writeFlag(builder, request.flags(it)) }
-        val vector = ControlResponse.createFlagsVector(builder, flags.toIntArray())
-        // Before the rest: who reads that an action has ended gets what came of it.
-        val state = recorder.state
-        val path = recorder.path?.let(builder::createString) ?: 0
-        val error = recorder.error?.let(builder::createString) ?: 0
-        ControlResponse.startControlResponse(builder)
-        ControlResponse.addFlags(builder, vector)
-        writeMemory(builder)
-        ControlResponse.addRecording(builder, state.ordinal)
-        if (path != 0) ControlResponse.addRecordingPath(builder, path)
-        if (error != 0) ControlResponse.addRecordingError(builder, error)
-        ControlResponse.addRecordingMillis(builder, recorder.millis)
-        ControlResponse.addRecordingsWritten(builder, recorder.written)
-        return ControlResponse.endControlResponse(builder)
-    }
-
-    private fun writeFlag(builder: FlatBufferBuilder, name: String): Int? {
-        val value = try {
-            diagnostics.getVMOption(name).value
-        } catch (_: IllegalArgumentException) {
-            return null
-        }
-        return Flag.createFlag(builder, builder.createString(name), builder.createString(value))
-    }
-
-    private fun writeMemory(builder: FlatBufferBuilder) {
+    /** Reads the recorder's state first: who reads that an action has ended gets what came of it. */
+    private fun state(): JvmState {
+        val recording = recorder.state
         val heap = ManagementFactory.getMemoryMXBean().heapMemoryUsage
-        ControlResponse.addHeapUsed(builder, heap.used)
-        ControlResponse.addHeapCommitted(builder, heap.committed)
-        ControlResponse.addHeapMaximum(builder, heap.max)
         val metaspace = ManagementFactory.getMemoryPoolMXBeans().find { it.type == MemoryType.NON_HEAP && it.name == "Metaspace" }
-        ControlResponse.addMetaspaceUsed(builder, metaspace?.usage?.used ?: 0)
-        ControlResponse.addClasses(builder, ManagementFactory.getClassLoadingMXBean().loadedClassCount)
         val collectors = ManagementFactory.getGarbageCollectorMXBeans()
-        ControlResponse.addCollections(builder, collectors.sumOf { it.collectionCount.coerceAtLeast(0) })
-        ControlResponse.addCollectionMillis(builder, collectors.sumOf { it.collectionTime.coerceAtLeast(0) })
+        return JvmState(
+            flags = flags(),
+            heapUsed = heap.used,
+            heapCommitted = heap.committed,
+            heapMaximum = heap.max,
+            metaspaceUsed = metaspace?.usage?.used ?: 0,
+            classes = ManagementFactory.getClassLoadingMXBean().loadedClassCount,
+            collections = collectors.sumOf { it.collectionCount.coerceAtLeast(0) },
+            collectionMillis = collectors.sumOf { it.collectionTime.coerceAtLeast(0) },
+            recording = recording.ordinal,
+            recordingPath = recorder.path,
+            recordingError = recorder.error,
+            recordingMillis = recorder.millis,
+            recordingsWritten = recorder.written,
+        )
+    }
+
+    /** The values of the flags that the request names and this JVM knows. */
+    private fun flags(): Map<String, String> {
+        val values = LinkedHashMap<String, String>()
+        for (index in 0 until request.flagsLength()) {
+            val name = request.flags(index)
+            try {
+                values[name] = diagnostics.getVMOption(name).value
+            } catch (_: IllegalArgumentException) {
+                continue // another JVM's flag
+            }
+        }
+        return values
     }
 }

@@ -1,5 +1,15 @@
 package org.collektive.host
 
+import org.collektive.frames.frameIn
+import org.collektive.host.log.HostLog
+import org.collektive.host.session.Session
+import org.collektive.host.session.SessionOpening
+import org.collektive.host.session.reading
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.shim.NativeShim
+import org.collektive.host.shim.ShimCalls
 import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
 
@@ -7,12 +17,9 @@ import java.util.concurrent.TimeUnit
  * What the shim calls, always on its engine thread.
  *
  * [open] and [step] return `offset << 32 | length` of the answer in the slot, or a negative code of `CLK_ERRORS` after
- * [Shim.error]. Times are milliseconds.
+ * [org.collektive.host.shim.Shim.error]. Times are milliseconds.
  */
 public object Host {
-    /** Number of the contract in `schema/frame.fbs` and of these entries. */
-    internal const val PROTOCOL = 1
-
     /** What stands behind the host: the native library, unless another is set before [start]. */
     public var shim: ShimCalls = NativeShim
 
@@ -25,7 +32,7 @@ public object Host {
     @JvmStatic
     public fun start(): String {
         log = HostLog(shim).also(HostLog::install)
-        return "Collektive host, protocol $PROTOCOL, Java ${Runtime.version()} (${System.getProperty("java.vm.name")}, " +
+        return "Collektive host, protocol ${SessionOpening.PROTOCOL}, Java ${Runtime.version()} (${System.getProperty("java.vm.name")}, " +
             "${System.getProperty("java.vendor")})"
     }
 
@@ -43,8 +50,7 @@ public object Host {
         requireLimit(limitMillis)
         if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
         log?.install()
-        val frame = FrameVerifier.frame(request, offset, length)
-        val opened = Session.open(frame, shim)
+        val opened = SessionOpening.open(frame(request, offset, length), shim)
         try {
             opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
         } catch (e: Throwable) {
@@ -68,7 +74,7 @@ public object Host {
         requireLimit(limitMillis)
         val index = indexOf(session)
         if (index < 0) throw HostException(HostError.HANDLE, "there is no session $session")
-        sessions[index].session.step(FrameVerifier.frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
+        sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
     }
 
     /** Answers the `ControlRequest` in [request]; it belongs to no session, so [session] is 0. */
@@ -84,7 +90,7 @@ public object Host {
     ): Long = answering {
         requireLimit(limitMillis)
         if (session != 0L) throw HostException(HostError.ARGUMENT, "a control belongs to no session, but names $session")
-        control.answer(FrameVerifier.frame(request, offset, length), slot, answer)
+        control.answer(frame(request, offset, length), slot, answer)
     }
 
     /** Closes [session]; an unknown one is ignored. */
@@ -115,6 +121,8 @@ public object Host {
         }
         return left.none(Thread::isAlive)
     }
+
+    private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading({ "the frame" }) { frameIn(slot, offset, length) }
 
     private fun indexOf(id: Long): Int {
         for (index in sessions.indices) if (sessions[index].id == id) return index

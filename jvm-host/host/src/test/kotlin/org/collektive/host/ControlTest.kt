@@ -1,5 +1,7 @@
 package org.collektive.host
 
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.assertThrows

@@ -1,5 +1,7 @@
 package org.collektive.host
 
+import org.collektive.host.log.HostLog
+import org.collektive.host.shim.LogLevel
 import org.slf4j.LoggerFactory
 import java.util.logging.LogManager
 import kotlin.concurrent.thread

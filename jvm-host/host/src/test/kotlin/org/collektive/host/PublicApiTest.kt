@@ -4,6 +4,7 @@ import it.unibo.collektive.Collektive
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.stdlib.util.Maybe
 import org.collektive.api.Program
+import org.collektive.schema.Vector3
 import org.jetbrains.kotlin.abi.tools.AbiFilters
 import org.jetbrains.kotlin.abi.tools.AbiToolsFactory
 import org.junit.jupiter.api.DynamicTest.dynamicTest
@@ -65,10 +66,12 @@ internal class PublicApiTest {
 
     private companion object {
         /** The modules that programs see, each with any class of its own. */
-        val MODULES = mapOf("dsl" to Field::class, "runtime" to Collektive::class, "stdlib" to Maybe::class, "api" to Program::class)
+        val MODULES = mapOf("dsl" to Field::class, "runtime" to Collektive::class, "stdlib" to Maybe::class, "api" to Program::class, "frames" to Vector3::class)
 
-        /** Of the runtime programs see Collektive's names only. */
-        val NAMES = AbiFilters(setOf("it.unibo.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet())
+        /** What programs name, and what the compiler plugin makes them call. */
+        val NAMES = AbiFilters(
+            setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet(),
+        )
 
         const val UPDATE = "mvn -f jvm-host/pom.xml -pl host -am package -Dtest=PublicApiTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
     }

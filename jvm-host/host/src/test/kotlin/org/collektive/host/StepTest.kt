@@ -1,5 +1,6 @@
 package org.collektive.host
 
+import org.collektive.host.shim.HostError
 import org.junit.jupiter.api.AfterEach
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout

@@ -4,11 +4,15 @@ package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
+import org.collektive.spi.RoundProgram
+import org.collektive.spi.SharingRule
 
 /**
  * One device: the records of the last valid round and of the running one, and those that neighbours still hold.
@@ -34,14 +38,13 @@ internal class AggregateDevice<ID : Any>(
     private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside its round")
     override val depth get() = stack.depth
 
-    override fun round(inbox: Inbox, program: RoundProgram): Any? {
+    override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
         this.inbox = inbox
         forgetFailure()
         running.clear()
         ownStack = stacks.get().also { it.popTo(0) }
         try {
-            @Suppress("UNCHECKED_CAST")
-            return program.run(this as Aggregate<Int>)
+            return program.run(this, sensors)
         } catch (failure: Throwable) {
             failing(failure)
             throw failure
@@ -52,15 +55,17 @@ internal class AggregateDevice<ID : Any>(
 
     override val exports: Int get() = running.countSent()
 
+    override fun placeOf(failure: Throwable): String = failurePlace(failure).toString()
+
     override fun commit(): Export {
         val last = valid
         valid = running
-        running = if (last.isHeld) insteadOf(last) else last
+        running = if (last.isHeld) replacementOf(last) else last
         return valid
     }
 
     /** A record for the next round, while [held] stays as it is. */
-    private fun insteadOf(held: RoundRecord): RoundRecord {
+    private fun replacementOf(held: RoundRecord): RoundRecord {
         for (index in older.indices) {
             val record = older[index]
             if (record.isHeld) continue
@@ -92,7 +97,7 @@ internal class AggregateDevice<ID : Any>(
     /** Makes the new path of [pivot] below [parent], unless it cannot be one. */
     fun enter(parent: PathNode, pivot: Any?): PathNode {
         val fault = pivotFault(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
-        throw IllegalArgumentException(told(fault, ProgramPlace(localId, stack.resolvedTokens())))
+        throw IllegalArgumentException(withPlace(fault, ProgramPlace(localId, stack.resolvedTokens())))
     }
 
     @Suppress("UNCHECKED_CAST")
@@ -185,6 +190,6 @@ internal class AggregateDevice<ID : Any>(
     }
 
     private fun allow(value: Any?) {
-        rule.refusal(value)?.let { throw IllegalArgumentException(told("$it; it cannot be shared or kept")) }
+        rule.refusal(value)?.let { throw IllegalArgumentException(withPlace("$it; it cannot be shared or kept")) }
     }
 }

@@ -9,7 +9,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.dataSharingMethod
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.withPlace
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.Path
@@ -34,7 +34,7 @@ internal class MailboxRound<ID : Any>(
         val result = try {
             program()
         } catch (failure: StackOverflowError) {
-            throw StackOverflowError(told("the recursion does not end", placeOf(failure))).initCause(failure)
+            throw StackOverflowError(withPlace("the recursion does not end", failurePlace(failure))).initCause(failure)
         }
         return AggregateResult(localId, result, outbound, newState)
     }
@@ -42,7 +42,7 @@ internal class MailboxRound<ID : Any>(
     override val depth get() = stack.size
 
     override fun push(token: Any?) {
-        pivotFault(token)?.let { throw IllegalArgumentException(told(it)) }
+        pivotFault(token)?.let { throw IllegalArgumentException(withPlace(it)) }
         stack += token
     }
 
@@ -61,7 +61,7 @@ internal class MailboxRound<ID : Any>(
     private fun currentPath(): Path = try {
         pathFactory(stack)
     } catch (failure: IllegalArgumentException) {
-        throw IllegalArgumentException(told(failure.message.orEmpty()), failure)
+        throw IllegalArgumentException(withPlace(failure.message.orEmpty()), failure)
     }
 
     @Suppress("UNCHECKED_CAST")

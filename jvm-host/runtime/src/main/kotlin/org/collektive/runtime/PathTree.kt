@@ -3,8 +3,9 @@ package org.collektive.runtime
 /**
  * All paths of a session, so that equal paths of any two devices are one object.
  *
- * Look-ups take no lock: children are entered into a table in place, or into a larger copy, under the tree's lock; a reader that
- * misses one looks again under the lock. Nodes have only final fields, so a reader never sees half of one.
+ * Look-ups take no lock. A new node is put into its parent's table in place, or into a larger copy, under the tree's lock; a reader that
+ * misses it looks again under the lock. The write into the table is a data race, and safe: the constructor of a node writes final
+ * fields only, which whoever reads the node sees as they were written (Java Language Specification, 17.5).
  */
 internal class PathTree {
     val root = PathNode(null, null)
@@ -13,13 +14,13 @@ internal class PathTree {
     private var sizeToTidy = FIRST_TIDY
     private var sweep = 0
 
-    /** The node for [token] below [parent]; `null` when it is new, or was a moment ago. */
-    fun find(parent: PathNode, token: Any?): PathNode? = parent.children.find(token)
+    /** The node for [token] below [parent]; `null` when it is new, or was a moment ago. Threads: any. */
+    fun find(parent: PathNode, token: Any?): PathNode? = parent.children?.find(token)
 
-    /** [find], which makes the node when it is new. */
+    /** Like [find], but makes the node when it is new. Threads: any. */
     @Synchronized
     fun enter(parent: PathNode, token: Any?): PathNode {
-        val children = parent.children
+        val children = parent.children ?: PathTable.of(0)
         children.find(token)?.let { return it }
         val node = PathNode(parent, token)
         parent.children = children.with(node)
@@ -38,8 +39,9 @@ internal class PathTree {
         val open = ArrayDeque(listOf(root))
         while (open.isNotEmpty()) {
             val node = open.removeLast()
-            node.children = node.children.filtered { it.sweep == sweep }
-            node.children.forEach {
+            val kept = node.children?.filtered { it.sweep == sweep }
+            node.children = kept
+            kept?.forEach {
                 size++
                 open.addLast(it)
             }
@@ -68,10 +70,11 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     /** Spread well, since tables use its low bits. */
     val hash: Int = ((parent?.hash ?: 0) * 31 + tokenHash).let { it * -0x61c88647 xor (it ushr 15) }
 
+    /** `null`: none yet, which is also what a racing reader of this node may see. Written under the tree's lock. */
     @Volatile
-    var children: PathTable = PathTable.EMPTY
+    var children: PathTable? = null
 
-    /** Number of the last sweep that found this node in use. */
+    /** Number of the last sweep that found this node in use; only used while no round runs. */
     var sweep = 0
 
     fun matches(other: Any?, hash: Int) = token === other || tokenHash == hash && token == other
@@ -103,12 +106,12 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
         return table
     }
 
-    /** A table of those nodes that [keep] wants. */
-    inline fun filtered(keep: (PathNode) -> Boolean): PathTable {
+    /** A table of those nodes that [keep] wants; `null` when there are none. */
+    inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
         var kept = 0
         forEach { if (keep(it)) kept++ }
-        if (kept == 0) return EMPTY
-        val table = PathTable(arrayOfNulls(capacityFor(kept)), 0)
+        if (kept == 0) return null
+        val table = of(kept)
         forEach { if (keep(it)) table.put(it) }
         return table
     }
@@ -118,7 +121,7 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
     }
 
     private fun resized(size: Int): PathTable {
-        val table = PathTable(arrayOfNulls(capacityFor(size)), 0)
+        val table = of(size)
         forEach(table::put)
         return table
     }
@@ -132,8 +135,8 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
     }
 
     companion object {
-        /** Never written to: it has no room. */
-        val EMPTY = PathTable(arrayOfNulls(1), 0)
+        /** An empty table with room for [size] nodes. */
+        fun of(size: Int) = PathTable(arrayOfNulls(capacityFor(size)), 0)
 
         private fun capacityFor(size: Int) = maxOf(4, Integer.highestOneBit(2 * size - 1) shl 1)
     }

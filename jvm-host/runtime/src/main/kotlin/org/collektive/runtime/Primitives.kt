@@ -9,9 +9,9 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
-import it.unibo.collektive.aggregate.api.impl.AlignmentStack
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.AlignmentStack
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
 
 /** What primitives mean, for every way in which devices reach each other; [Path] is how that way names places of the program. */
 internal abstract class Primitives<ID : Any, Path : Any> :
@@ -55,8 +55,8 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         this.failure = failure
     }
 
-    /** Where [failure], which ended the round, came up. */
-    fun placeOf(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
+    /** Where the program was when [failure], which ended the round, was thrown. */
+    fun failurePlace(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
 
     /** Forgets the failure of the last round. */
     protected fun forgetFailure() {
@@ -120,7 +120,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     override fun align(pivot: Any?) = push(pivot)
 
     override fun dealign() {
-        check(depth > 0) { told("dealign() without align()") }
+        check(depth > 0) { withPlace("dealign() without align()") }
         popTo(depth - 1)
     }
 
@@ -128,7 +128,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     private fun <T> refuseField(result: T, primitive: String): T {
         check(result !is Field<*, *>) {
-            told("$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside")
+            withPlace("$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside")
         }
         return result
     }

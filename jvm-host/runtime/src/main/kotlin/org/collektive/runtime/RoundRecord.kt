@@ -1,6 +1,7 @@
 package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.Field
+import org.collektive.spi.Export
 
 /** What one round of a device left behind: per path the value kept and the value sent. */
 internal class RoundRecord : Export() {

@@ -2,6 +2,8 @@ package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
 import java.lang.ref.WeakReference
 import kotlin.test.assertEquals
@@ -15,11 +17,11 @@ class ExportTest {
     private val receiver = runtimes.device(2)
 
     private fun send(value: Int): Export {
-        sender.round(inboxOf(null)) { it.neighboring(value) }
+        sender.round(inboxOf(null)) { neighboring(value) }
         return sender.commit()
     }
 
-    private fun received(export: Export?) = receiver.round(inboxOf(export)) { it.neighboring(0).neighbors.toMap() }
+    private fun received(export: Export?) = receiver.round(inboxOf(export)) { neighboring(0).neighbors.toMap() }
 
     private fun inboxOf(held: Export?) = object : Inbox {
         override val size = 1
@@ -44,7 +46,7 @@ class ExportTest {
     fun `paths of a held export outlive a tidying`() {
         val held = send(7).also(Export::hold)
         repeat(5000) { turn ->
-            sender.round(inboxOf(null)) { it.alignedOn(turn) { it.neighboring(0).local.value } }
+            sender.round(inboxOf(null)) { alignedOn(turn) { neighboring(0).local.value } }
             sender.commit()
             runtimes.tidy(listOf(sender, receiver))
         }
@@ -55,7 +57,7 @@ class ExportTest {
     fun `pivots that no device uses any more are freed`() {
         class Pivot
         fun round(pivot: Any) {
-            sender.round(inboxOf(null)) { it.alignedOn(pivot) { it.neighboring(0).local.value } }
+            sender.round(inboxOf(null)) { alignedOn(pivot) { neighboring(0).local.value } }
             sender.commit()
             runtimes.tidy(listOf(sender, receiver))
         }

@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchange
 import it.unibo.collektive.aggregate.api.exchanging
-import it.unibo.collektive.aggregate.api.impl.project
+import org.collektive.alignment.project
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring

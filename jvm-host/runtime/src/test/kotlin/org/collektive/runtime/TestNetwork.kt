@@ -1,6 +1,10 @@
 package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
+import org.collektive.spi.SharingRule
 
 /** Devices of the real runtime, joined by links that tests make and cut; rounds in lockstep. */
 internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { null }) {
@@ -43,7 +47,7 @@ internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { nu
         runtimes.tidy(members.values.map { it.runtime })
         val results = due.associateWith { id ->
             val member = members.getValue(id)
-            runCatching { member.runtime.round(member) { it.program() } }
+            runCatching { member.runtime.round(member, program) }
         }
         for ((id, result) in results) {
             if (result.isSuccess) {

@@ -1,14 +1,14 @@
 package org.collektive.bench.rounds
 
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
+import org.collektive.engine.LinkList
 import org.collektive.engine.NewNode
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundData
+import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
 import org.collektive.runtime.AggregateRuntimes
@@ -21,14 +21,16 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
     private val data = Data(senses(topology))
 
     init {
+        val links = LinkList()
         for (id in 0 until topology.size) {
             tick.nodesAdded += NewNode(id, this.program, Parameters(emptyMap()))
-            for (neighbor in topology.neighbors[id]) tick.links.add(neighbor, id, topology.distance(id, neighbor).toFloat(), 0f)
+            for (neighbor in topology.neighbors[id]) links.add(neighbor, id, topology.distance(id, neighbor).toFloat(), 0f)
             tick.due.add(id)
         }
+        tick.links = links
         tick()
         tick.nodesAdded.clear()
-        tick.links.clear()
+        links.clear()
     }
 
     /** One round of every device. */
@@ -48,7 +50,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
     private class Data(private val senses: List<Senses>) : RoundData {
         override fun sensors(worker: Int, index: Int): Any = senses[index]
 
-        override fun fault(worker: Int, index: Int, answer: Any): String? = null
+        override fun pack(worker: Int, index: Int, answer: Any): String? = null
     }
 
     private class Program(override val name: String) : NodeProgram {
@@ -60,9 +62,10 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
             else -> throw IllegalArgumentException("no program '$name', only a, b, b2 and c")
         }
 
-        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any = aggregate.code(sensors as Senses)
+        @Suppress("UNCHECKED_CAST")
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = (aggregate as Aggregate<Int>).code(sensors as Senses)
 
-        override fun describe(failure: Throwable, place: ProgramPlace?): String = failure.stackTraceToString()
+        override fun describe(failure: Throwable, place: String?): String = failure.stackTraceToString()
     }
 
     private companion object {

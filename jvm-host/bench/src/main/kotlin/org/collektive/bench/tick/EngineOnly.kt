@@ -5,14 +5,14 @@ import gradientascent.GradientAscentSchema
 import gradientascent.SensorData
 import gradientascent.gradientAscent
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
+import org.collektive.engine.LinkList
 import org.collektive.engine.NewNode
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundData
+import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.schema.Vector3
@@ -36,7 +36,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
         tick.deltaTime = DELTA_TIME
         if (number == 1L) {
             for (node in 0 until grid.size) tick.nodesAdded.add(NewNode(node, GradientAscent, PARAMETERS))
-            grid.forEachLink { from, to, length -> tick.links.add(from, to, length, 0f) }
+            tick.links = LinkList().also { links -> grid.forEachLink { from, to, length -> links.add(from, to, length, 0f) } }
         }
         for (node in 0 until grid.size) tick.due.add(node)
         now = readers[(number % FRAMES).toInt()]
@@ -45,7 +45,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
 
     override fun sensors(worker: Int, index: Int): Any = now[worker][index]
 
-    override fun fault(worker: Int, index: Int, answer: Any): String? = checkers[worker].findFault(answer)
+    override fun pack(worker: Int, index: Int, answer: Any): String? = checkers[worker].findFault(answer)
 
     override fun close() = engine.close()
 
@@ -74,9 +74,10 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
     private object GradientAscent : NodeProgram {
         override val name get() = "gradient-ascent"
 
-        override fun round(aggregate: Aggregate<Int>, sensors: Any?, device: Device): Any? = aggregate.gradientAscent(sensors as SensorData, device)
+        @Suppress("UNCHECKED_CAST")
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? = (aggregate as Aggregate<Int>).gradientAscent(sensors as SensorData, device)
 
-        override fun describe(failure: Throwable, place: ProgramPlace?): String = failure.toString()
+        override fun describe(failure: Throwable, place: String?): String = failure.toString()
     }
 
     private companion object {

@@ -1,8 +1,8 @@
 package org.collektive.bench.tick
 
 import org.collektive.host.Host
-import org.collektive.host.LogLevel
-import org.collektive.host.ShimCalls
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.shim.ShimCalls
 import java.net.InetAddress
 import java.net.InetSocketAddress
 import java.net.StandardSocketOptions

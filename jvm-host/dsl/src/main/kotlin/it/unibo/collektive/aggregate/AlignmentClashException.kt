@@ -1,13 +1,13 @@
 package it.unibo.collektive.aggregate
 
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
 
 /** Two primitives ran at one [path] in one round; wrap one of them (or each iteration of a loop) in `alignedOn(key) { }`. */
 public class AlignmentClashException private constructor(public val path: String, message: String) : IllegalStateException(message) {
     public constructor(path: String) : this(path, "$CLASH, '$path'$ADVICE")
 
-    public constructor(place: ProgramPlace) : this(place.path, told(CLASH + ADVICE, place))
+    public constructor(place: ProgramPlace) : this(place.path, withPlace(CLASH + ADVICE, place))
 
     private companion object {
         const val CLASH = "two primitives ran at one path in one round"

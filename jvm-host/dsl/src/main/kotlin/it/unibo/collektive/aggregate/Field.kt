@@ -4,7 +4,7 @@ package it.unibo.collektive.aggregate
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.withPlace
 
 /**
  * A value for this device and one for each neighbour aligned where the field was made.
@@ -58,7 +58,7 @@ public class Field<ID : Any, out T> private constructor(
     public operator fun get(id: ID): T {
         if (id == context.localId) return localValue
         val index = indexOf(id)
-        if (index < 0) throw NoSuchElementException(context.told("the field has no value for device $id, only for ${all.ids.list}"))
+        if (index < 0) throw NoSuchElementException(context.withPlace("the field has no value for device $id, only for ${all.ids.list}"))
         return valueAt(index)
     }
 
@@ -257,7 +257,7 @@ public class Field<ID : Any, out T> private constructor(
 
     private fun requireAligned(other: Field<ID, *>) {
         check((ids === other.ids || ids.contentEquals(other.ids)) && context.localId == other.context.localId) {
-            context.told(
+            context.withPlace(
                 "fields of different devices cannot be combined: one has values for ${all.ids.list}, the other for ${other.all.ids.list}; " +
                     "make both at one place of the program",
             )
@@ -286,7 +286,7 @@ public class Field<ID : Any, out T> private constructor(
         }
 
         private fun refuseField(context: Aggregate<*>, value: Any?) {
-            check(value !is Field<*, *>) { context.told("a field cannot be a value of a field: $value") }
+            check(value !is Field<*, *>) { context.withPlace("a field cannot be a value of a field: $value") }
         }
     }
 }

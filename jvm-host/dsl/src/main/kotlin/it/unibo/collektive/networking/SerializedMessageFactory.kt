@@ -2,8 +2,8 @@ package it.unibo.collektive.networking
 
 import it.unibo.collektive.aggregate.api.InMemory
 import it.unibo.collektive.aggregate.api.Serialize
-import it.unibo.collektive.aggregate.api.impl.ProgramPlace
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
 import it.unibo.collektive.path.Path
 import it.unibo.collektive.path.tokens
 import kotlinx.serialization.BinaryFormat
@@ -30,7 +30,7 @@ public class SerializedMessageFactory<ID : Any, Payload>(private val serializerF
             }
         } catch (cause: SerializationException) {
             val place = ProgramPlace(senderId, path.tokens())
-            throw SerializationException(told("${value.payload} cannot be sent: ${cause.message}", place), cause)
+            throw SerializationException(withPlace("${value.payload} cannot be sent: ${cause.message}", place), cause)
         }
     }
 }

@@ -1,6 +1,6 @@
 package it.unibo.collektive.path
 
-import it.unibo.collektive.aggregate.api.impl.readable
+import org.collektive.alignment.readable
 
 /** A path that keeps its [tokens]: exact and readable, for devices of one process. It cannot be serialised. */
 public data class FullPath(public val tokens: List<Any?>) : Path {

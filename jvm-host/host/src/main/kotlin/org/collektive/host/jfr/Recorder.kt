@@ -2,8 +2,8 @@ package org.collektive.host.jfr
 
 import jdk.jfr.Configuration
 import jdk.jfr.Recording
-import org.collektive.host.LogLevel
-import org.collektive.host.ShimCalls
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.shim.ShimCalls
 import java.io.IOException
 import java.nio.file.Files
 import java.nio.file.NoSuchFileException

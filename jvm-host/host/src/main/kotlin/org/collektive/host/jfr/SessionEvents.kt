@@ -19,7 +19,7 @@ internal class SessionEvents private constructor() {
         /** `null` while nobody wants them. */
         fun ofRecorder(): SessionEvents? = if (wanted) SessionEvents() else null
 
-        /** Takes the time of the first events now, so that no tick has to when a recording starts. */
+        /** Preloads JFR's event classes, so that no tick waits for them when a recording starts. */
         fun prepare() {
             SessionEvents()
             SessionStartEvent()

@@ -1,8 +1,8 @@
 package org.collektive.host.record
 
-import org.collektive.host.HostError
-import org.collektive.host.HostException
-import org.collektive.host.JarBytes
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.host.programs.JarBytes
 import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
@@ -20,29 +20,29 @@ import java.util.zip.CRC32
  * A request is written before its tick runs, so that a tick that never ends is in the record too. Methods throw [IOException] when the file
  * cannot be written.
  */
-internal class RecordWriter private constructor(private val path: String, private val channel: FileChannel) : AutoCloseable {
+public class RecordWriter private constructor(private val path: String, private val channel: FileChannel) : AutoCloseable {
     private val header = ByteBuffer.allocateDirect(Chunk.HEADER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
     private val parts = arrayOf(header, header)
     private val crc = CRC32()
 
     /** The `StepRequest` between position and limit of [frame]. */
-    fun step(frame: ByteBuffer) = write(Chunk.STEP, frame)
+    internal fun step(frame: ByteBuffer) = write(Chunk.STEP, frame)
 
     /** The `StepResponse` between position and limit of [frame]. */
-    fun done(frame: ByteBuffer) = write(Chunk.DONE, frame)
+    internal fun done(frame: ByteBuffer) = write(Chunk.DONE, frame)
 
     /** The step written last failed. */
-    fun failed(why: String) = write(Chunk.FAIL, text(why))
+    internal fun failed(why: String) = write(Chunk.FAIL, text(why))
 
     /** The session ended in order. */
-    fun end() = write(Chunk.END, NOTHING)
+    internal fun end() = write(Chunk.END, NOTHING)
 
     override fun close() {
         channel.close()
     }
 
     /** What to tell the user when writing failed. */
-    fun failure(cause: IOException): String =
+    internal fun failure(cause: IOException): String =
         "the record $path cannot be written ($cause): make room or name another place, then start again"
 
     private fun head(open: ByteBuffer, jars: List<JarBytes>) {
@@ -68,17 +68,20 @@ internal class RecordWriter private constructor(private val path: String, privat
 
     private fun text(text: String) = ByteBuffer.wrap(text.encodeToByteArray())
 
-    companion object {
-        const val VERSION: Short = 1
-        const val MAGIC_TEXT = "CLKREC"
+    public companion object {
+        /** Version of the format. */
+        public const val VERSION: Short = 1
+
+        /** Name of the format. */
+        public const val MAGIC_TEXT: String = "CLKREC"
 
         /** What a record begins with: a name and the version of the format. */
-        val MAGIC: ByteArray get() = MAGIC_TEXT.encodeToByteArray() + byteArrayOf(VERSION.toByte(), 0)
+        public val MAGIC: ByteArray get() = MAGIC_TEXT.encodeToByteArray() + byteArrayOf(VERSION.toByte(), 0)
 
         private val NOTHING = ByteBuffer.allocate(0)
 
         /** Begins the record [path] of a session that [open] opened with [jars]; what was there is overwritten. */
-        fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
+        internal fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
             try {
                 val writer = RecordWriter(path, FileChannel.open(Path.of(path), CREATE, WRITE, TRUNCATE_EXISTING))
                 try {

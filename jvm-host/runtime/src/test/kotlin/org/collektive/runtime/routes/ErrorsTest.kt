@@ -6,9 +6,9 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.impl.noteFailure
-import it.unibo.collektive.aggregate.api.impl.popToken
-import it.unibo.collektive.aggregate.api.impl.pushToken
+import org.collektive.alignment.noteFailure
+import org.collektive.alignment.popToken
+import org.collektive.alignment.pushToken
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import kotlinx.serialization.SerializationException

@@ -2,9 +2,10 @@ package org.collektive.runtime.routes
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntime
-import org.collektive.runtime.Export
-import org.collektive.runtime.Inbox
+import org.collektive.runtime.round
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 import java.util.concurrent.Callable
 import java.util.concurrent.Executors
 
@@ -29,7 +30,7 @@ internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
         runtimes.tidy(devices.values.toList())
         val tasks = due.map { id ->
             val inbox = Links(graph, id)
-            Callable { runCatching { devices.getValue(id).round(inbox) { it.program() } } }
+            Callable { runCatching { devices.getValue(id).round(inbox, program) } }
         }
         val results = due.zip(pool.invokeAll(tasks).map { it.get() }).toMap()
         for ((id, result) in results) if (result.isSuccess) exports[id] = devices.getValue(id).commit()

@@ -2,7 +2,7 @@ package org.collektive.runtime.routes
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchanging
-import it.unibo.collektive.aggregate.api.impl.project
+import org.collektive.alignment.project
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring

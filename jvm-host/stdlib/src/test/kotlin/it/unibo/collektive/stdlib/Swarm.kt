@@ -7,9 +7,10 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.DeviceRuntime
-import org.collektive.runtime.Export
-import org.collektive.runtime.Inbox
+import org.collektive.runtime.round
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 import kotlin.random.Random
 
 /** Devices of the real runtime on a graph with link lengths, which tests change between rounds. */
@@ -69,8 +70,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
             now++
             for (id in wave) {
                 val member = members.getValue(id)
-                @Suppress("UNCHECKED_CAST")
-                results[id] = member.runtime.round(member) { it.program() } as R
+                results[id] = member.runtime.round(member, program)
             }
             for (id in wave) {
                 members.getValue(id).run {

@@ -3,7 +3,7 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.api.impl.told
+import org.collektive.alignment.withPlace
 import kotlinx.serialization.KSerializer
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.serializer
@@ -57,5 +57,5 @@ internal fun <Shared> Aggregate<*>.serialized(type: KType): DataSharingMethod<Sh
     Serialize(serializer(type) as KSerializer<Shared>)
 } catch (cause: SerializationException) {
     val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
-    throw SerializationException(told("values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"), cause)
+    throw SerializationException(withPlace("values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"), cause)
 }

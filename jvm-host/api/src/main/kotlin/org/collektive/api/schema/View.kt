@@ -1,9 +1,0 @@
-package org.collektive.api.schema
-
-import java.nio.ByteBuffer
-
-/** Points flatc's reader of one user type at a place of a frame; `__assign` of generated code. */
-public fun interface View {
-    /** The reader, the same object at every call. */
-    public fun at(position: Int, frame: ByteBuffer): Any
-}

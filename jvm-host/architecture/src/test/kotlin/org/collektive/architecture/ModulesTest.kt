@@ -1,0 +1,44 @@
+package org.collektive.architecture
+
+import org.w3c.dom.Element
+import java.io.File
+import javax.xml.parsers.DocumentBuilderFactory
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+/** `docs/architecture.md` shows the modules as their POMs have them. */
+class ModulesTest {
+    private val root = File(System.getProperty("collektive.root"))
+
+    @Test
+    fun `the diagram shows the dependencies of all modules`() {
+        val arrow = Regex("""^ +([a-z-]+) (-->|-\.->) ([a-z-]+)$""", RegexOption.MULTILINE)
+        val drawn = arrow.findAll(root.resolve("docs/architecture.md").readText()).map { it.value.trim() }.sorted().toList()
+        assertEquals(modules().flatMap(::arrows).sorted(), drawn)
+    }
+
+    @Test
+    fun `the table names every module`() {
+        val row = Regex("""^\| `([a-z-]+)` \|""", RegexOption.MULTILINE)
+        val listed = row.findAll(root.resolve("docs/architecture.md").readText()).map { it.groupValues[1] }.toSet()
+        assertEquals(modules().toSet(), listed.intersect(modules().toSet()))
+    }
+
+    private fun modules() = elements(root.resolve("jvm-host/pom.xml"), "module").map { it.textContent } - "architecture"
+
+    /** Solid: the module's classes use the other's. Dotted: only its build does, to generate or compile sources. */
+    private fun arrows(module: String): List<String> = elements(root.resolve("jvm-host/$module/pom.xml"), "dependency")
+        .filter { it.text("groupId") == "org.collektive" && it.text("scope") != "test" }
+        .map { "$module ${if (it.text("artifactId") in BUILD_TOOLS) "-.->" else "-->"} ${it.text("artifactId")}" }
+
+    private fun elements(pom: File, name: String): List<Element> {
+        val found = DocumentBuilderFactory.newInstance().newDocumentBuilder().parse(pom).getElementsByTagName(name)
+        return (0 until found.length).map { found.item(it) as Element }
+    }
+
+    private fun Element.text(name: String) = getElementsByTagName(name).item(0)?.textContent
+
+    private companion object {
+        val BUILD_TOOLS = setOf("generator", "compiler-plugin")
+    }
+}

@@ -1,0 +1,41 @@
+package org.collektive.architecture
+
+import com.tngtech.archunit.core.domain.JavaClasses
+import com.tngtech.archunit.core.importer.ClassFileImporter
+import com.tngtech.archunit.core.importer.ImportOption
+import com.tngtech.archunit.lang.syntax.ArchRuleDefinition.noClasses
+import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition.slices
+import kotlin.test.Test
+import kotlin.test.assertTrue
+
+/** What the compiler cannot see, since it holds inside a module or for what is on a class path anyway. */
+class PackagesTest {
+    @Test
+    fun `all modules are on the class path`() {
+        for (name in listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "host", "tools")) {
+            assertTrue(classes.any { it.packageName.startsWith("org.collektive.$name") }, name)
+        }
+    }
+
+    @Test
+    fun `no two packages depend on each other`() = slices().matching("org.collektive.(**)").should().beFreeOfCycles().check(classes)
+
+    @Test
+    fun `rounds know nothing of FlatBuffers`() = noClasses()
+        .that().resideInAnyPackage("org.collektive.spi..", "org.collektive.engine..", "org.collektive.runtime..", "org.collektive.api..", "it.unibo..")
+        .should().dependOnClassesThat().resideInAPackage("com.google.flatbuffers..").check(classes)
+
+    @Test
+    fun `only frames and generated code write FlatBuffers`() = noClasses()
+        .that().resideInAnyPackage("org.collektive.host..", "org.collektive.tools..")
+        .should().dependOnClassesThat().haveFullyQualifiedName("com.google.flatbuffers.FlatBufferBuilder").check(classes)
+
+    @Test
+    fun `the host and what it stands on know no DSL, which belongs to the programs`() = noClasses()
+        .that().resideInAnyPackage("org.collektive.host..", "org.collektive.frames..", "org.collektive.engine..", "org.collektive.spi..", "org.collektive.api..")
+        .should().dependOnClassesThat().resideInAPackage("it.unibo..").check(classes)
+
+    private companion object {
+        val classes: JavaClasses = ClassFileImporter().withImportOption(ImportOption.DoNotIncludeTests()).importPackages("org.collektive", "it.unibo")
+    }
+}

@@ -1,0 +1,50 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+// What the compiler plugin makes programs call; nothing else does.
+package org.collektive.alignment
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.InMemory
+
+/** Runs before an aligned call or branch; the result is for [popToken]. */
+public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
+    if (aggregate is AlignmentStack) return aggregate.pushToken(token)
+    aggregate?.align(token)
+    return 0
+}
+
+/** Runs after an aligned call or branch, however it ended. */
+public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
+    if (aggregate is AlignmentStack) aggregate.popTo(depth) else aggregate?.dealign()
+}
+
+/** Runs when [failure] leaves an aligned call or branch, before [popToken]. */
+public fun noteFailure(aggregate: Aggregate<*>?, failure: Throwable) {
+    if (aggregate is AlignmentStack) aggregate.failing(failure)
+}
+
+/** Runs where a branch or an `alignedOn` body reads a [field] from outside: restricts it to the neighbours aligned there. */
+public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID, T>? {
+    if (field == null) return null
+    val aggregate = field.context
+    val depth = pushToken(aggregate, token)
+    try {
+        return if (aggregate is AlignmentStack) aggregate.projected(field) else restricted(aggregate, field)
+    } finally {
+        popToken(aggregate, depth)
+    }
+}
+
+private fun <ID : Any, T> restricted(aggregate: Aggregate<ID>, field: Field<ID, T>): Field<ID, T> {
+    val aligned = aggregate.neighboring(Unit, InMemory).neighbors.list.mapTo(HashSet()) { it.id }
+    val kept = field.neighbors.list.filter { it.id in aligned }
+    if (kept.size == field.neighbors.size) return field
+    return Field.make(
+        aggregate,
+        Array<Any>(kept.size) { kept[it].id },
+        Array<Any?>(kept.size) { kept[it].value },
+        field.local.value,
+    )
+}

@@ -1,0 +1,73 @@
+package org.collektive.engine
+
+import kotlin.random.Random
+
+/**
+ * A stream of random numbers from Philox4x32-10 (Salmon et al., SC'11), the same in C#.
+ *
+ * The key is [seed]; the counter counts blocks of four words, beside [node] and [purpose], so that streams never overlap. Words are
+ * used in order. Not for several threads at once.
+ *
+ * @param purpose 0 for [org.collektive.api.Device.random]; see `docs/determinism.md`.
+ */
+public class Philox(private val seed: Long, private val node: Int, private val purpose: Int) : Random() {
+    private var nextBlock = 0L
+    private val words = IntArray(4)
+    private var used = 4
+
+    /** The next 32 random bits. */
+    override fun nextInt(): Int {
+        if (used == 4) {
+            words[0] = nextBlock.toInt()
+            words[1] = (nextBlock ushr 32).toInt()
+            words[2] = node
+            words[3] = purpose
+            block(words, seed.toInt(), (seed ushr 32).toInt())
+            nextBlock++
+            used = 0
+        }
+        return words[used++]
+    }
+
+    override fun nextBits(bitCount: Int): Int = if (bitCount == 0) 0 else nextInt() ushr (32 - bitCount)
+
+    /** Two words, the first one high. */
+    override fun nextLong(): Long = nextInt().toLong() shl 32 or (nextInt().toLong() and WORD)
+
+    /** 0 (included) to 1 (excluded): the upper 53 bits of [nextLong]. */
+    override fun nextDouble(): Double = (nextLong() ushr 11) * TWO_TO_MINUS_53
+
+    public companion object {
+        private const val WORD = 0xFFFF_FFFFL
+        private const val TWO_TO_MINUS_53 = 1.0 / (1L shl 53)
+        private const val ROUNDS = 10
+        private const val MULTIPLIER_0 = 0xD2511F53L
+        private const val MULTIPLIER_1 = 0xCD9E8D57L
+        private const val WEYL_0 = -0x61c88647
+        private const val WEYL_1 = -0x4498517b
+
+        /** Turns the four words of [counter] into random ones, in place. */
+        public fun block(counter: IntArray, key0: Int, key1: Int) {
+            var c0 = counter[0]
+            var c1 = counter[1]
+            var c2 = counter[2]
+            var c3 = counter[3]
+            var k0 = key0
+            var k1 = key1
+            repeat(ROUNDS) {
+                val product0 = MULTIPLIER_0 * (c0.toLong() and WORD)
+                val product1 = MULTIPLIER_1 * (c2.toLong() and WORD)
+                c0 = (product1 ushr 32).toInt() xor c1 xor k0
+                c1 = product1.toInt()
+                c2 = (product0 ushr 32).toInt() xor c3 xor k1
+                c3 = product0.toInt()
+                k0 += WEYL_0
+                k1 += WEYL_1
+            }
+            counter[0] = c0
+            counter[1] = c1
+            counter[2] = c2
+            counter[3] = c3
+        }
+    }
+}

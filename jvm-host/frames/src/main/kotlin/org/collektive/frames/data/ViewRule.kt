@@ -1,0 +1,109 @@
+package org.collektive.frames.data
+
+import com.google.flatbuffers.BaseVector
+import com.google.flatbuffers.Struct
+import com.google.flatbuffers.Table
+import org.collektive.spi.SharingRule
+import java.lang.reflect.Field
+import java.lang.reflect.Modifier
+import java.nio.ByteBuffer
+
+/** Keeps views of a tick's pooled memory inside their round, those in pairs, collections and objects of the program too. */
+public object ViewRule : SharingRule {
+    override fun refusal(value: Any?): String? {
+        val view = viewIn(value, 0) ?: return null
+        val where = if (view === value) "" else " inside a ${value?.javaClass?.name}"
+        return "a ${view.javaClass.name}$where is a view of this tick's memory and is valid in this round only: " +
+            "take the values out of it (a number, a data class, an array)"
+    }
+
+    /** The first view in [value] or in what it holds. */
+    private fun viewIn(value: Any?, depth: Int): Any? {
+        if (value == null) return null
+        return when (val shape = SHAPES.get(value.javaClass)) {
+            Plain -> null
+            View -> value
+            else -> if (depth == MAX_DEPTH) null else (shape as Holder).find(value, depth + 1)
+        }
+    }
+
+    /** How values of one class are looked at, found out once. */
+    private sealed interface Shape
+
+    /** Can neither be nor hold a view. */
+    private object Plain : Shape
+
+    private object View : Shape
+
+    private abstract class Holder : Shape {
+        /** The first view in what [value] holds, [depth] steps inside of what is shared. */
+        abstract fun find(value: Any, depth: Int): Any?
+    }
+
+    private object Elements : Holder() {
+        override fun find(value: Any, depth: Int): Any? {
+            if (value is List<*> && value is RandomAccess) {
+                for (index in value.indices) viewIn(value[index], depth)?.let { return it }
+                return null
+            }
+            return (value as Iterable<*>).firstNotNullOfOrNull { viewIn(it, depth) }
+        }
+    }
+
+    private object Slots : Holder() {
+        override fun find(value: Any, depth: Int): Any? = (value as Array<*>).firstNotNullOfOrNull { viewIn(it, depth) }
+    }
+
+    private object Entries : Holder() {
+        override fun find(value: Any, depth: Int): Any? {
+            for ((key, content) in value as Map<*, *>) (viewIn(key, depth) ?: viewIn(content, depth))?.let { return it }
+            return null
+        }
+    }
+
+    private object Two : Holder() {
+        override fun find(value: Any, depth: Int): Any? = (value as Pair<*, *>).let { viewIn(it.first, depth) ?: viewIn(it.second, depth) }
+    }
+
+    private class Fields(private val fields: Array<Field>) : Holder() {
+        override fun find(value: Any, depth: Int): Any? {
+            for (field in fields) viewIn(field.get(value), depth)?.let { return it }
+            return null
+        }
+    }
+
+    private val SHAPES = object : ClassValue<Shape>() {
+        override fun computeValue(type: Class<*>): Shape = shapeOf(type, emptySet())
+    }
+
+    private val VIEWS = listOf(Table::class.java, Struct::class.java, BaseVector::class.java, ByteBuffer::class.java)
+
+    private fun shapeOf(type: Class<*>, open: Set<Class<*>>): Shape = when {
+        VIEWS.any { it.isAssignableFrom(type) } -> View
+        type.isPrimitive || type.isEnum || type.componentType?.isPrimitive == true -> Plain
+        type.isArray -> Slots
+        type == Pair::class.java -> Two
+        Iterable::class.java.isAssignableFrom(type) -> Elements
+        Map::class.java.isAssignableFrom(type) -> Entries
+        // The JDK's other classes cannot be looked into.
+        type.name.startsWith("java.") -> Plain
+        else -> {
+            val fields = fieldsOf(type).filter { mayHoldView(it.type, open + type) && it.trySetAccessible() }
+            if (fields.isEmpty()) Plain else Fields(fields.toTypedArray())
+        }
+    }
+
+    /** Whether a field of [type] can hold a view; those of the classes in [open], which hold themselves, are looked at anyway. */
+    private fun mayHoldView(type: Class<*>, open: Set<Class<*>>): Boolean = when {
+        type in open || VIEWS.any { it.isAssignableFrom(type) } -> true
+        type.isPrimitive -> false
+        Modifier.isFinal(type.modifiers) -> shapeOf(type, open) != Plain
+        else -> type == Any::class.java || type == Iterable::class.java || !type.name.startsWith("java.lang.")
+    }
+
+    private fun fieldsOf(type: Class<*>): List<Field> =
+        generateSequence(type) { it.superclass }.takeWhile { it != Any::class.java }.flatMap { it.declaredFields.asSequence() }
+            .filter { !Modifier.isStatic(it.modifiers) }.toList()
+
+    private const val MAX_DEPTH = 4
+}

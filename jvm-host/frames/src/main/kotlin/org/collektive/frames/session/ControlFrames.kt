@@ -1,0 +1,63 @@
+package org.collektive.frames.session
+
+import org.collektive.frame.ControlRequest
+import org.collektive.frame.ControlResponse
+import org.collektive.frame.Flag
+import org.collektive.frame.FrameLayouts
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import java.nio.ByteBuffer
+
+/**
+ * The `ControlRequest` between position and limit of [frame], checked.
+ *
+ * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ */
+public fun controlRequest(frame: ByteBuffer): ControlRequest =
+    ControlRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.CONTROL_REQUEST), frame)
+
+/**
+ * The state of the JVM, as a `ControlResponse` tells it; sizes in bytes, times in milliseconds.
+ *
+ * @property flags values by name.
+ * @property recording one of `RecordingState`.
+ */
+public class JvmState(
+    public val flags: Map<String, String>,
+    public val heapUsed: Long,
+    public val heapCommitted: Long,
+    public val heapMaximum: Long,
+    public val metaspaceUsed: Long,
+    public val classes: Int,
+    public val collections: Long,
+    public val collectionMillis: Long,
+    public val recording: Int,
+    public val recordingPath: String?,
+    public val recordingError: String?,
+    public val recordingMillis: Int,
+    public val recordingsWritten: Int,
+)
+
+/** Writes the `ControlResponse` that tells [state] and returns its place, see [AnswerBuffer.finish]. */
+public fun AnswerBuffer.writeControlResponse(state: JvmState): Long {
+    val flags = state.flags.map { (name, value) -> Flag.createFlag(builder, builder.createString(name), builder.createString(value)) }
+    val vector = ControlResponse.createFlagsVector(builder, flags.toIntArray())
+    val path = state.recordingPath?.let(builder::createString) ?: 0
+    val error = state.recordingError?.let(builder::createString) ?: 0
+    ControlResponse.startControlResponse(builder)
+    ControlResponse.addFlags(builder, vector)
+    ControlResponse.addHeapUsed(builder, state.heapUsed)
+    ControlResponse.addHeapCommitted(builder, state.heapCommitted)
+    ControlResponse.addHeapMaximum(builder, state.heapMaximum)
+    ControlResponse.addMetaspaceUsed(builder, state.metaspaceUsed)
+    ControlResponse.addClasses(builder, state.classes)
+    ControlResponse.addCollections(builder, state.collections)
+    ControlResponse.addCollectionMillis(builder, state.collectionMillis)
+    ControlResponse.addRecording(builder, state.recording)
+    if (path != 0) ControlResponse.addRecordingPath(builder, path)
+    if (error != 0) ControlResponse.addRecordingError(builder, error)
+    ControlResponse.addRecordingMillis(builder, state.recordingMillis)
+    ControlResponse.addRecordingsWritten(builder, state.recordingsWritten)
+    return finish(ControlResponse.endControlResponse(builder))
+}

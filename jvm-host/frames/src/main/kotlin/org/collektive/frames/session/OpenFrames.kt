@@ -1,0 +1,42 @@
+package org.collektive.frames.session
+
+import org.collektive.api.Program
+import org.collektive.frame.FrameLayouts
+import org.collektive.frame.OpenRequest
+import org.collektive.frame.OpenResponse
+import org.collektive.frame.ParameterInfo
+import org.collektive.frame.ProgramInfo
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import java.nio.ByteBuffer
+
+/**
+ * The `OpenRequest` between position and limit of [frame], checked.
+ *
+ * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ */
+public fun openRequest(frame: ByteBuffer): OpenRequest =
+    OpenRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.OPEN_REQUEST), frame)
+
+/** The fingerprints of the user's types. */
+public val OpenRequest.types: Map<String, Long>
+    get() = (0 until typesLength()).associate { index -> types(index).let { it.name() to it.hash() } }
+
+/** Writes the `OpenResponse` of a session with [programs] and returns its place, see [AnswerBuffer.finish]. */
+public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
+    val infos = programs.map { program ->
+        val parameters = program.parameters.map {
+            ParameterInfo.createParameterInfo(
+                builder,
+                builder.createString(it.name),
+                builder.createString(it.default),
+                builder.createString(it.description),
+            )
+        }
+        val name = builder.createString(program.name)
+        ProgramInfo.createProgramInfo(builder, name, ProgramInfo.createParametersVector(builder, parameters.toIntArray()))
+    }
+    val vector = OpenResponse.createProgramsVector(builder, infos.toIntArray())
+    return finish(OpenResponse.createOpenResponse(builder, vector))
+}

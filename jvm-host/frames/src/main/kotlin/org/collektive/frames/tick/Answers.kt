@@ -1,0 +1,123 @@
+package org.collektive.frames.tick
+
+import org.collektive.engine.IntList
+import org.collektive.engine.RoundDigest
+import org.collektive.engine.TickResult
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.data.DataSchema
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+
+/** The answers of a tick, from the rounds into the frame and the digest. */
+internal abstract class Answers protected constructor(schema: DataSchema, threads: Int) {
+    /** One for each thread that runs rounds. */
+    protected val writers = Array(threads) { schema.actuatorWriter() }
+
+    /** Ids of the tick's due nodes. */
+    protected var due: IntList = IntList()
+        private set
+
+    /** Makes room for the answers of [due], which stay as they are until the next tick. */
+    open fun begin(due: IntList) {
+        this.due = due
+    }
+
+    /** See [org.collektive.engine.RoundData.pack]. */
+    open fun pack(worker: Int, index: Int, answer: Any): String? = writers[worker].findFault(answer)
+
+    /** Adds the answers of all due nodes to [digest] and writes those that there are; the offset of the table `Actuators`. */
+    abstract fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
+
+    companion object {
+        fun of(schema: DataSchema, threads: Int): Answers {
+            val bytes = schema.actuatorWriter().structBytes
+            return if (bytes == 0) TableAnswers(schema, threads) else StructAnswers(schema, threads, bytes)
+        }
+    }
+}
+
+/**
+ * Structs: each thread packs those of its own rounds at once, while they are in its cache, side by side for the frame and again with
+ * their headers for the digest. Frame and digest then take blocks.
+ */
+private class StructAnswers(schema: DataSchema, threads: Int, private val bytes: Int) : Answers(schema, threads) {
+    private val entryBytes = RoundDigest.HEADER_BYTES + bytes
+
+    // Element i of both is that of the due node i.
+    private var packed = ByteBuffer.allocate(0)
+    private var entries = ByteBuffer.allocate(0)
+
+    override fun begin(due: IntList) {
+        super.begin(due)
+        packed = withRoom(packed, due.size, bytes)
+        entries = withRoom(entries, due.size, entryBytes)
+    }
+
+    override fun pack(worker: Int, index: Int, answer: Any): String? {
+        val writer = writers[worker]
+        writer.findFault(answer)?.let { return it }
+        writer.pack(answer, packed.array(), index * bytes)
+        val entry = index * entryBytes
+        RoundDigest.putHeader(entries, entry, due[index], bytes)
+        System.arraycopy(packed.array(), index * bytes, entries.array(), entry + RoundDigest.HEADER_BYTES, bytes)
+        return null
+    }
+
+    override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
+        var count = 0
+        var begin = 0
+        for (index in 0..result.size) {
+            val isEnd = index == result.size
+            if (!isEnd && result.failure(index) == null) continue
+            digest.answers(entries.array(), begin * entryBytes, index * entryBytes)
+            // Closes the gaps of failed rounds.
+            if (count < begin) System.arraycopy(packed.array(), begin * bytes, packed.array(), count * bytes, (index - begin) * bytes)
+            count += index - begin
+            begin = index + 1
+            if (!isEnd) digest.failure(due[index])
+        }
+        return writers[0].writePacked(buffer.builder, packed, count)
+    }
+
+    private fun withRoom(buffer: ByteBuffer, count: Int, size: Int): ByteBuffer {
+        val needed = Math.multiplyExact(count, size)
+        if (buffer.capacity() >= needed) return buffer
+        return ByteBuffer.allocate(maxOf(needed, buffer.capacity() + (buffer.capacity() shr 1))).order(ByteOrder.LITTLE_ENDIAN)
+    }
+}
+
+/** Tables: they vary in length, so they are written one after the other when all rounds are over. */
+private class TableAnswers(schema: DataSchema, threads: Int) : Answers(schema, threads) {
+    // What the writer takes: the answers without gaps, and where their bytes went.
+    private var answers = arrayOfNulls<Any?>(0)
+    private var ranges = IntArray(0)
+
+    override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
+        val count = gather(result)
+        val table = writers[0].write(buffer.builder, answers, count, ranges)
+        var answered = 0
+        for (index in 0 until result.size) {
+            if (result.failure(index) != null) {
+                digest.failure(due[index])
+            } else {
+                digest.answer(due[index], buffer.memory, buffer.position(ranges[2 * answered]), ranges[2 * answered + 1])
+                answered++
+            }
+        }
+        return table
+    }
+
+    /** Puts the answers side by side and returns how many there are. */
+    private fun gather(result: TickResult): Int {
+        if (answers.size < result.size) {
+            answers = arrayOfNulls(maxOf(result.size, answers.size + (answers.size shr 1)))
+            ranges = IntArray(2 * answers.size)
+        }
+        var count = 0
+        for (index in 0 until result.size) {
+            if (result.failure(index) == null) answers[count++] = result.answer(index)
+        }
+        answers.fill(null, count)
+        return count
+    }
+}

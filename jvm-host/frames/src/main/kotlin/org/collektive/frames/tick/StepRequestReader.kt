@@ -1,0 +1,114 @@
+package org.collektive.frames.tick
+
+import org.collektive.engine.IntList
+import org.collektive.engine.Links
+import org.collektive.engine.NewNode
+import org.collektive.engine.Tick
+import org.collektive.frame.FrameLayouts
+import org.collektive.frame.NodeAdded
+import org.collektive.frame.Parameter
+import org.collektive.frame.StepRequest
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.OFFSET_BYTES
+import org.collektive.frames.target
+import java.nio.ByteBuffer
+
+/** Makes the nodes that a frame adds. */
+public fun interface NewNodes {
+    /** The node [id] with the program named [program] (empty: the session's) and the [parameters] that it sets. */
+    public fun node(id: Int, program: String, parameters: Map<String, String>): NewNode
+}
+
+/** Reads `StepRequest`s in place; allocates only for nodes that come. One thread at a time. */
+public class StepRequestReader(private val newNodes: NewNodes) {
+    private val checker = FrameChecker(FramePolicy.FRAME)
+    private val request = StepRequest()
+    private val node = NodeAdded()
+    private val parameter = Parameter()
+    private val links = FrameLinks()
+    private var frame = ByteBuffer.allocate(0)
+    private var root = 0
+
+    /** What the frame asks of the engine, without the user's data; valid until the next [read], and as long as the frame is. */
+    public val tick: Tick = Tick()
+
+    /** Position of the table `Sensors`, 0 when absent. */
+    internal val sensors: Int get() = target(frame, root, FrameLayouts.STEP_REQUEST_SENSORS)
+
+    /** Position of the table `GlobalData`, 0 when absent. */
+    internal val globals: Int get() = target(frame, root, FrameLayouts.STEP_REQUEST_GLOBALS)
+
+    /**
+     * Checks [frame] and reads all of it but the user's data.
+     *
+     * @throws MalformedFrameException when it cannot be read, or a node sets a parameter twice.
+     */
+    public fun read(frame: ByteBuffer) {
+        root = checker.checkRoot(frame, FrameLayouts.STEP_REQUEST)
+        this.frame = frame
+        request.__assign(root, frame)
+        tick.clear()
+        tick.number = request.tick()
+        tick.time = request.time()
+        tick.deltaTime = request.deltaTime()
+        tick.nodesRemoved.addVector(FrameLayouts.STEP_REQUEST_NODES_REMOVED, 1)
+        for (index in 0 until request.nodesAddedLength()) tick.nodesAdded.add(newNode(request.nodesAdded(node, index)))
+        tick.linksRemoved.addVector(FrameLayouts.STEP_REQUEST_LINKS_REMOVED, IDS_OF_A_LINK)
+        links.attach(frame, target(frame, root, FrameLayouts.STEP_REQUEST_LINKS))
+        tick.links = links
+        tick.due.addVector(FrameLayouts.STEP_REQUEST_DUE, 1)
+    }
+
+    /** Appends the vector in the field at [entry], whose elements are [width] ids each. */
+    private fun IntList.addVector(entry: Int, width: Int) {
+        val vector = target(frame, root, entry)
+        if (vector != 0) addAll(frame, vector + OFFSET_BYTES, width * frame.getInt(vector))
+    }
+
+    private fun newNode(added: NodeAdded): NewNode {
+        val parameters = LinkedHashMap<String, String>()
+        for (index in 0 until added.parametersLength()) {
+            added.parameters(parameter, index)
+            if (parameters.put(parameter.name(), parameter.value()) != null) {
+                throw MalformedFrameException("node ${added.id()} sets the parameter '${parameter.name()}' twice")
+            }
+        }
+        return newNodes.node(added.id(), added.program().orEmpty(), parameters)
+    }
+
+    /** The vector of `Link`s of a frame. */
+    private class FrameLinks : Links {
+        private var frame = ByteBuffer.allocate(0)
+        private var first = 0
+        override var size = 0
+            private set
+
+        fun attach(frame: ByteBuffer, vector: Int) {
+            this.frame = frame
+            size = if (vector == 0) 0 else frame.getInt(vector)
+            first = vector + OFFSET_BYTES
+        }
+
+        override fun from(index: Int) = frame.getInt(first + index * BYTES)
+
+        override fun to(index: Int) = frame.getInt(first + index * BYTES + TO)
+
+        override fun length(index: Int) = frame.getFloat(first + index * BYTES + LENGTH)
+
+        override fun attenuation(index: Int) = frame.getFloat(first + index * BYTES + ATTENUATION)
+
+        /** The places in the struct `Link`. */
+        private companion object {
+            const val TO = 4
+            const val LENGTH = 8
+            const val ATTENUATION = 12
+            const val BYTES = 16
+        }
+    }
+
+    private companion object {
+        const val IDS_OF_A_LINK = 2
+    }
+}

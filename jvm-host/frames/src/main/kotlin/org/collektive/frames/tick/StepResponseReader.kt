@@ -1,0 +1,27 @@
+package org.collektive.frames.tick
+
+import org.collektive.frame.FrameLayouts
+import org.collektive.frame.StepResponse
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import org.collektive.frames.target
+import java.nio.ByteBuffer
+
+/**
+ * The `StepResponse` between position and limit of [frame], checked.
+ *
+ * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ */
+public class StepResponseReader(public val frame: ByteBuffer) {
+    /** The answer; its actuator data is unchecked. */
+    public val response: StepResponse
+
+    /** Position of the table `Actuators`; 0 when absent. */
+    public val actuators: Int
+
+    init {
+        val root = FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.STEP_RESPONSE)
+        response = StepResponse().__assign(root, frame)
+        actuators = target(frame, root, FrameLayouts.STEP_RESPONSE_ACTUATORS)
+    }
+}

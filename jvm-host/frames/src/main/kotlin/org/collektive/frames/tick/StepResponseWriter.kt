@@ -1,0 +1,64 @@
+package org.collektive.frames.tick
+
+import org.collektive.engine.Engine
+import org.collektive.engine.IntList
+import org.collektive.engine.RoundDigest
+import org.collektive.engine.TickResult
+import org.collektive.frame.RoundError
+import org.collektive.frame.StepResponse
+import org.collektive.frames.AnswerBuffer
+
+/** Writes the `StepResponse` of one tick after the other, and chains their digests. */
+public class StepResponseWriter(private val data: UserData, private val buffer: AnswerBuffer) {
+    private val digest = RoundDigest()
+
+    /**
+     * Writes what the last tick of [engine], [result], gave.
+     *
+     * @param due the ids of its due nodes.
+     * @param begin when the call came, in terms of `System.nanoTime()`.
+     * @return the place of the answer, see [AnswerBuffer.finish].
+     */
+    public fun write(engine: Engine, result: TickResult, due: IntList, begin: Long): Long {
+        val builder = buffer.builder
+        digest.begin(engine.lastTick)
+        val actuators = data.answers.write(result, buffer, digest)
+        digest.end()
+        val errors = if (result.failureCount == 0) 0 else writeErrors(result)
+        StepResponse.startNodesVector(builder, result.size - result.failureCount)
+        // putInt neither grows nor aligns: the vector's start did both.
+        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
+        val nodes = builder.endVector()
+        StepResponse.startStepResponse(builder)
+        StepResponse.addTick(builder, engine.lastTick)
+        StepResponse.addDigest(builder, digest.value)
+        StepResponse.addNodes(builder, nodes)
+        StepResponse.addActuators(builder, actuators)
+        if (errors != 0) StepResponse.addErrors(builder, errors)
+        StepResponse.addNodeCount(builder, engine.nodeCount)
+        StepResponse.addLinkCount(builder, engine.linkCount)
+        val network = result.network
+        StepResponse.addSent(builder, count(network.sent))
+        StepResponse.addDropped(builder, count(network.dropped))
+        StepResponse.addDelayed(builder, count(network.delayed))
+        StepResponse.addExpired(builder, count(network.expired))
+        StepResponse.addRoundMicros(builder, micros(result.roundNanos))
+        StepResponse.addHostMicros(builder, micros(System.nanoTime() - begin))
+        return buffer.finish(StepResponse.endStepResponse(builder))
+    }
+
+    private fun writeErrors(result: TickResult): Int {
+        val builder = buffer.builder
+        val errors = (0 until result.size).mapNotNull { index ->
+            result.failure(index)?.let { message ->
+                val text = builder.createString(message)
+                RoundError.createRoundError(builder, result.id(index), builder.createString(result.program(index).name), text)
+            }
+        }
+        return StepResponse.createErrorsVector(builder, errors.toIntArray())
+    }
+
+    private fun micros(nanos: Long) = count(nanos / 1000)
+
+    private fun count(value: Long) = value.coerceAtMost(Int.MAX_VALUE.toLong()).toInt()
+}

@@ -1,0 +1,73 @@
+package org.collektive.frames.data
+
+import org.collektive.frames.MalformedFrameException
+import java.util.Random
+import kotlin.test.Test
+import kotlin.test.assertTrue
+
+/** Whatever bytes arrive: a frame that passes the check can be read to its end, and one that does not gives one kind of error. */
+internal class DamagedFrameTest {
+    private val random = Random(42)
+
+    @Test
+    fun `frames with flipped bits`() = attack { bytes ->
+        repeat(1 + random.nextInt(4)) {
+            val at = random.nextInt(bytes.size)
+            bytes[at] = (bytes[at].toInt() xor (1 shl random.nextInt(8))).toByte()
+        }
+        bytes
+    }
+
+    @Test
+    fun `frames with rare numbers in them`() = attack { bytes ->
+        repeat(1 + random.nextInt(3)) {
+            val number = listOf(0, 1, -1, 4, 5, 0x7F, 0x7FFF, 0x8000, 0xFFFF, Int.MAX_VALUE, Int.MIN_VALUE, bytes.size)[random.nextInt(12)]
+            val at = random.nextInt(bytes.size - 3)
+            for (k in 0..3) bytes[at + k] = (number ushr 8 * k).toByte()
+        }
+        bytes
+    }
+
+    @Test
+    fun `frames cut short`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
+
+    @Test
+    fun `frames of noise`() = attack { bytes -> bytes.also(random::nextBytes) }
+
+    private fun attack(damage: (ByteArray) -> ByteArray) {
+        var passed = 0
+        var refused = 0
+        repeat(5000) {
+            val (schema, frame) = when (it % 2) {
+                0 -> GeneratedSchemas.features to SensorFrames.sensors(GeneratedSchemas.features, 1 + random.nextInt(3), random)
+                else -> GeneratedSchemas.blocks to SensorFrames.sensors(GeneratedSchemas.blocks, 1 + random.nextInt(3), random, 104)
+            }
+            if (survives(schema, Frame(damage(frame.bytes), frame.position, emptyList()))) passed++ else refused++
+        }
+        repeat(1000) {
+            val type = GeneratedSchemas.globals.sensorType.classLoader.loadClass("test.globals.GlobalData")
+            val frame = SensorFrames.table(type, random)
+            val reader = checkNotNull(GeneratedSchemas.globals.globalReader())
+            try {
+                reader.attach(Frame(damage(frame.bytes), frame.position, emptyList()).buffer(), frame.position)
+                reader.check()
+                Objects.dump(unpacked(reader.data))
+            } catch (e: MalformedFrameException) {
+                refused++
+            }
+        }
+        assertTrue(refused > 0, "no frame was refused; $passed passed")
+    }
+
+    private fun survives(schema: DataSchema, frame: Frame): Boolean {
+        val reader = schema.sensorReader()
+        try {
+            reader.attach(frame.buffer(), frame.position)
+            reader.check()
+        } catch (e: MalformedFrameException) {
+            return false
+        }
+        for (i in 0 until reader.size) Objects.dump(unpacked(reader[i]))
+        return true
+    }
+}

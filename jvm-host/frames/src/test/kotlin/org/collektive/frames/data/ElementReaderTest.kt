@@ -1,0 +1,92 @@
+package org.collektive.frames.data
+
+import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.TableLayout
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+/** Tables that share a vtable are each checked by themselves. */
+internal class ElementReaderTest {
+    private val layout = TableLayout().inline("number", 4, 8, false).string("name", 6, false)
+    private val frame = frame(3)
+
+    @Test
+    fun `tables that share a vtable pass`() = assertEquals(3, checked().size)
+
+    @Test
+    fun `the string of the last one leads outside`() {
+        frame.putInt(field(2, NAME), 1 shl 20)
+        assertEquals("data[2].name lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+    }
+
+    @Test
+    fun `the string of the last one leads nowhere`() {
+        frame.putInt(field(2, NAME), 0)
+        assertEquals("data[2].name has a damaged offset", assertFailsWith<MalformedFrameException> { checked() }.message)
+    }
+
+    @Test
+    fun `the last one has a vtable of its own, which is damaged`() {
+        frame.putInt(table(2), 1 shl 20)
+        assertEquals("data[2] lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+    }
+
+    @Test
+    fun `a number of the last one lies beyond the end of the frame`() {
+        // The table's own start is the last thing in the frame, and its vtable says that eight bytes more follow.
+        val end = frame.limit() - Int.SIZE_BYTES
+        val vtable = table(1) - frame.getInt(table(1))
+        frame.putInt(end, end - vtable)
+        frame.putInt(element(2), end - element(2))
+        assertEquals("data[2].number lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+    }
+
+    @Test
+    fun `the next frame is checked from the beginning`() {
+        val reader = ElementReader(layout) { position, _ -> position }
+        reader.attach(frame, frame.getInt(0))
+        reader.check()
+        // The same places, and a vtable that is none.
+        frame.putShort(table(0) - frame.getInt(table(0)), 3)
+        assertFailsWith<MalformedFrameException> { reader.check() }
+    }
+
+    private fun checked() = ElementReader(layout) { position, _ -> position }.apply {
+        attach(frame, frame.getInt(0))
+        check()
+    }
+
+    private fun element(index: Int): Int {
+        val sensors = frame.getInt(0)
+        val field = sensors + frame.getShort(sensors - frame.getInt(sensors) + 4)
+        return field + frame.getInt(field) + Int.SIZE_BYTES * (1 + index)
+    }
+
+    private fun table(index: Int) = element(index) + frame.getInt(element(index))
+
+    private fun field(index: Int, entry: Int) = table(index) + frame.getShort(table(index) - frame.getInt(table(index)) + entry)
+
+    private fun frame(count: Int): ByteBuffer {
+        val builder = FlatBufferBuilder()
+        val tables = IntArray(count) { index ->
+            val name = builder.createString("node $index")
+            builder.startTable(2)
+            builder.addLong(0, 1L + index, 0)
+            builder.addOffset(1, name, 0)
+            builder.endTable()
+        }
+        val data = builder.createVectorOfTables(tables)
+        builder.startTable(1)
+        builder.addOffset(0, data, 0)
+        builder.finish(builder.endTable())
+        return ByteBuffer.wrap(builder.sizedByteArray()).order(ByteOrder.LITTLE_ENDIAN)
+    }
+
+    private companion object {
+        const val NAME = 6
+    }
+}

@@ -1,0 +1,102 @@
+package org.collektive.frames.data
+
+import com.google.flatbuffers.Table
+import java.lang.reflect.Method
+import java.util.Random
+import java.lang.reflect.Array as ReflectArray
+
+/** Random and printed objects of flatc's object classes, whatever the schema. */
+internal object Objects {
+    /**
+     * One text for the same data, whoever holds it; the C# tests print theirs the same way. Members by name in lower case,
+     * sorted; reals as their bits; integers as signed 64 bits; absent lists as empty.
+     */
+    fun dump(data: Any?): String = buildString { append(data, data?.javaClass) }
+
+    private fun StringBuilder.append(data: Any?, type: Class<*>?) {
+        when {
+            type != null && type.isArray -> {
+                append('[')
+                if (data != null) {
+                    for (i in 0 until ReflectArray.getLength(data)) {
+                        append(ReflectArray.get(data, i), type.componentType)
+                        append(' ')
+                    }
+                }
+                append(']')
+            }
+            data == null -> append("null")
+            data is String -> append('"').append(data).append('"')
+            data is Boolean -> append(data.toString())
+            data is Float -> append('f').append(java.lang.Float.floatToRawIntBits(data))
+            data is Double -> append('d').append(java.lang.Double.doubleToRawLongBits(data))
+            data is Number -> append(data.toLong())
+            else -> {
+                append('{')
+                for ((name, getter) in getters(data.javaClass)) {
+                    append(name).append('=')
+                    append(getter.invoke(data), getter.returnType)
+                    append(' ')
+                }
+                append('}')
+            }
+        }
+    }
+
+    private fun getters(type: Class<*>): Map<String, Method> =
+        type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
+            .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
+
+    /** An object of class [type] without a fault. */
+    fun random(type: Class<*>, random: Random, nesting: Int = 0): Any {
+        val made = type.getConstructor().newInstance()
+        for (setter in type.methods.filter { it.name.startsWith("set") && it.parameterCount == 1 }.sortedBy { it.name }) {
+            val part = setter.parameterTypes[0]
+            // Half of the scalars keep the schema's default.
+            if (part.isPrimitive && random.nextBoolean()) continue
+            val absent = isTable(type) && setter.name.removePrefix("set").lowercase() !in REQUIRED && !part.isPrimitive &&
+                (random.nextBoolean() || nesting >= MAX_NESTING)
+            setter.invoke(made, if (absent) null else value(part, random, nesting))
+        }
+        return made
+    }
+
+    private fun value(type: Class<*>, random: Random, nesting: Int): Any = when {
+        type.isPrimitive -> scalar(type, random)
+        isBoxed(type) -> scalar(type.kotlin.javaPrimitiveType ?: type, random)
+        type == String::class.java -> text(random)
+        type.isArray -> array(type.componentType, random, nesting)
+        else -> random(type, random, nesting + 1)
+    }
+
+    private fun isTable(type: Class<*>): Boolean =
+        Table::class.java.isAssignableFrom(type.classLoader.loadClass(type.name.removeSuffix("T")))
+
+    private fun array(element: Class<*>, random: Random, nesting: Int): Any {
+        val count = if (nesting >= MAX_NESTING) 0 else random.nextInt(4)
+        val made = ReflectArray.newInstance(element, count)
+        for (i in 0 until count) ReflectArray.set(made, i, value(element, random, nesting))
+        return made
+    }
+
+    /** Unsigned types are wider in Java, so only values that fit every type of that Java type are made. */
+    private fun scalar(type: Class<*>, random: Random): Any = when (type) {
+        Boolean::class.javaPrimitiveType -> random.nextBoolean()
+        Byte::class.javaPrimitiveType -> random.nextInt(256).toByte()
+        Short::class.javaPrimitiveType -> random.nextInt(65536).toShort()
+        Int::class.javaPrimitiveType -> random.nextInt(100)
+        Long::class.javaPrimitiveType -> random.nextInt().toLong() and 0x7FFFFFFF
+        Float::class.javaPrimitiveType -> random.nextFloat() * 2e3f - 1e3f
+        else -> random.nextDouble() * 2e3 - 1e3
+    }
+
+    private fun text(random: Random): String =
+        listOf("", "a", "node 7", "\u00e9t\u00e9", "\u6e2f", "\ud83d\ude80 up", "x".repeat(300))[random.nextInt(7)]
+
+    private fun isBoxed(type: Class<*>) = !type.isPrimitive && type.kotlin.javaPrimitiveType != null
+
+    private const val MAX_NESTING = 4
+
+    /** The required fields of the test schemas. */
+    private val REQUIRED: Set<String> = setOf("label", "anchor", "points", "main", "name", "corner")
+}

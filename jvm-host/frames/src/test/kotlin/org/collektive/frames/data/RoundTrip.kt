@@ -1,0 +1,83 @@
+package org.collektive.frames.data
+
+import com.google.flatbuffers.FlatBufferBuilder
+import java.io.DataInputStream
+import java.io.DataOutputStream
+import java.io.File
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.util.Random
+
+/**
+ * The Kotlin half of `schema/test/test_roundtrip.py`: compares sensor and global data that C# wrote, and writes random actuator data
+ * for C#. The files are those of the C# half.
+ */
+internal object RoundTrip {
+    @JvmStatic
+    fun main(arguments: Array<String>) {
+        val schema = Class.forName(arguments[1]).getConstructor().newInstance() as DataSchema
+        val file = File(arguments[2])
+        if (arguments[0] == "write") write(schema, file, arguments[3].toInt(), arguments[4].toLong()) else read(schema, file)
+    }
+
+    private fun read(schema: DataSchema, file: File) {
+        val sensors = schema.sensorReader()
+        val globals = schema.globalReader()
+        var passed = 0
+        var failed = 0
+        DataInputStream(file.inputStream().buffered()).use { input ->
+            for (name in listOf("SensorData", "ActuatorData", "GlobalData").filter { it in schema.types }) {
+                val hash = java.lang.Long.reverseBytes(input.readLong())
+                check(hash == schema.types[name]) { "$name has another fingerprint in C#" }
+            }
+            while (input.available() > 0) {
+                val positions = List(3) { input.readLittle() }
+                val frame = ByteBuffer.wrap(input.readNBytes(input.readLittle())).order(ByteOrder.LITTLE_ENDIAN)
+                val expected = input.readNBytes(input.readLittle()).decodeToString()
+                val text = StringBuilder()
+                sensors.attach(frame, positions[0])
+                sensors.check()
+                for (i in 0 until sensors.size) text.append(Objects.dump(unpacked(sensors[i]))).append('\n')
+                if (globals != null) {
+                    globals.attach(frame, positions[1])
+                    globals.check()
+                    text.append(Objects.dump(unpacked(globals.data))).append('\n')
+                }
+                if (sensors.size == positions[2] && text.toString() == expected) {
+                    passed++
+                } else if (failed++ == 0) {
+                    System.err.println("record $passed of $file\nexpected $expected\nread     $text")
+                }
+            }
+        }
+        println("${schema.name}: C# to Kotlin: $passed passed, $failed failed")
+    }
+
+    private fun write(schema: DataSchema, file: File, records: Int, seed: Long) {
+        val random = Random(seed)
+        val writer = schema.actuatorWriter()
+        DataOutputStream(file.outputStream().buffered()).use { output ->
+            repeat(records) {
+                val count = random.nextInt(6)
+                val results = Array<Any?>(count) { Objects.random(schema.actuatorType, random) }
+                results.forEach { result -> check(writer.findFault(result) == null) { "${writer.findFault(result)}" } }
+                val builder = FlatBufferBuilder(256)
+                val offset = writer.write(builder, results, count, IntArray(2 * count))
+                builder.finish(offset)
+                val frame = builder.sizedByteArray()
+                val text = results.joinToString("") { Objects.dump(it) + "\n" }.encodeToByteArray()
+                for (number in listOf(frame.size - offset, -1, count, frame.size)) output.writeLittle(number)
+                output.write(frame)
+                output.writeLittle(text.size)
+                output.write(text)
+            }
+        }
+    }
+
+    private fun DataInputStream.readLittle(): Int = Integer.reverseBytes(readInt())
+
+    private fun DataOutputStream.writeLittle(value: Int) = writeInt(Integer.reverseBytes(value))
+}
+
+/** The object of a flatc reader. */
+internal fun unpacked(reader: Any): Any = reader.javaClass.getMethod("unpack").invoke(reader)

@@ -1,0 +1,46 @@
+package org.collektive.frames.data
+
+import com.google.flatbuffers.FlatBufferBuilder
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.util.Random
+
+/** A frame as C# would send it. [position]: of its table. [objects]: what it holds. */
+internal class Frame(val bytes: ByteArray, val position: Int, val objects: List<Any>) {
+    fun buffer(): ByteBuffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
+}
+
+internal object SensorFrames {
+    /** A table `Sensors` of random elements; structs are told from tables by [structBytes]. */
+    fun sensors(schema: DataSchema, count: Int, random: Random, structBytes: Int? = null, alignment: Int = 8): Frame {
+        val type = schema.sensorType.classLoader.loadClass("${schema.sensorType.name}T")
+        val objects = List(count) { Objects.random(type, random) }
+        val builder = FlatBufferBuilder(64)
+        val vector = if (structBytes == null) {
+            builder.createVectorOfTables(objects.map { pack(builder, schema.sensorType, it) }.toIntArray())
+        } else {
+            builder.startVector(structBytes, count, alignment)
+            objects.asReversed().forEach { pack(builder, schema.sensorType, it) }
+            builder.endVector()
+        }
+        builder.startTable(1)
+        builder.addOffset(0, vector, 0)
+        return finish(builder, builder.endTable(), objects)
+    }
+
+    /** A random table of class [type]. */
+    fun table(type: Class<*>, random: Random): Frame {
+        val made = Objects.random(type.classLoader.loadClass("${type.name}T"), random)
+        val builder = FlatBufferBuilder(64)
+        return finish(builder, pack(builder, type, made), listOf(made))
+    }
+
+    fun pack(builder: FlatBufferBuilder, reader: Class<*>, data: Any): Int =
+        reader.getMethod("pack", FlatBufferBuilder::class.java, data.javaClass).invoke(null, builder, data) as Int
+
+    private fun finish(builder: FlatBufferBuilder, table: Int, objects: List<Any>): Frame {
+        builder.finish(table)
+        val bytes = builder.sizedByteArray()
+        return Frame(bytes, bytes.size - table, objects)
+    }
+}

@@ -1,0 +1,128 @@
+package org.collektive.frames.tick
+
+import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.api.Parameters
+import org.collektive.frames.data.DataReader
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.ElementWriter
+import org.collektive.frames.data.GlobalReader
+import org.collektive.engine.Engine
+import org.collektive.engine.EngineSettings
+import org.collektive.engine.NewNode
+import org.collektive.engine.NodeProgram
+import org.collektive.engine.RoundData
+import org.collektive.engine.RoundDevice
+import org.collektive.frames.AnswerBuffer
+import org.collektive.engine.RoundDigest
+import org.collektive.engine.Tick
+import org.collektive.engine.TickResult
+import org.collektive.runtime.AggregateRuntimes
+import org.junit.jupiter.api.Test
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import kotlin.random.Random
+import kotlin.test.assertEquals
+
+/** The way of answers that are structs: here 12 bytes, 4 of the node's id and 8 of the tick. */
+class AnswersTest {
+    private val failing = HashSet<Int>()
+    private var now = 0L
+    private val answers = Answers.of(Schema, THREADS)
+    private val data = object : RoundData {
+        override fun sensors(worker: Int, index: Int): Any? = null
+
+        override fun pack(worker: Int, index: Int, answer: Any): String? = answers.pack(worker, index, answer)
+    }
+    private val program = object : NodeProgram {
+        override val name get() = "test"
+
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any {
+            check(device.id !in failing || device.id % 2 == 0)
+            return Answer(device.id, now, isGood = device.id !in failing)
+        }
+
+        override fun describe(failure: Throwable, place: String?): String = failure.toString()
+    }
+
+    @Test
+    fun `whichever rounds fail, the others' answers stand side by side and in the digest`() {
+        val random = Random(7)
+        val digest = RoundDigest()
+        val expected = RoundDigest()
+        Engine(EngineSettings(1, THREADS), AggregateRuntimes()).use { engine ->
+            for (number in 1L..60L) {
+                now = number
+                val tick = Tick()
+                tick.number = number
+                if (number == 1L) for (id in 0 until NODES) tick.nodesAdded.add(NewNode(id, program, Parameters(emptyMap())))
+                val due = (0 until NODES).filter { random.nextInt(4) > 0 }
+                due.forEach(tick.due::add)
+                failing.clear()
+                // All, none, and all that lies between.
+                val percent = number.toInt() % 5 * 25
+                due.filterTo(failing) { random.nextInt(100) < percent }
+                answers.begin(tick.due)
+                val result = engine.step(tick, data, System.nanoTime() + 10_000_000_000)
+                assertEquals(due.filter { it !in failing }.map { it to number }, written(result, digest), "tick $number")
+                digestOf(number, due, expected)
+                assertEquals(expected.value, digest.value, "tick $number")
+            }
+        }
+    }
+
+    private fun written(result: TickResult, digest: RoundDigest): List<Pair<Int, Long>> {
+        val memory = ByteBuffer.allocateDirect(64 * NODES).order(ByteOrder.LITTLE_ENDIAN)
+        val buffer = AnswerBuffer { _, _, capacity -> ByteBuffer.allocateDirect(capacity) }
+        buffer.begin(1, memory)
+        digest.begin(now)
+        val table = answers.write(result, buffer, digest)
+        digest.end()
+        val place = memory.capacity() - table
+        val field = memory.getShort(place - memory.getInt(place) + 4)
+        val vector = place + field + memory.getInt(place + field)
+        return List(memory.getInt(vector)) {
+            val at = vector + 4 + it * Schema.BYTES
+            memory.getInt(at) to memory.getLong(at + 4)
+        }
+    }
+
+    private fun digestOf(tick: Long, due: List<Int>, digest: RoundDigest) {
+        val bytes = ByteBuffer.allocate(Schema.BYTES).order(ByteOrder.LITTLE_ENDIAN)
+        digest.begin(tick)
+        for (id in due) {
+            if (id in failing) digest.failure(id) else digest.answer(id, bytes.putInt(0, id).putLong(4, tick), 0, Schema.BYTES)
+        }
+        digest.end()
+    }
+
+    private class Answer(val id: Int, val tick: Long, val isGood: Boolean)
+
+    private object Schema : DataSchema {
+        const val BYTES = 12
+        override val name get() = "test"
+        override val types get() = emptyMap<String, Long>()
+        override val sensorType get() = Any::class.java
+        override val actuatorType get() = Answer::class.java
+
+        override fun sensorReader(): DataReader = throw UnsupportedOperationException()
+
+        override fun actuatorReader(): DataReader = throw UnsupportedOperationException()
+
+        override fun globalReader(): GlobalReader? = null
+
+        override fun actuatorWriter() = ElementWriter.structs(Answer::class.java, BYTES, 4, ::pack) { if ((it as Answer).isGood) null else "is bad" }
+
+        private fun pack(builder: FlatBufferBuilder, answer: Any): Int {
+            answer as Answer
+            builder.prep(4, BYTES)
+            builder.putLong(answer.tick)
+            builder.putInt(answer.id)
+            return builder.offset()
+        }
+    }
+
+    private companion object {
+        const val THREADS = 2
+        const val NODES = 300
+    }
+}

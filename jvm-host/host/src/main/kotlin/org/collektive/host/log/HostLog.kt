@@ -1,0 +1,121 @@
+package org.collektive.host.log
+
+import org.collektive.engine.RoundThread
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.shim.ShimCalls
+import java.io.ByteArrayOutputStream
+import java.io.OutputStream
+import java.io.PrintStream
+import java.util.logging.Formatter
+import java.util.logging.Handler
+import java.util.logging.Level
+import java.util.logging.LogManager
+import java.util.logging.LogRecord
+
+/**
+ * Leads what programs print or log to the shim, with the node and the program whose code it came from.
+ *
+ * slf4j is here too: its binding to `java.util.logging` is on the host's class path.
+ */
+internal class HostLog(private val shim: ShimCalls) {
+    private val out = ShimStream(LogLevel.INFO)
+    private val err = ShimStream(LogLevel.WARNING)
+    private val handler = ShimHandler()
+    private val failures = ThreadFailures(shim)
+
+    /** Takes over standard output, `java.util.logging` and uncaught exceptions; again, should a program have taken them away. */
+    fun install() {
+        System.setOut(out)
+        System.setErr(err)
+        val root = LogManager.getLogManager().getLogger("")
+        root.handlers.forEach(root::removeHandler)
+        root.addHandler(handler)
+        if (root.level == null) root.level = Level.INFO
+        Thread.setDefaultUncaughtExceptionHandler(failures)
+    }
+
+    /** Tells how often exceptions came again. */
+    fun tellCounts() {
+        failures.tellCounts()
+    }
+
+    /** A program that closes it must not close it for others. */
+    private inner class ShimStream(level: LogLevel) : PrintStream(LineStream(level), false, Charsets.UTF_8) {
+        override fun close() = flush()
+    }
+
+    /** Each thread fills a line of its own, so that lines of parallel rounds do not mix. */
+    private inner class LineStream(private val level: LogLevel) : OutputStream() {
+        private val lines = ThreadLocal.withInitial { ByteArrayOutputStream() }
+
+        override fun write(bytes: ByteArray, offset: Int, length: Int) {
+            val line = lines.get()
+            var begin = offset
+            for (at in offset until offset + length) {
+                if (bytes[at].toInt() != '\n'.code && bytes[at].toInt() != '\r'.code && line.size() + at - begin + 1 < MAX_LINE) continue
+                line.write(bytes, begin, at - begin)
+                begin = at
+                write(bytes[begin++].toInt())
+            }
+            line.write(bytes, begin, offset + length - begin)
+        }
+
+        override fun write(byte: Int) {
+            val line = lines.get()
+            when (byte.toChar()) {
+                '\n' -> end(line)
+                '\r' -> {}
+                else -> {
+                    line.write(byte)
+                    if (line.size() == MAX_LINE) end(line)
+                }
+            }
+        }
+
+        override fun flush() {
+            val line = lines.get()
+            if (line.size() > 0) end(line)
+        }
+
+        private fun end(line: ByteArrayOutputStream) {
+            shim.log(level, attributed(line.toString(Charsets.UTF_8)))
+            line.reset()
+        }
+    }
+
+    private inner class ShimHandler : Handler() {
+        init {
+            formatter = MessageFormatter
+        }
+
+        override fun publish(record: LogRecord) {
+            if (!isLoggable(record)) return
+            val level = when {
+                record.level.intValue() >= Level.SEVERE.intValue() -> LogLevel.ERROR
+                record.level.intValue() >= Level.WARNING.intValue() -> LogLevel.WARNING
+                record.level.intValue() >= Level.INFO.intValue() -> LogLevel.INFO
+                else -> LogLevel.DEBUG
+            }
+            shim.log(level, attributed(formatter.format(record)))
+        }
+
+        override fun flush() {}
+
+        override fun close() {}
+    }
+
+    private object MessageFormatter : Formatter() {
+        override fun format(record: LogRecord): String {
+            val message = formatMessage(record)
+            val thrown = record.thrown ?: return "${record.loggerName}: $message"
+            return "${record.loggerName}: $message\n${thrown.stackTraceToString().trimEnd()}"
+        }
+    }
+
+    companion object {
+        private const val MAX_LINE = 4096
+
+        /** [text] with the node and the program whose code runs on this thread. */
+        fun attributed(text: String): String = RoundThread.origin()?.let { "[$it] $text" } ?: text
+    }
+}

@@ -1,0 +1,60 @@
+package org.collektive.host.programs
+
+import org.collektive.api.Device
+import org.collektive.api.Parameters
+import org.collektive.api.Program
+import org.collektive.engine.NodeProgram
+import org.collektive.engine.RoundDevice
+import org.collektive.host.jfr.ProgramRounds
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import java.lang.invoke.MethodHandle
+import java.lang.invoke.MethodType
+
+/**
+ * A program of a user's jar, ready to be called.
+ *
+ * The [function] has exactly the type [TYPE], so that a call allocates nothing. A generated lambda would be a little cheaper, but the JDK
+ * makes none for a class of another loader: the lookup lacks the right of its module.
+ *
+ * @property info its annotation.
+ * @property place class and method, for profiles.
+ */
+internal class LoadedProgram(val info: Program, private val function: MethodHandle, private val place: String) : NodeProgram {
+    override val name: String get() = info.name
+
+    private val defaults = Parameters(info.parameters.associate { it.name to it.default })
+
+    override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? {
+        val own: Device = device
+        val event = ProgramRounds.begin() ?: return function.invokeExact(aggregate, sensors, own)
+        try {
+            return function.invokeExact(aggregate, sensors, own)
+        } finally {
+            ProgramRounds.end(event, device, name, place)
+        }
+    }
+
+    override fun describe(failure: Throwable, place: String?): String = RoundFailure.describe(failure, place)
+
+    /** The parameters of a node that sets [values]. */
+    fun parameters(node: Int, values: Map<String, String>): Parameters {
+        if (values.isEmpty()) return defaults
+        val all = info.parameters.associateTo(LinkedHashMap()) { it.name to it.default }
+        for ((name, value) in values) {
+            if (name !in all) {
+                throw HostException(
+                    HostError.PROGRAM,
+                    "node $node sets the parameter '$name', which program '${this.name}' does not declare; it declares ${all.keys}",
+                )
+            }
+            all[name] = value
+        }
+        return Parameters(all)
+    }
+
+    companion object {
+        /** The erased type of all programs: aggregate, sensors, device. */
+        val TYPE: MethodType = MethodType.methodType(Any::class.java, Any::class.java, Any::class.java, Device::class.java)
+    }
+}

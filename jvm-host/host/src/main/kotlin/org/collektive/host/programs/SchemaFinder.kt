@@ -1,0 +1,52 @@
+package org.collektive.host.programs
+
+import org.collektive.frames.data.DataSchema
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import java.util.ServiceConfigurationError
+import java.util.ServiceLoader
+
+/** Finds the generated code of the schema that the other side was generated from. */
+public object SchemaFinder {
+    /**
+     * All schemas of [loader], which loads [jars].
+     *
+     * @throws HostException when their generated code cannot be loaded.
+     */
+    public fun all(loader: ClassLoader, jars: List<ProgramJar>): List<DataSchema> = try {
+        ServiceLoader.load(DataSchema::class.java, loader).toList()
+    } catch (e: LinkageError) {
+        throw cannotLoad(jars, e)
+    } catch (e: ServiceConfigurationError) {
+        throw cannotLoad(jars, e)
+    }
+
+    /**
+     * The schema [name] of [all], whose types have the fingerprints [types].
+     *
+     * @throws HostException when there is none, naming the type that differs.
+     */
+    public fun find(name: String, types: Map<String, Long>, all: List<DataSchema>, jars: List<ProgramJar>): DataSchema {
+        val schema = all.find { it.name == name } ?: throw HostException(
+            HostError.SCHEMA,
+            "there is no schema $name in ${paths(jars)}, only ${all.map(DataSchema::name)}; $ADVICE",
+        )
+        for (type in (types.keys + schema.types.keys).sorted()) {
+            if (types[type] == schema.types[type]) continue
+            val how = when (type) {
+                !in types -> "C# does not know it"
+                !in schema.types -> "the programs' jar does not know it"
+                else -> "its fields differ"
+            }
+            throw HostException(HostError.SCHEMA, "type $type of schema $name is not the same on both sides ($how); $ADVICE")
+        }
+        return schema
+    }
+
+    private fun cannotLoad(jars: List<ProgramJar>, e: Throwable) =
+        HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
+
+    private fun paths(jars: List<ProgramJar>) = jars.joinToString { it.path }
+
+    private const val ADVICE = "run ./collektive generate on the schema, then build the programs and the C# code again"
+}

@@ -1,0 +1,147 @@
+package org.collektive.host.session
+
+import org.collektive.engine.Engine
+import org.collektive.engine.EngineSettings
+import org.collektive.engine.RoundsNotFinished
+import org.collektive.engine.TickRefused
+import org.collektive.engine.TickResult
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.ViewRule
+import org.collektive.frames.session.writeOpenResponse
+import org.collektive.frames.tick.StepRequestReader
+import org.collektive.frames.tick.StepResponseWriter
+import org.collektive.frames.tick.UserData
+import org.collektive.host.programs.Programs
+import org.collektive.host.record.RecordWriter
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.shim.ShimCalls
+import org.collektive.runtime.AggregateRuntimes
+import java.io.IOException
+import java.nio.ByteBuffer
+
+/**
+ * One simulation: its programs, its engine, and the way from its frames to its answers. One thread at a time.
+ *
+ * @property schema the schema of its user data.
+ */
+public class Session internal constructor(
+    public val schema: DataSchema,
+    private val programs: Programs,
+    settings: EngineSettings,
+    private val shim: ShimCalls,
+    private val record: RecordWriter?,
+) : AutoCloseable {
+    private val request = StepRequestReader(programs)
+    private val data = UserData(schema, settings.threads)
+    private val engine = Engine(settings, AggregateRuntimes(ViewRule))
+    private val buffer = AnswerBuffer(ShimSlots(shim))
+    private val response = StepResponseWriter(data, buffer)
+    private val events = TickEvents()
+    private var failure: String? = null
+
+    /** Writes the `OpenResponse` into [answer], the present buffer of [slot], and returns `offset << 32 | length`. */
+    internal fun answerOpen(slot: Long, answer: ByteBuffer): Long {
+        buffer.begin(slot, answer)
+        return buffer.writeOpenResponse(programs.infos)
+    }
+
+    /**
+     * Runs the tick of the `StepRequest` between position and limit of [frame], and writes the `StepResponse` into [answer], the present
+     * buffer of [slot].
+     *
+     * @param begin when the call came, [deadline] when its limit passes, both in terms of `System.nanoTime()`.
+     * @return `offset << 32 | length` of the response.
+     * @throws HostException when the frame is refused, which changes nothing, or the session fails, which ends it.
+     */
+    public fun step(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
+        failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
+        if (record == null) return run(frame, slot, answer, begin, deadline)
+        recording { step(frame) }
+        val written = try {
+            run(frame, slot, answer, begin, deadline)
+        } catch (e: Throwable) {
+            recording { failed(e.message ?: e.toString()) }
+            throw e
+        }
+        val offset = (written ushr Int.SIZE_BITS).toInt()
+        recording { done(buffer.memory.limit(offset + written.toInt()).position(offset)) }
+        return written
+    }
+
+    private fun run(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
+        events.begin(begin)
+        engine.wake()
+        read(frame)
+        val result = runRounds(deadline)
+        data.accept(request)
+        val place = write(result, slot, answer, begin)
+        events.end(engine, result, frame.remaining(), place.toInt())
+        return place
+    }
+
+    private fun read(frame: ByteBuffer) {
+        reading({ "the frame" }) { request.read(frame) }
+        reading({ "the frame of tick ${request.tick.number}" }) { data.read(frame, request) }
+    }
+
+    private fun runRounds(deadline: Long): TickResult = try {
+        engine.step(request.tick, data, deadline)
+    } catch (e: TickRefused) {
+        throw HostException(HostError.FRAME, e.message.orEmpty(), e)
+    } catch (e: RoundsNotFinished) {
+        shim.log(LogLevel.ERROR, "${e.message}; the threads:")
+        e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
+        throw fail(e) { "${e.message}; the log shows what each thread was doing. Mend the program, then open a new session" }
+    } catch (e: Throwable) {
+        throw fail(e) { "tick ${request.tick.number} failed inside the engine: $e" }
+    }
+
+    private fun write(result: TickResult, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
+        events.write()
+        buffer.begin(slot, answer)
+        response.write(engine, result, request.tick.due, begin)
+    } catch (e: Throwable) {
+        throw fail(e) { "the answer of tick ${request.tick.number} could not be written: $e" }
+    }
+
+    override fun close() {
+        engine.close()
+        events.close(engine.lastTick, failure)
+        record?.use {
+            try {
+                it.end()
+            } catch (e: IOException) {
+                shim.log(LogLevel.ERROR, it.failure(e))
+            }
+        }
+    }
+
+    private inline fun recording(write: RecordWriter.() -> Unit) {
+        val record = record ?: return
+        try {
+            record.write()
+        } catch (e: IOException) {
+            throw fail(e) { record.failure(e) }
+        }
+    }
+
+    /** Ends the session. Sets [failure] before it builds [text], which may be impossible with the heap exhausted. */
+    private inline fun fail(cause: Throwable, text: () -> String): HostException {
+        failure = "memory was short in an earlier tick"
+        engine.close()
+        val why = text()
+        failure = why
+        return HostException(HostError.SESSION_FAILED, why, cause)
+    }
+}
+
+/** Runs [read]; a frame that it cannot read is refused as [what]. */
+internal inline fun <T> reading(what: () -> String, read: () -> T): T = try {
+    read()
+} catch (e: MalformedFrameException) {
+    throw HostException(HostError.FRAME, "${what()} is damaged: ${e.message}", e)
+}

@@ -1,0 +1,97 @@
+package org.collektive.host.session
+
+import org.collektive.engine.EngineSettings
+import org.collektive.engine.NetworkModel
+import org.collektive.engine.Schedule
+import org.collektive.frame.Network
+import org.collektive.frame.OpenRequest
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.session.openRequest
+import org.collektive.frames.session.types
+import org.collektive.host.jfr.SessionEvents
+import org.collektive.host.jfr.SessionStartEvent
+import org.collektive.host.programs.JarBytes
+import org.collektive.host.programs.ProgramFinder
+import org.collektive.host.programs.ProgramJar
+import org.collektive.host.programs.ProgramLoader
+import org.collektive.host.programs.Programs
+import org.collektive.host.programs.SchemaFinder
+import org.collektive.host.record.RecordWriter
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.host.shim.ShimCalls
+import java.nio.ByteBuffer
+
+/** From an `OpenRequest` to a [Session]. */
+public object SessionOpening {
+    /** Number of the contract in `schema/frame.fbs` and of the host's entries. */
+    public const val PROTOCOL: Int = 1
+
+    /** Loads what the `OpenRequest` between position and limit of [frame] asks for. */
+    internal fun open(frame: ByteBuffer, shim: ShimCalls): Session {
+        val request = reading({ "the frame" }) { openRequest(frame) }
+        val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
+        val path = request.record().orEmpty()
+        return open(request, jars, shim) { if (path.isEmpty()) null else RecordWriter.create(path, frame, jars) }
+    }
+
+    /**
+     * Loads what [request], which passed its check, asks for, with the programs of [jars] and without a record.
+     *
+     * @throws HostException when that cannot be loaded.
+     */
+    public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls): Session = open(request, jars, shim) { null }
+
+    /** [record] runs when all else is well. */
+    private fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
+        val event = if (SessionEvents.wanted) SessionStartEvent() else null
+        event?.begin()
+        if (request.protocol() != PROTOCOL.toLong()) {
+            throw HostException(
+                HostError.HOST,
+                "C# speaks protocol ${request.protocol()}, this host $PROTOCOL; use the host jar that came with the package",
+            )
+        }
+        val settings = settings(request)
+        val programJars = jars.map(ProgramJar::open)
+        val loader = ProgramLoader(programJars)
+        val schemas = SchemaFinder.all(loader, programJars)
+        val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
+        val programs = Programs(ProgramFinder(programJars, loader, schema, schemas).find(), request.program().orEmpty())
+        val session = Session(schema, programs, settings, shim, record())
+        event?.let { commit(it, programs, schema, settings) }
+        return session
+    }
+
+    private fun commit(event: SessionStartEvent, programs: Programs, schema: DataSchema, settings: EngineSettings) {
+        event.programs = programs.infos.joinToString { it.name }
+        event.schema = schema.name
+        event.schedule = settings.schedule.name
+        event.seed = settings.seed
+        event.threads = settings.threads
+        event.commit()
+    }
+
+    private fun settings(request: OpenRequest): EngineSettings {
+        val schedule = Schedule.entries.getOrNull(request.schedule())
+            ?: throw HostException(HostError.FRAME, "there is no schedule ${request.schedule()}")
+        return try {
+            EngineSettings(request.seed(), request.threads(), schedule, network(request.network()))
+        } catch (e: IllegalArgumentException) {
+            throw HostException(HostError.FRAME, e.message.orEmpty(), e)
+        }
+    }
+
+    private fun network(request: Network?): NetworkModel = if (request == null) {
+        NetworkModel()
+    } else {
+        NetworkModel(
+            request.loss(),
+            request.lossPerMetre(),
+            request.lossPerAttenuation(),
+            request.delay(),
+            request.jitter(),
+            if (request.retention() == 0.0) Double.POSITIVE_INFINITY else request.retention(),
+        )
+    }
+}

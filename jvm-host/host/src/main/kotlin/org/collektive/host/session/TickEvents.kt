@@ -1,0 +1,88 @@
+package org.collektive.host.session
+
+import org.collektive.engine.Engine
+import org.collektive.engine.TickResult
+import org.collektive.host.jfr.ProgramErrorEvent
+import org.collektive.host.jfr.SessionEvents
+
+/** Tells the flight recorder about the ticks of one session, once this JVM has a recorder. Allocates only for failed rounds. */
+internal class TickEvents {
+    private var events = SessionEvents.ofRecorder()
+    private var called = 0L
+    private var written = 0L
+    private var lastEnd = 0L
+
+    /** A tick begins; its call came at [called] in terms of `System.nanoTime()`. */
+    fun begin(called: Long) {
+        this.called = called
+        if (events == null) events = SessionEvents.ofRecorder()
+        events?.tick?.begin()
+    }
+
+    /** Its rounds are over, and its answer is written from now on. */
+    fun write() {
+        written = System.nanoTime()
+    }
+
+    /** The answer is written; its frames have [bytesIn] and [bytesOut] bytes. */
+    fun end(engine: Engine, result: TickResult, bytesIn: Int, bytesOut: Int) {
+        val end = System.nanoTime()
+        val events = events
+        if (events != null) {
+            tick(events, engine, result, bytesIn, bytesOut, end)
+            network(events, engine.lastTick, result)
+            if (result.failureCount > 0) errors(engine.lastTick, result)
+        }
+        lastEnd = end
+    }
+
+    /** The session ends after [ticks] ticks, by [failure] or in order. */
+    fun close(ticks: Long, failure: String?) {
+        val event = (events ?: SessionEvents.ofRecorder())?.end ?: return
+        event.ticks = ticks
+        event.failure = failure
+        event.commit()
+    }
+
+    private fun tick(events: SessionEvents, engine: Engine, result: TickResult, bytesIn: Int, bytesOut: Int, end: Long) {
+        val event = events.tick
+        event.end()
+        if (!event.shouldCommit()) return
+        event.tick = engine.lastTick
+        event.nodes = engine.nodeCount
+        event.dueNodes = result.size
+        event.failedRounds = result.failureCount
+        event.links = engine.linkCount
+        event.bytesIn = bytesIn.toLong()
+        event.bytesOut = bytesOut.toLong()
+        event.wait = if (lastEnd == 0L) 0 else called - lastEnd
+        event.rounds = result.roundNanos
+        event.write = end - written
+        event.commit()
+    }
+
+    private fun network(events: SessionEvents, tick: Long, result: TickResult) {
+        val event = events.network
+        if (!event.isEnabled) return
+        event.begin() // or it would keep the time of its first use
+        event.tick = tick
+        event.sent = result.network.sent
+        event.dropped = result.network.dropped
+        event.delayed = result.network.delayed
+        event.expired = result.network.expired
+        event.commit()
+    }
+
+    private fun errors(tick: Long, result: TickResult) {
+        for (index in 0 until result.size) {
+            val message = result.failure(index) ?: continue
+            val event = ProgramErrorEvent()
+            if (!event.isEnabled) return
+            event.tick = tick
+            event.node = result.id(index)
+            event.program = result.program(index).name
+            event.message = message
+            event.commit()
+        }
+    }
+}

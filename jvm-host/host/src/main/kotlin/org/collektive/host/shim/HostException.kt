@@ -1,0 +1,16 @@
+package org.collektive.host.shim
+
+/** A failure that the caller can act on; [message] says what happened, to what, and what to do next. */
+public class HostException(public val error: HostError, message: String, cause: Throwable? = null) : RuntimeException(message, cause)
+
+/** Those of `CLK_ERRORS` (collektive_shim.h) that the host answers with. */
+public enum class HostError(public val code: Int) {
+    ARGUMENT(-1),
+    HANDLE(-3),
+    HOST(-11),
+    FRAME(-12),
+    SCHEMA(-13),
+    PROGRAM(-14),
+    SESSION_FAILED(-15),
+    JAVA(-16),
+}

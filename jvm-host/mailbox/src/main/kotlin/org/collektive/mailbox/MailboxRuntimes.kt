@@ -1,0 +1,95 @@
+package org.collektive.mailbox
+
+import it.unibo.collektive.Collektive
+import it.unibo.collektive.aggregate.AggregateResult
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
+import it.unibo.collektive.networking.Mailbox
+import it.unibo.collektive.networking.Message
+import it.unibo.collektive.networking.NeighborsData
+import it.unibo.collektive.networking.OutboundEnvelope
+import it.unibo.collektive.path.FullPath
+import it.unibo.collektive.path.Path
+import it.unibo.collektive.state.State
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
+import org.collektive.spi.RoundProgram
+import org.collektive.spi.SharingRule
+
+/**
+ * Runs devices by the public API of Collektive alone ([Collektive], [Mailbox]), and so on any implementation of it that is on the class
+ * path. The results are those of the project's own runtime; a round costs many times as much, since messages are copied for each receiver.
+ */
+public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
+    override fun device(id: Int): DeviceRuntime = MailboxRuntime(id, rule)
+
+    /** Devices share nothing. */
+    override fun tidy(devices: List<DeviceRuntime>) {}
+}
+
+private class MailboxRuntime(private val id: Int, private val rule: SharingRule) :
+    DeviceRuntime,
+    Mailbox<Int> {
+    private var inbound = Inbound(emptyList())
+    private var state: State = emptyMap()
+    private var newState: State = emptyMap()
+    private var outbound = Messages(emptyMap(), null)
+
+    override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
+        inbound = Inbound((0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NOBODY) })
+        val round: AggregateResult<Int, Any?> = Collektive.aggregate(localId = id, network = this, previousState = state) { program.run(this, sensors) }
+        round.newState.forEach(::allow)
+        newState = round.newState
+        return round.result
+    }
+
+    override val exports: Int get() = outbound.message(NOBODY)?.sharedData.orEmpty().size
+
+    override fun placeOf(failure: Throwable): String? = null
+
+    override fun commit(): Export {
+        state = newState
+        return outbound
+    }
+
+    override val inMemory: Boolean get() = true
+
+    override fun currentInbound(): NeighborsData<Int> = inbound
+
+    override fun deliverableReceived(message: Message<Int, *>) = error("messages come with the links")
+
+    /** Writes the messages now: an envelope need not bear several readers at once. */
+    override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {
+        val default = outboundMessage.prepareMessageFor(NOBODY)
+        val each = inbound.neighbors.associateWith { outboundMessage.prepareMessageFor(it) }
+        for (message in each.values + default) message.sharedData.forEach(::allow)
+        outbound = Messages(each, default)
+    }
+
+    private fun allow(path: Path, value: Any?) {
+        val tokens = (path as? FullPath)?.tokens ?: listOf(path)
+        val refusal = rule.refusal(value) ?: tokens.firstNotNullOfOrNull(rule::refusal) ?: return
+        throw IllegalArgumentException(withPlace("$refusal; it cannot be shared, kept or a pivot", ProgramPlace(id, tokens)))
+    }
+
+    /** What one round sends: to [each] neighbour that it knew, and to others. */
+    private class Messages(private val each: Map<Int, Message<Int, *>>, private val default: Message<Int, *>?) : Export() {
+        fun message(receiver: Int): Message<Int, *>? = each[receiver] ?: default
+    }
+
+    private class Inbound(private val messages: List<Message<Int, *>>) : NeighborsData<Int> {
+        override val neighbors: Set<Int> = messages.mapTo(LinkedHashSet()) { it.senderId }
+
+        @Suppress("UNCHECKED_CAST")
+        override fun <Value> dataAt(path: Path, dataSharingMethod: DataSharingMethod<Value>): Map<Int, Value> =
+            messages.filter { path in it.sharedData }.associate { it.senderId to it.sharedData[path] as Value }
+    }
+
+    private companion object {
+        /** No device: who was unknown when a message was sent. */
+        const val NOBODY = -1
+    }
+}

@@ -1,0 +1,165 @@
+package org.collektive.tools.profile
+
+import jdk.jfr.consumer.RecordedEvent
+import jdk.jfr.consumer.RecordedFrame
+import jdk.jfr.consumer.RecordingFile
+import org.collektive.host.jfr.ProgramRounds
+import java.nio.file.Path
+import java.time.Duration
+import java.util.Locale
+
+/**
+ * What a recording tells, as text: the time of ticks, for each program where its time went, what was allocated, and the pauses.
+ *
+ * A sample belongs to the program whose function is on its stack; `collektive.ProgramRound` events tell which function is whose.
+ */
+internal class ProfileReport {
+    private val ticks = ArrayList<RecordedEvent>()
+    private val programs = sortedMapOf<String, Program>()
+    private val samples = ArrayList<RecordedEvent>()
+    private val allocations = Counter()
+    private val pauses = ArrayList<Duration>()
+    private var errors = 0L
+
+    fun read(file: Path): ProfileReport {
+        RecordingFile(file).use { while (it.hasMoreEvents()) add(it.readEvent()) }
+        return this
+    }
+
+    private fun add(event: RecordedEvent) {
+        when (event.eventType.name) {
+            "collektive.Tick" -> ticks += event
+            "collektive.ProgramRound" -> {
+                val program = programs.getOrPut(event.getString("program")) { Program(event.getString("function")) }
+                program.rounds += event.duration
+                program.exports += event.getInt("exports")
+            }
+            "collektive.ProgramError" -> errors++
+            "jdk.ExecutionSample" -> samples += event
+            "jdk.ObjectAllocationSample" -> allocations.add(event.getClass("objectClass").name.readable(), event.getLong("weight"))
+            "jdk.GCPhasePause" -> pauses += event.duration
+        }
+    }
+
+    fun text(): String = buildString {
+        writeTicks()
+        if (samples.isEmpty()) append("\nno samples: the recording is too short, or its settings have none\n")
+        writePrograms()
+        writeAllocations()
+        writePauses()
+    }
+
+    private fun StringBuilder.writeTicks() {
+        if (ticks.isEmpty()) {
+            append("no ticks: nothing ran while it was recorded\n")
+            return
+        }
+        val last = ticks.maxBy { it.getLong("tick") }
+        line("%d ticks of %d nodes and %d links; %d rounds failed", ticks.size, last.getInt("nodes"), last.getInt("links"), errors)
+        line("  %-22s %10s %10s", "", "median", "p99")
+        phase("tick on the JVM", ticks.map { it.duration })
+        phase("  rounds", ticks.map { it.getDuration("rounds") })
+        phase("  answer", ticks.map { it.getDuration("write") })
+        phase("between ticks", ticks.map { it.getDuration("wait") })
+        line("  %-22s %7.1f kB %7.1f kB", "frame in, out (median)", ticks.map { it.getLong("bytesIn") / KILO }.middle(), ticks.map { it.getLong("bytesOut") / KILO }.middle())
+    }
+
+    private fun StringBuilder.phase(name: String, times: List<Duration>) {
+        val sorted = times.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
+        line("  %-22s %7.3f ms %7.3f ms", name, sorted.middle(), sorted[(sorted.size * 99 / 100).coerceAtMost(sorted.lastIndex)])
+    }
+
+    private fun StringBuilder.writePrograms() {
+        val others = Counter()
+        for (sample in samples) {
+            val frames = sample.stackTrace?.frames.orEmpty().filter(RecordedFrame::isJavaFrame)
+            if (frames.isEmpty()) continue
+            val owner = programs.values.firstOrNull { program -> frames.any { it.place() == program.function } }
+            (owner?.methods ?: others).add(frames.first().place(), 1)
+        }
+        for ((name, program) in programs) {
+            val rounds = program.rounds.map { it.toNanos() / NANOS_PER_MICRO }.sorted()
+            line("\nprogram %s (%s)", name, program.function)
+            line(
+                "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports a round",
+                rounds.size, ProgramRounds.EVERY, rounds.middle(), rounds[(rounds.size * 99 / 100).coerceAtMost(rounds.lastIndex)],
+                program.exports.toDouble() / rounds.size,
+            )
+            writeTop(program.methods, "of %d samples")
+        }
+        line("\noutside of programs")
+        writeTop(others, "of %d samples")
+    }
+
+    private fun StringBuilder.writeAllocations() {
+        line("\nallocated, estimated from samples: %.1f MB", allocations.total / MEGA)
+        writeTop(allocations, "of all bytes")
+    }
+
+    private fun StringBuilder.writePauses() {
+        val sorted = pauses.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
+        if (sorted.isEmpty()) line("\nno pauses for garbage collection")
+        else line("\n%d pauses for garbage collection: %.2f ms in all, %.2f ms the longest", sorted.size, sorted.sum(), sorted.last())
+    }
+
+    private fun StringBuilder.writeTop(counter: Counter, of: String) {
+        for ((name, count) in counter.top()) line("  %5.1f %%  %s", 100.0 * count / counter.total, name)
+        if (counter.total > 0) line("  $of", counter.total)
+    }
+
+    private fun StringBuilder.line(format: String, vararg values: Any) {
+        append(format.format(Locale.ROOT, *values)).append('\n')
+    }
+
+    private class Program(val function: String) {
+        val rounds = ArrayList<Duration>()
+        val methods = Counter()
+        var exports = 0L
+    }
+
+    private class Counter {
+        private val counts = HashMap<String, Long>()
+        var total = 0L
+            private set
+
+        fun add(name: String, count: Long) {
+            counts.merge(name, count, Long::plus)
+            total += count
+        }
+
+        fun top(): List<Map.Entry<String, Long>> = counts.entries.sortedWith(compareByDescending<Map.Entry<String, Long>> { it.value }.thenBy { it.key }).take(TOP)
+    }
+
+    internal companion object {
+        private const val TOP = 8
+        private const val KILO = 1e3
+        private const val MEGA = 1e6
+        private const val NANOS_PER_MILLI = 1e6
+        private const val NANOS_PER_MICRO = 1e3
+
+        private fun RecordedFrame.place() = "${method.type.name}.${method.name}"
+
+        private fun List<Double>.middle(): Double = if (isEmpty()) 0.0 else sorted()[size / 2]
+
+        /** "[J" as "long[]". */
+        private fun String.readable(): String {
+            val dimensions = takeWhile { it == '[' }.length
+            if (dimensions == 0) return this
+            val element = when (val code = this[dimensions]) {
+                'L' -> substring(dimensions + 1).removeSuffix(";")
+                else -> PRIMITIVES[code] ?: return this
+            }
+            return element + "[]".repeat(dimensions)
+        }
+
+        private val PRIMITIVES = mapOf(
+            'Z' to "boolean", 'B' to "byte", 'C' to "char", 'S' to "short", 'I' to "int", 'J' to "long", 'F' to "float", 'D' to "double",
+        )
+
+        /** Prints the report of the recording that is named. */
+        @JvmStatic
+        fun main(arguments: Array<String>) {
+            print(ProfileReport().read(Path.of(arguments.single())).text())
+        }
+    }
+}

@@ -1,0 +1,101 @@
+package org.collektive.tools.record
+
+import org.collektive.frames.data.DataReader
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.target
+import org.collektive.frames.tick.StepResponseReader
+import org.collektive.frame.FrameLayouts
+import org.collektive.frame.OpenRequest
+import org.collektive.frame.StepRequest
+import java.nio.ByteBuffer
+
+/** Where two frames differ: whose data ("node 3", or empty), which field (or empty), and both values. */
+internal class Difference(private val whose: String, private val field: String, private val left: String, private val right: String) {
+    /** One line; [names] are those of the two sides. */
+    fun line(names: Pair<String, String>): String {
+        val place = listOf(whose, field).filter(String::isNotEmpty).joinToString(", ")
+        return "$place: $left in ${names.first}, $right in ${names.second}"
+    }
+
+    companion object {
+        /** What sessions may differ in and still do the same; jars are compared by their bytes. */
+        private val WITHOUT_EFFECT = setOf("threads", "record", "jars")
+
+        /** What is measured, not computed, and the digest, which says only that something else differs. */
+        private val MEASURED = setOf("digest", "hostMicros", "roundMicros")
+
+        /** The first difference that can change what a session does. */
+        fun ofOpen(left: OpenRequest, right: OpenRequest): Difference? = ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
+
+        /** The first difference of what went into a tick; the order in which changes are given counts for nothing. */
+        fun ofRequests(schema: DataSchema, left: ByteBuffer, right: ByteBuffer): Difference? {
+            if (left == right) return null
+            val a = Request.read(schema, left)
+            val b = Request.read(schema, right)
+            if (a == null || b == null) return Difference("", "the request", kind(a), kind(b))
+            return ObjectDifference.first(a.frame, b.frame)
+                ?: ofNodes("sensors", a.sensors, b.sensors)
+                ?: ObjectDifference.first(a.globals, b.globals, field = "globals")
+        }
+
+        /** The first difference of what came out of a tick. */
+        fun ofAnswers(schema: DataSchema, left: StepResponseReader, right: StepResponseReader): Difference? =
+            ofNodes("actuators", actuators(schema, left), actuators(schema, right))
+                ?: ObjectDifference.first(left.response.unpack(), right.response.unpack(), except = MEASURED)
+
+        private fun kind(request: Request?) = if (request == null) "damaged" else "another"
+
+        private fun ofNodes(field: String, left: Map<Int, Any>, right: Map<Int, Any>): Difference? =
+            (left.keys + right.keys).sorted().firstNotNullOfOrNull { node ->
+                ObjectDifference.first(left[node], right[node], whose = "node $node", field = field)
+            }
+
+        private fun actuators(schema: DataSchema, answer: StepResponseReader): Map<Int, Any> {
+            val response = answer.response
+            return elements(schema.actuatorReader(), answer.frame, answer.actuators, response.nodesLength(), response::nodes)
+        }
+
+        /** The elements of the table `Sensors` or `Actuators` at [position] as objects, by node. */
+        private fun elements(reader: DataReader, frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> {
+            if (position == 0) return emptyMap()
+            reader.attach(frame, position)
+            reader.check()
+            if (reader.size != count) throw MalformedFrameException("there are data of ${reader.size} nodes for $count")
+            return (0 until count).associate { node(it) to unpacked(reader[it]) }
+        }
+
+        /** The object of a view, whose class flatc made. */
+        private fun unpacked(view: Any): Any = view.javaClass.getMethod("unpack").invoke(view)
+    }
+
+    /** A `StepRequest` as objects. */
+    private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
+        companion object {
+            /** `null` when [bytes] are damaged, as a frame can be that the host refused. */
+            fun read(schema: DataSchema, bytes: ByteBuffer): Request? = try {
+                val root = FrameChecker(FramePolicy.FRAME).checkRoot(bytes, FrameLayouts.STEP_REQUEST)
+                val request = StepRequest().__assign(root, bytes)
+                val sensors = target(bytes, root, FrameLayouts.STEP_REQUEST_SENSORS)
+                val globals = target(bytes, root, FrameLayouts.STEP_REQUEST_GLOBALS)
+                Request(
+                    request.unpack(),
+                    elements(schema.sensorReader(), bytes, sensors, request.dueLength(), request::due),
+                    globals(schema, bytes, globals),
+                )
+            } catch (_: MalformedFrameException) {
+                null
+            }
+
+            private fun globals(schema: DataSchema, bytes: ByteBuffer, position: Int): Any? {
+                val reader = schema.globalReader()
+                if (position == 0 || reader == null) return null
+                reader.attach(bytes, position)
+                reader.check()
+                return unpacked(reader.data)
+            }
+        }
+    }
+}

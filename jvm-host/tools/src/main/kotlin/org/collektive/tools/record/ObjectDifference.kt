@@ -1,0 +1,74 @@
+package org.collektive.tools.record
+
+import java.lang.reflect.Modifier
+
+/** Compares objects that flatc's object API made, field by field in the order of the schema. */
+internal object ObjectDifference {
+    /** The first difference; [except] names fields of the objects themselves that are left out. */
+    fun first(left: Any?, right: Any?, whose: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
+        left == null && right == null -> null
+        left == null || right == null -> Difference(whose, field, text(left), text(right))
+        left is IntArray && right is IntArray && field in ID_LISTS -> ofIds(left.toSet(), right.toSet(), field)
+        left.javaClass.isArray -> ofArrays(items(left), items(right), whose, field)
+        isLeaf(left) -> if (left == right) null else Difference(whose, field, text(left), text(right))
+        else -> fields(left).filter { it.name !in except }.firstNotNullOfOrNull {
+            first(it.get(left), it.get(right), whose, if (field.isEmpty()) it.name else "$field.${it.name}")
+        }
+    }
+
+    private fun ofIds(left: Set<Int>, right: Set<Int>, field: String): Difference? =
+        (left + right).sorted().find { it !in left || it !in right }?.let { Difference("node $it", field, presence(it in left), presence(it in right)) }
+
+    private fun ofArrays(left: List<Any?>, right: List<Any?>, whose: String, field: String): Difference? {
+        val owners = (left + right).map { it?.let(::owner) }
+        if (owners.isEmpty() || owners.any { it == null } || whose.isNotEmpty()) return ofLists(left, right, whose, field)
+        val a = left.associateBy { owner(checkNotNull(it)) }
+        val b = right.associateBy { owner(checkNotNull(it)) }
+        return (a.keys + b.keys).filterNotNull().sorted().firstNotNullOfOrNull { first(a[it], b[it], it.name, field) }
+    }
+
+    private fun ofLists(left: List<Any?>, right: List<Any?>, whose: String, field: String): Difference? =
+        (0 until minOf(left.size, right.size)).firstNotNullOfOrNull { first(left[it], right[it], whose, "$field[$it]") }
+            ?: if (left.size == right.size) null else Difference(whose, field, "${left.size} elements", "${right.size} elements")
+
+    /** What an element of a frame's list speaks of, so that lists can be compared whatever their order. */
+    private fun owner(element: Any): Owner? {
+        if (isLeaf(element) || element.javaClass.isArray) return null
+        val values = fields(element).associate { it.name to it.get(element) }
+        val from = values["from"]
+        val to = values["to"]
+        val id = values["id"] ?: values["node"]
+        return when {
+            from is Int && to is Int -> Owner(from, to)
+            id is Int -> Owner(id, null)
+            else -> null
+        }
+    }
+
+    private data class Owner(val first: Int, val second: Int?) : Comparable<Owner> {
+        val name get() = if (second == null) "node $first" else "link $first -> $second"
+
+        override fun compareTo(other: Owner) = compareValuesBy(this, other, Owner::first, Owner::second)
+    }
+
+    private fun items(array: Any): List<Any?> = List(java.lang.reflect.Array.getLength(array)) { java.lang.reflect.Array.get(array, it) }
+
+    private fun fields(value: Any) = value.javaClass.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.onEach { it.isAccessible = true }
+
+    private fun isLeaf(value: Any) = value is Number || value is String || value is Boolean
+
+    private fun presence(isThere: Boolean) = if (isThere) PRESENT else ABSENT
+
+    private fun text(value: Any?): String = when {
+        value == null -> ABSENT
+        value is String -> "\"$value\""
+        isLeaf(value) -> value.toString()
+        else -> PRESENT
+    }
+
+    private const val PRESENT = "present"
+    private const val ABSENT = "absent"
+
+    /** Fields of frames whose numbers are ids of nodes. */
+    private val ID_LISTS = setOf("nodesRemoved", "due", "nodes")
+}

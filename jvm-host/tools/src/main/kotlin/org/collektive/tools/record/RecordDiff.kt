@@ -1,0 +1,83 @@
+package org.collektive.tools.record
+
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.session.types
+import org.collektive.host.programs.JarBytes
+import org.collektive.host.programs.ProgramJar
+import org.collektive.host.programs.ProgramLoader
+import org.collektive.host.programs.SchemaFinder
+import java.security.MessageDigest
+
+/** Finds the first difference of two records of one schema. */
+internal class RecordDiff(private val left: Record, private val right: Record, private val report: Report) {
+    private val names = "A" to "B"
+
+    /** Compares to the end of the shorter one; whether they are equal in all that was computed. */
+    fun run(): Boolean {
+        val types = left.settings.types
+        for ((name, hash) in types.entries + right.settings.types.entries) {
+            if (types[name] != hash || right.settings.types[name] != hash) throw RecordRefused("the records are of different schemas: type $name differs")
+        }
+        if (left.settings.schema() != right.settings.schema()) {
+            throw RecordRefused("the records are of different schemas: ${left.settings.schema()} in A, ${right.settings.schema()} in B")
+        }
+        val opened = ofOpen()
+        opened?.let { report.line("opened differently: $it") }
+        return first(schema()) && opened == null
+    }
+
+    private fun first(schema: DataSchema): Boolean {
+        var tick = 1L
+        while (true) {
+            val a = left.next()
+            val b = right.next()
+            if (a == null && b == null) {
+                report.line("${tick - 1} ticks, and none differs; the last digest is ${hex(lastDigest)}")
+                return true
+            }
+            val difference = when {
+                a == null || b == null -> "the record ${if (a == null) "A" else "B"} ends after tick ${tick - 1}, the other goes on"
+                else -> ofSteps(schema, a, b)
+            }
+            if (difference != null) {
+                report.line("tick $tick: $difference")
+                return false
+            }
+            if (a?.answer != null) {
+                lastDigest = a.answer.response.digest()
+                tick++
+            }
+            report.progress("diff", left)
+        }
+    }
+
+    private var lastDigest = 0L
+
+    private fun ofSteps(schema: DataSchema, a: RecordedStep, b: RecordedStep): String? {
+        Difference.ofRequests(schema, a.request, b.request)?.let { return "input of ${it.line(names)}" }
+        val x = a.answer
+        val y = b.answer
+        return when {
+            x == null && y == null -> null
+            x == null -> "it failed in A (${a.failure}), and not in B"
+            y == null -> "it failed in B (${b.failure}), and not in A"
+            else -> Difference.ofAnswers(schema, x, y)?.let { "output of ${it.line(names)}" }
+                ?: if (x.response.digest() == y.response.digest()) null else "the digests differ, but no field does"
+        }
+    }
+
+    private fun ofOpen(): String? {
+        Difference.ofOpen(left.settings, right.settings)?.let { return it.line(names) }
+        val a = left.jars.map(::sha256)
+        val b = right.jars.map(::sha256)
+        return if (a == b) null else "programs: SHA-256 ${a.joinToString()} in A, ${b.joinToString()} in B"
+    }
+
+    private fun schema(): DataSchema {
+        val jars = left.jars.map(ProgramJar::open)
+        return SchemaFinder.find(left.settings.schema(), left.settings.types, SchemaFinder.all(ProgramLoader(jars), jars), jars)
+    }
+}
+
+internal fun sha256(jar: JarBytes): String =
+    MessageDigest.getInstance("SHA-256").digest(jar.bytes).joinToString("") { "%02x".format(it) }

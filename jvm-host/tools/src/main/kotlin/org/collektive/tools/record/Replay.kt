@@ -1,0 +1,124 @@
+package org.collektive.tools.record
+
+import org.collektive.frames.tick.StepResponseReader
+import org.collektive.host.shim.HostException
+import org.collektive.host.programs.JarBytes
+import org.collektive.host.shim.LogLevel
+import org.collektive.host.session.Session
+import org.collektive.host.session.SessionOpening
+import org.collektive.host.shim.ShimCalls
+import java.io.PrintStream
+import java.nio.ByteBuffer
+import java.util.concurrent.TimeUnit
+
+/**
+ * Runs the programs of a record, or others, on the frames of the record, and compares what comes out with what came out then.
+ *
+ * @property programs jars to use instead of the record's; empty: the record's.
+ */
+internal class Replay(private val record: Record, private val programs: List<JarBytes>, private val report: Report) : ShimCalls {
+    private var answer: ByteBuffer = ByteBuffer.allocate(FIRST_ANSWER_BYTES)
+    private var ticks = 0L
+    private var failedRounds = 0L
+    private var recordedFailedRounds = 0L
+
+    /** Runs to the record's end; whether every tick gave what the record holds. */
+    fun run(): Boolean {
+        val session = SessionOpening.open(record.settings, programs.ifEmpty { record.jars }, this)
+        return try {
+            run(session)
+        } finally {
+            session.close()
+        }
+    }
+
+    private fun run(session: Session): Boolean {
+        var isEqual = true
+        var digest = 0L
+        try {
+            while (true) {
+                val step = record.next() ?: break
+                val now = step(session, step)
+                if (isEqual) {
+                    val difference = difference(session, step, now)
+                    if (difference != null) {
+                        isEqual = false
+                        report.line("tick ${ticks + 1} is the first that differs. $difference")
+                    }
+                }
+                if (now is StepResponseReader) {
+                    ticks++
+                    digest = now.response.digest()
+                    failedRounds += now.response.errorsLength()
+                    recordedFailedRounds += step.answer?.response?.errorsLength() ?: 0
+                }
+                report.progress("replay", record)
+                if (!isEqual && (now is StepResponseReader) != (step.answer != null)) break
+            }
+        } finally {
+            report.line("$ticks ticks replayed, ${if (isEqual) "every digest is that of the record" else "not all as recorded"}; the last digest is ${hex(digest)}")
+            if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; in the record $recordedFailedRounds")
+        }
+        return isEqual
+    }
+
+    /** The answer, or why there was none. */
+    private fun step(session: Session, step: RecordedStep): Any {
+        val begin = System.nanoTime()
+        return try {
+            val written = session.step(step.request, 0, answer, begin, begin + LIMIT_NANOS)
+            val offset = (written ushr Int.SIZE_BITS).toInt()
+            StepResponseReader(answer.duplicate().order(answer.order()).clear().position(offset).limit(offset + written.toInt()))
+        } catch (e: HostException) {
+            e.message.orEmpty()
+        }
+    }
+
+    private fun difference(session: Session, step: RecordedStep, now: Any): String? {
+        val then = step.answer
+        return when {
+            then == null -> if (now is StepResponseReader) "It failed in the record (${step.failure}), and not now" else null
+            now !is StepResponseReader -> "It fails now, and not in the record: $now"
+            then.response.digest() == now.response.digest() -> null
+            else -> "Digest ${hex(then.response.digest())} in the record, ${hex(now.response.digest())} now. " +
+                (Difference.ofAnswers(session.schema, then, now)?.line("the record" to "the replay") ?: "No field of its answers differs")
+        }
+    }
+
+    override fun grow(slot: Long, capacity: Int): ByteBuffer = ByteBuffer.allocate(capacity).also { answer = it }
+
+    override fun error(text: String) = Unit
+
+    override fun log(level: LogLevel, line: String) = report.log(line)
+
+    private companion object {
+        const val FIRST_ANSWER_BYTES = 1 shl 16
+        val LIMIT_NANOS = TimeUnit.SECONDS.toNanos(60)
+    }
+}
+
+/** A digest as manifests show it. */
+internal fun hex(digest: Long): String = digest.toULong().toString(16).padStart(16, '0')
+
+/** Where results and progress go. */
+internal class Report(private val results: PrintStream, private val messages: PrintStream) {
+    private var shown = 0L
+
+    fun line(text: String) = results.println(text)
+
+    fun log(text: String) = messages.println(text)
+
+    /** Says how far [record] was read, at most twice a second. */
+    fun progress(what: String, record: Record) {
+        val now = System.nanoTime()
+        if (shown == 0L) shown = now
+        if (now - shown < INTERVAL_NANOS) return
+        shown = now
+        val (done, all) = record.progress
+        messages.println("$what: ${100 * done / all} %, tick ${record.tick}")
+    }
+
+    private companion object {
+        val INTERVAL_NANOS = TimeUnit.MILLISECONDS.toNanos(500)
+    }
+}

@@ -1,0 +1,319 @@
+package org.collektive.tools.record
+
+import org.collektive.host.ProbeJars
+import org.collektive.host.Step
+import org.collektive.host.TestSession
+import org.collektive.host.TestShim
+import org.collektive.host.programs.JarBytes
+import org.collektive.host.record.Chunk
+import org.collektive.host.record.RecordWriter
+import org.collektive.host.shim.HostError
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import org.junit.jupiter.api.io.TempDir
+import java.io.ByteArrayOutputStream
+import java.io.PrintStream
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.nio.file.Files
+import java.nio.file.Path
+import java.util.zip.CRC32
+import kotlin.io.path.exists
+import kotlin.io.path.readBytes
+import kotlin.io.path.writeBytes
+import kotlin.random.Random
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+@Timeout(120)
+class RecordTest {
+    private val shim = TestShim()
+
+    @field:TempDir
+    lateinit var folder: Path
+
+    /** A little swarm in which something happens in every tick; [change] makes it another one. */
+    private fun record(name: String = "a", ticks: Int = TICKS, jar: Path = ProbeJars.programs, change: Step.() -> Unit = {}): Path {
+        val file = folder.resolve("$name.clkrec")
+        val session = TestSession(shim)
+        check(session.open(jars = listOf(jar.toString()), record = file.toString()) >= 0) { shim.error }
+        for (tick in 1..ticks) session.ok(step(tick).apply(change))
+        session.close()
+        return file
+    }
+
+    private fun step(number: Int) = Step(number.toLong()).apply {
+        added = if (number == 1) List(NODES) { Step.Added(it) } else listOf(Step.Added(NODES + number))
+        linked = listOf(number % NODES to (number + 1) % NODES, 0 to NODES + number).filter { (_, to) -> added.any { it.id == to } || to < NODES }
+        due = (0 until NODES).toList()
+        sensors = due.map { Step.Sensor(100 * number + it, points = it % 3) }
+        wind = if (number % 4 == 0) number.toFloat() else null
+    }
+
+    private class Result(val code: Int, val results: String, val messages: String)
+
+    private fun run(vararg arguments: Any): Result {
+        val results = ByteArrayOutputStream()
+        val messages = ByteArrayOutputStream()
+        val code = records(arguments.map { it.toString() }, PrintStream(results), PrintStream(messages))
+        return Result(code, results.toString(), messages.toString())
+    }
+
+    @Test
+    fun `a replay gives the digests of the record`() {
+        val result = run("replay", record())
+        assertEquals(0, result.code, result.messages)
+        assertContains(result.results, "$TICKS ticks replayed, every digest is that of the record")
+        assertContains(result.results, "seed 42")
+        assertContains(result.results, sha256(JarBytes.read(ProbeJars.programs.toString())))
+    }
+
+    @Test
+    fun `a record needs no jar beside it`() {
+        val jar = folder.resolve("moved.jar")
+        Files.copy(ProbeJars.programs, jar)
+        val file = record(jar = jar)
+        Files.delete(jar)
+        assertEquals(0, run("replay", file).code)
+    }
+
+    @Test
+    fun `a changed program parts from the record at the first answer that differs`() {
+        val file = record(jar = summing("sensors.value()"))
+        assertEquals(0, run("replay", file, "--programs", summing("sensors.value() + 0")).code)
+        val result = run("replay", file, "--programs", summing("sensors.value() + (sensors.value() == 403 ? 1 : 0)"))
+        assertEquals(1, result.code)
+        assertContains(result.results, "tick 4 is the first that differs")
+        assertContains(result.results, "node 3, actuators.value: 403 in the record, 404 in the replay")
+        assertContains(result.results, "$TICKS ticks replayed, not all as recorded")
+    }
+
+    @Test
+    fun `a program that fails now and not then is a difference`() {
+        val result = run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
+        assertEquals(1, result.code)
+        assertContains(result.results, "tick 1 is the first that differs")
+        assertContains(result.results, "1 rounds failed; in the record 0")
+    }
+
+    @Test
+    fun `records of the same run do not differ`() {
+        val result = run("diff", record("a"), record("b"))
+        assertEquals(0, result.code, result.results)
+        assertContains(result.results, "$TICKS ticks, and none differs")
+    }
+
+    @Test
+    fun `a difference is named by tick, node and field`() {
+        val a = record("a")
+        fun first(change: Step.() -> Unit): String {
+            val result = run("diff", a, record("b", change = change))
+            assertEquals(1, result.code)
+            return result.results
+        }
+        assertContains(first { if (tick == 3L) sensors = sensors?.map { Step.Sensor(it.value + if (it.value == 302) 1 else 0, points = it.points) } }, "tick 3: input of node 2, sensors.value: 302 in A, 303 in B")
+        assertContains(first { if (tick == 2L) sensors = sensors?.map { Step.Sensor(it.value, "x".takeIf { _ -> it.value == 204 }, it.points) } }, "tick 2: input of node 4, sensors.label: absent in A, \"x\" in B")
+        assertContains(first { if (tick == 2L) sensors = sensors?.map { Step.Sensor(it.value, points = it.points + if (it.value == 204) 1 else 0) } }, "tick 2: input of node 4, sensors.points[0].x: ")
+        assertContains(first { if (tick == 5L) linked = linked + (3 to 1) }, "tick 5: input of link 3 -> 1, links: absent in A, present in B")
+        assertContains(first { if (tick == 5L) added = added + Step.Added(77, "probe") }, "tick 5: input of node 77, nodesAdded: absent in A, present in B")
+        assertContains(first { if (tick == 4L) wind = 5f }, "tick 4: input of globals.wind: 4.0 in A, 5.0 in B")
+        assertContains(first { if (tick == 6L) { due = due - 2; sensors = sensors?.filter { it.value != 602 } } }, "tick 6: input of node 2, due: present in A, absent in B")
+    }
+
+    @Test
+    fun `the order of changes is no difference`() {
+        assertEquals(0, run("diff", record("a"), record("b") { linked = linked.reversed(); added = added.reversed() }).code)
+    }
+
+    @Test
+    fun `outputs that differ on the same input are named, and so are other programs`() {
+        val result = run("diff", record("a", jar = summing("sensors.value()")), record("b", jar = summing("sensors.value() % 503")))
+        assertEquals(1, result.code)
+        assertContains(result.results, "opened differently: programs: SHA-256")
+        assertContains(result.results, "tick 5: output of node 3, actuators.value: 503 in A, 0 in B")
+    }
+
+    @Test
+    fun `a record that ends earlier differs`() {
+        val result = run("diff", record("a", ticks = 4), record("b"))
+        assertEquals(1, result.code)
+        assertContains(result.results, "tick 5: the record A ends after tick 4")
+    }
+
+    @Test
+    fun `steps that were refused or never ended are in the record, and are so again`() {
+        val file = folder.resolve("failed.clkrec")
+        val session = TestSession(shim)
+        check(session.open(program = "probe", record = file.toString()) >= 0)
+        session.ok(Step(1).apply { added = listOf(Step.Added(1)); due = listOf(1) })
+        assertEquals(HostError.FRAME.code.toLong(), session.step(Step(2).apply { removed = listOf(5) }.bytes()))
+        session.ok(Step(2).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "throw")) })
+        val hung = Step(3).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "loop")) }
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(hung.bytes(), 200))
+        session.close()
+        Record.open(file).use { record ->
+            val steps = List(4) { checkNotNull(record.next()) }
+            assertEquals(listOf(true, false, true, false), steps.map { it.answer != null })
+            assertContains(checkNotNull(steps[1].failure), "node 5")
+            assertContains(checkNotNull(steps[3].failure), "limit")
+            assertEquals(null, record.next())
+        }
+    }
+
+    @Test
+    fun `a record that cannot be written is refused at once, and nothing is opened`() {
+        for (path in listOf(folder.resolve("no/such/folder/x").toString(), folder.toString(), "/dev/full", "a\u0000b")) {
+            val session = TestSession(shim)
+            assertEquals(HostError.ARGUMENT.code.toLong(), session.open(record = path), path)
+            assertContains(shim.error, path)
+        }
+        val session = TestSession(shim)
+        assertTrue(session.open(program = "nonesuch", record = folder.resolve("none").toString()) < 0)
+        assertFalse(folder.resolve("none").exists())
+    }
+
+    @Test
+    fun `a record cut at any chunk is replayed up to there`() {
+        val whole = record(ticks = 4)
+        val bytes = whole.readBytes()
+        val chunks = chunks(bytes)
+        val firstStep = chunks.indexOfFirst { it.kind == Chunk.STEP }
+        for ((index, chunk) in chunks.withIndex()) {
+            if (index == 0) continue
+            val ticks = maxOf(0, (index - firstStep) / 2)
+            for (length in listOf(chunk.offset, chunk.offset + 5, chunk.offset + Chunk.HEADER_BYTES, chunk.offset + Chunk.HEADER_BYTES + chunk.payload.remaining() / 2)) {
+                // The last chunk has no payload: then this is the whole record.
+                if (length == bytes.size.toLong()) continue
+                val cut = folder.resolve("cut").also { it.writeBytes(bytes.copyOf(length.toInt())) }
+                val result = run("replay", cut)
+                assertEquals(2, result.code)
+                assertContains(result.messages, "damaged at byte ${chunk.offset}, " + if (ticks == 0) "before the first tick" else "after tick $ticks")
+                if (index >= firstStep) assertContains(result.results, "$ticks ticks replayed, every digest is that of the record")
+            }
+        }
+    }
+
+    @Test
+    fun `a flipped bit anywhere is found in the chunk where it is`() {
+        val bytes = record(ticks = 2).readBytes()
+        val chunks = chunks(bytes)
+        val flipped = folder.resolve("flipped")
+        val random = Random(3)
+        for (at in bytes.indices) {
+            // The jar is long, and one byte of it is like another.
+            val chunk = chunks.lastOrNull { it.offset <= at }
+            if (chunk?.kind == Chunk.JAR && at > chunk.offset + 100 && at % 101 != 0) continue
+            val damaged = bytes.copyOf().also { it[at] = (it[at].toInt() xor (1 shl random.nextInt(8))).toByte() }
+            flipped.writeBytes(damaged)
+            val error = assertFailsWith<RecordException>("byte $at") { readAll(flipped) }
+            if (chunk == null) assertTrue(error is RecordRefused) else assertContains(error.message.orEmpty(), "at byte ${chunk.offset},")
+        }
+    }
+
+    @Test
+    fun `damage under a right checksum is no crash either`() {
+        val bytes = record(ticks = 3).readBytes()
+        val chunks = chunks(bytes).filter { it.kind != Chunk.JAR && it.payload.hasRemaining() }
+        val random = Random(4)
+        val file = folder.resolve("crafted")
+        repeat(100) {
+            val chunk = chunks[random.nextInt(chunks.size)]
+            val damaged = bytes.copyOf()
+            repeat(random.nextInt(1, 4)) {
+                damaged[chunk.offset.toInt() + Chunk.HEADER_BYTES + random.nextInt(chunk.payload.remaining())] = random.nextInt().toByte()
+            }
+            seal(damaged, chunk)
+            file.writeBytes(damaged)
+            assertTrue(run("replay", file).code in 0..2)
+            assertTrue(run("diff", file, folder.resolve("a.clkrec")).code in 0..2)
+        }
+    }
+
+    @Test
+    fun `chunks in an order that makes no sense are damage`() {
+        val bytes = record(ticks = 2).readBytes()
+        val chunks = chunks(bytes)
+        val step = chunks.first { it.kind == Chunk.STEP }
+        for (kind in listOf(Chunk.DONE, Chunk.HEAD, Chunk.END, 0x21212121)) {
+            val damaged = bytes.copyOf()
+            ByteBuffer.wrap(damaged).order(ByteOrder.LITTLE_ENDIAN).putInt(step.offset.toInt(), kind)
+            seal(damaged, step)
+            val file = folder.resolve("order").also { it.writeBytes(damaged) }
+            val result = run("replay", file)
+            assertEquals(2, result.code)
+            assertContains(result.messages, "damaged at byte")
+        }
+    }
+
+    @Test
+    fun `what is no record, or of another version or schema, is refused with what differs`() {
+        val file = record()
+        val bytes = file.readBytes()
+        val other = folder.resolve("other")
+        fun refused(vararg arguments: Any): String = run(*arguments).also { assertEquals(2, it.code, it.results) }.messages
+        assertContains(refused("replay", folder.resolve("nowhere")), "there is no record ${folder.resolve("nowhere")};")
+        other.writeBytes(bytes.copyOf().also { it[0] = 'X'.code.toByte() })
+        assertContains(refused("replay", other), "is not a record")
+        other.writeBytes(bytes.copyOf().also { it[RecordWriter.MAGIC_TEXT.length] = 9 })
+        assertContains(refused("replay", other), "version 9, and this release reads version 1")
+        other.writeBytes(ByteArray(0))
+        assertContains(refused("replay", other), "is not a record")
+        assertContains(refused("replay", file, "--programs", folder.resolve("no.jar")), "no.jar")
+        assertContains(refused("replay", file, "--jar", "x"), "--jar")
+        assertContains(refused("diff", file), "two records")
+        val changed = Record.open(file).use { record ->
+            val open = record.open
+            val hash = record.settings.types(0).hash()
+            open.putLong((0..open.limit() - Long.SIZE_BYTES).first { open.getLong(it) == hash }, hash + 1)
+            folder.resolve("schema").also { path -> RecordWriter.create(path.toString(), open, record.jars).use(RecordWriter::end) }
+        }
+        assertContains(refused("replay", changed), "type ")
+        assertContains(refused("diff", file, changed), "different schemas")
+    }
+
+    /** A jar whose program "sum" answers [expression]. */
+    private fun summing(expression: String): Path = ProbeJars.withClass(
+        """
+        package probe;
+        public final class Bad {
+          @org.collektive.api.Program(name = "sum")
+          public static ActuatorDataT sum(it.unibo.collektive.aggregate.api.Aggregate<Integer> aggregate, SensorData sensors) {
+            ActuatorDataT result = new ActuatorDataT();
+            result.setValue($expression);
+            return result;
+          }
+        }
+        """.trimIndent(),
+    )
+
+    private fun readAll(file: Path) = Record.open(file).use { record -> generateSequence(record::next).count() }
+
+    private fun chunks(bytes: ByteArray): List<Chunk> {
+        val file = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
+        var at = RecordWriter.MAGIC.size
+        return buildList {
+            while (at < bytes.size) {
+                val length = file.getInt(at + 4)
+                add(Chunk(file.getInt(at), at.toLong(), ByteBuffer.wrap(bytes, at + Chunk.HEADER_BYTES, length)))
+                at += Chunk.HEADER_BYTES + length
+            }
+        }
+    }
+
+    /** Makes the checksum of the chunk that lies where [chunk] lies right again. */
+    private fun seal(bytes: ByteArray, chunk: Chunk) {
+        val crc = CRC32().apply {
+            update(bytes, chunk.offset.toInt(), Chunk.CHECKSUM_AT)
+            update(bytes, chunk.offset.toInt() + Chunk.HEADER_BYTES, chunk.payload.limit() - chunk.payload.position())
+        }
+        ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(chunk.offset.toInt() + Chunk.CHECKSUM_AT, crc.value.toInt())
+    }
+
+    private companion object {
+        const val TICKS = 8
+        const val NODES = 6
+    }
+}
