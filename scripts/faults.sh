@@ -19,6 +19,7 @@ build_misfit() {
   jdk=$(find_jdk)
   rm -rf "$1"
   mkdir -p "$1/classes"
-  "$jdk/bin/javac" --release 17 -nowarn -d "$1/classes" "$ROOT"/native-shim/test/misfit/org/collektive/host/*.java
+  "$jdk/bin/javac" --release 17 -nowarn -d "$1/classes" "$ROOT"/native-shim/test/misfit/org/collektive/host/*.java \
+    "$ROOT"/native-shim/test/misfit/org/collektive/host/shim/*.java
   "$jdk/bin/jar" --create --file "$1/host.jar" -C "$1/classes" .
 }

@@ -209,9 +209,9 @@ int32_t host_bind(JNIEnv *env) {
 
     const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
                                        NATIVE("log", "(I[B)V", shim_log)};
-    jclass shim = find_class(env, "org/collektive/host/Shim");
+    jclass shim = find_class(env, "org/collektive/host/shim/Shim");
     if (shim == NULL || (*env)->RegisterNatives(env, shim, natives, COUNT(natives)) != JNI_OK) {
-        return does_not_fit(env, "org.collektive.host.Shim cannot be bound");
+        return does_not_fit(env, "org.collektive.host.shim.Shim cannot be bound");
     }
     java.host = find_class(env, "org/collektive/host/Host");
     if (java.host == NULL) return does_not_fit(env, "org.collektive.host.Host cannot be loaded");

@@ -122,7 +122,7 @@ static void check_lost(void) {
 }
 
 void class_path_without_host(void) {
-    CHECK_CODE(CLK_HOST, "org/collektive/host/Shim", start_at(java_home(), scratch_folder(), NULL, true, 60000));
+    CHECK_CODE(CLK_HOST, "org/collektive/host/shim/Shim", start_at(java_home(), scratch_folder(), NULL, true, 60000));
     check_lost();
 }
 

@@ -17,7 +17,7 @@ def csharp(*words):
 
 
 def kotlin(*words):
-    return [os.environ["ROUNDTRIP_JAVA"], "-cp", os.environ["ROUNDTRIP_CLASSES"], "org.collektive.generator.RoundTrip", *words]
+    return [os.environ["ROUNDTRIP_JAVA"], "-cp", os.environ["ROUNDTRIP_CLASSES"], "org.collektive.frames.data.RoundTrip", *words]
 
 
 @pytest.mark.parametrize("writer, reader", [(csharp, kotlin), (kotlin, csharp)], ids=["to Kotlin", "to C#"])

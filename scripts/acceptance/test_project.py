@@ -82,7 +82,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("classes.txt")) as file:
             classes = file.read()
-        self.assertIn("org.collektive.host.Session ", classes)
+        self.assertIn("org.collektive.host.session.Session ", classes)
         self.assertNotIn("jdk.jfr.internal.", classes)
 
     @pytest.mark.quick

@@ -7,6 +7,7 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 import java.util.ArrayList;
 import java.util.List;
+import org.collektive.host.shim.Shim;
 
 /** The test host: runs the command in the request. A request is a command and an argument (both int32), then bytes. */
 final class Host {

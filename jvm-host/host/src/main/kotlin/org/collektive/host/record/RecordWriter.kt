@@ -26,23 +26,23 @@ public class RecordWriter private constructor(private val path: String, private 
     private val crc = CRC32()
 
     /** The `StepRequest` between position and limit of [frame]. */
-    internal fun step(frame: ByteBuffer) = write(Chunk.STEP, frame)
+    public fun step(frame: ByteBuffer): Unit = write(Chunk.STEP, frame)
 
     /** The `StepResponse` between position and limit of [frame]. */
-    internal fun done(frame: ByteBuffer) = write(Chunk.DONE, frame)
+    public fun done(frame: ByteBuffer): Unit = write(Chunk.DONE, frame)
 
     /** The step written last failed. */
-    internal fun failed(why: String) = write(Chunk.FAIL, text(why))
+    public fun failed(why: String): Unit = write(Chunk.FAIL, text(why))
 
     /** The session ended in order. */
-    internal fun end() = write(Chunk.END, NOTHING)
+    public fun end(): Unit = write(Chunk.END, NOTHING)
 
     override fun close() {
         channel.close()
     }
 
     /** What to tell the user when writing failed. */
-    internal fun failure(cause: IOException): String =
+    public fun failure(cause: IOException): String =
         "the record $path cannot be written ($cause): make room or name another place, then start again"
 
     private fun head(open: ByteBuffer, jars: List<JarBytes>) {
@@ -81,7 +81,7 @@ public class RecordWriter private constructor(private val path: String, private 
         private val NOTHING = ByteBuffer.allocate(0)
 
         /** Begins the record [path] of a session that [open] opened with [jars]; what was there is overwritten. */
-        internal fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
+        public fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
             try {
                 val writer = RecordWriter(path, FileChannel.open(Path.of(path), CREATE, WRITE, TRUNCATE_EXISTING))
                 try {
