@@ -2,7 +2,7 @@
 
 package org.collektive.compiler.alignment
 
-import org.collektive.compiler.DslNames
+import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.backend.common.IrElementTransformerVoidWithContext
 import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
 import org.jetbrains.kotlin.backend.common.lower.DeclarationIrBuilder

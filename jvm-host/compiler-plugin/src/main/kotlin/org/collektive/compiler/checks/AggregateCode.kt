@@ -1,6 +1,6 @@
 package org.collektive.compiler.checks
 
-import org.collektive.compiler.DslNames
+import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.descriptors.Visibilities
 import org.jetbrains.kotlin.fir.FirSession
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext

@@ -1,6 +1,6 @@
 package org.collektive.compiler.checks
 
-import org.collektive.compiler.DslNames
+import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.fir.FirSession
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.references.toResolvedFunctionSymbol

@@ -1,6 +1,6 @@
 package org.collektive.compiler.checks
 
-import org.collektive.compiler.DslNames
+import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.diagnostics.DiagnosticReporter
 import org.jetbrains.kotlin.diagnostics.reportOn
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind

@@ -1,6 +1,6 @@
 package org.collektive.compiler.checks
 
-import org.collektive.compiler.DslNames
+import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.fir.FirElement
 import org.jetbrains.kotlin.fir.declarations.FirAnonymousFunction
 import org.jetbrains.kotlin.fir.declarations.FirValueParameter

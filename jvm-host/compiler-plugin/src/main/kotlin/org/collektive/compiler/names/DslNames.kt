@@ -1,4 +1,4 @@
-package org.collektive.compiler
+package org.collektive.compiler.names
 
 import org.jetbrains.kotlin.name.CallableId
 import org.jetbrains.kotlin.name.ClassId
