@@ -215,12 +215,12 @@ test_exits() {
   python3 "$ROOT/scripts/faults/exits.py" "$BUILD/faults.json" 10 --results "$1/exits.xml"
 }
 
-# test_roundtrip RESULTS: needs the generator's test classes, which the suite jvm compiles.
+# test_roundtrip RESULTS: needs the test classes of frames, which the suite jvm compiles.
 test_roundtrip() {
   local modules="$ROOT/jvm-host" work="$BUILD/roundtrip" jdk classes
-  [ -d "$modules/generator/target/test-classes" ] || fail "the suite roundtrip needs the generator's tests: run ./collektive test jvm first"
+  [ -d "$modules/frames/target/test-classes" ] || fail "the suite roundtrip needs the tests of frames: run ./collektive test jvm first"
   jdk=$(find_jdk)
-  classes="$work:$modules/generator/target/test-classes:$GENERATOR_JAR:$modules/api/target/classes"
+  classes="$work:$modules/frames/target/test-classes:$HOST_JAR"
   build_roundtrip "$work" "$classes" "$jdk"
   ROUNDTRIP_CSHARP="$CSHARP/RoundTrip.exe" ROUNDTRIP_CLASSES="$classes" ROUNDTRIP_JAVA="$jdk/bin/java" python_tests "$1" "$ROOT/schema/test"
 }
