@@ -68,11 +68,18 @@ compile_assembly() {
   csc "$CSHARP/$name" "${options[@]}" "@$CSHARP/$name.rsp"
 }
 
+# library FILE: puts an assembly of others beside ours. Under the lock: a process that has it in its memory would crash.
+library() { once "$(basename "$1")" "$(fingerprint "$1")" copy_library "$1"; }
+
+copy_library() {
+  mkdir -p "$CSHARP"
+  cp "$1" "$CSHARP/"
+}
+
 build_csharp() {
   setup_roslyn
   setup_flatbuffers
-  mkdir -p "$CSHARP"
-  cp "$NEWTONSOFT" "$CSHARP/"
+  library "$NEWTONSOFT"
   local unity="$ROOT/unity"
   assembly Collektive.FlatBuffers.dll "$FLATBUFFERS/net/FlatBuffers" -- "${GENERATED_CODE_SYMBOLS[@]}" -warnaserror- \
     -nowarn:1570,1572,1573,1587,1591,0618 -debug-

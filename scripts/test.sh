@@ -166,7 +166,7 @@ build_csharp_tests() {
   assembly Collektive.Unity.Tests.dll "$ROOT/unity/Tests/Runtime" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.PublicApi.Tests.dll "$ROOT/unity/Tests/PublicApi" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.Editor.Tests.dll "$ROOT/unity/Tests/Editor" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" "${framework[@]}"
-  cp -u "$NUNIT" "$CSHARP/"
+  library "$NUNIT"
 }
 
 build_test_schemas() {
