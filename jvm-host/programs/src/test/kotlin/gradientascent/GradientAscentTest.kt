@@ -4,6 +4,7 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.engine.Philox
 import org.collektive.runtime.AggregateRuntimes
+import org.collektive.runtime.round
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
@@ -16,7 +17,7 @@ class GradientAscentTest {
     private val exports = arrayOfNulls<Export>(2)
 
     private fun round(id: Int, neighbor: Int?, sensors: SensorData, step: String = "1.0"): List<Float> {
-        val target = (devices[id].round(inbox(neighbor)) { it.gradientAscent(sensors, device(id, step)) } as ActuatorDataT).target
+        val target = devices[id].round(inbox(neighbor)) { gradientAscent(sensors, device(id, step)) }.target
         exports[id] = devices[id].commit()
         return listOf(target.x, target.y, target.z)
     }

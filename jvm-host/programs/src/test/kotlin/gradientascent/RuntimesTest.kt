@@ -2,7 +2,7 @@ package gradientascent
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
-import org.collektive.engine.MailboxRuntimes
+import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
 import samples.Swarm
