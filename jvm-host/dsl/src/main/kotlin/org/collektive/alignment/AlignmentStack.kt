@@ -4,30 +4,30 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 
 /**
- * The alignment stack of an [Aggregate] as compiled programs use it. An [Aggregate] that lacks this interface is aligned by
- * [Aggregate.align] and [Aggregate.dealign] instead; then a program that leaves an `align` of its own open stays misaligned.
+ * The alignment stack of an [Aggregate] as compiled programs use it. For an [Aggregate] that does not implement this interface,
+ * compiled programs call [Aggregate.align] and [Aggregate.dealign]; then a program that calls `align` without `dealign` stays misaligned.
  *
- * A token is a string constant that names a place of the program. Equal tokens are one object, since constants are interned, so
- * they are compared by identity; [readable] and [location] turn them into text for people.
+ * A token is a string constant that names a place in the program. Constants are interned, so tokens are compared by identity.
+ * [readable] and [location] turn them into text for people.
  *
- * Threads: only the one that runs the round.
+ * Use it only on the thread that runs the round.
  */
 public interface AlignmentStack {
     /** Pushes [token] and returns the depth before the push, for [popTo]. */
     public fun pushToken(token: String): Int
 
-    /** Drops everything pushed since the depth was [depth]. */
+    /** Pops tokens until the depth is [depth]. */
     public fun popTo(depth: Int)
 
     /**
-     * [field], restricted to the neighbours that came to the current path in their last round. This device announces itself there too.
-     * Unlike a primitive, it may run any number of times at one path.
+     * Returns [field] restricted to the neighbours that reached the current path in their last round, and tells neighbours that this
+     * device reached it. Unlike a primitive, it may run any number of times at one path.
      */
     public fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T>
 
-    /** Where the program is now. */
+    /** The place that the program has reached. */
     public val place: ProgramPlace
 
-    /** Remembers the current path as the one where [failure] was thrown, unless it is known already. */
+    /** Records the current path as the one where [failure] was thrown, unless one is recorded for it. */
     public fun failing(failure: Throwable)
 }

@@ -1,6 +1,6 @@
 @file:OptIn(DelicateCollektiveApi::class)
 
-// What the compiler plugin makes programs call; nothing else does.
+// The compiler plugin inserts calls to these functions. Nothing else calls them.
 package org.collektive.alignment
 
 import it.unibo.collektive.aggregate.Field
@@ -8,14 +8,14 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.InMemory
 
-/** Runs before an aligned call or branch; the result is for [popToken]. */
+/** Runs before an aligned call or branch. Returns the depth to pass to [popToken]. */
 public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
     if (aggregate is AlignmentStack) return aggregate.pushToken(token)
     aggregate?.align(token)
     return 0
 }
 
-/** Runs after an aligned call or branch, however it ended. */
+/** Runs after an aligned call or branch, also when it throws. */
 public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
     if (aggregate is AlignmentStack) aggregate.popTo(depth) else aggregate?.dealign()
 }
@@ -25,7 +25,7 @@ public fun noteFailure(aggregate: Aggregate<*>?, failure: Throwable) {
     if (aggregate is AlignmentStack) aggregate.failing(failure)
 }
 
-/** Runs where a branch or an `alignedOn` body reads a [field] from outside: restricts it to the neighbours aligned there. */
+/** Restricts [field], made outside a branch or an `alignedOn` body, to the neighbours aligned inside. Runs where the field is read. */
 public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID, T>? {
     if (field == null) return null
     val aggregate = field.context

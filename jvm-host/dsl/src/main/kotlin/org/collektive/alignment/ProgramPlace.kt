@@ -3,12 +3,12 @@ package org.collektive.alignment
 import it.unibo.collektive.aggregate.api.Aggregate
 
 /**
- * Where a program was when it failed: `node 3 at helper > share (Swarm.kt:12)`.
+ * The place that a program had reached when it failed: `node 3 at helper > share (Swarm.kt:12)`.
  *
- * @property node the id of the device that ran it.
+ * @property node the id of the device that ran the program.
  */
 public class ProgramPlace(public val node: Any, tokens: List<Any?>) {
-    /** The path in the program's words, outermost first; of a long one the beginning and the end. */
+    /** The readable path, outermost token first. A long path is shortened to its beginning and its end. */
     public val path: String = when {
         tokens.isEmpty() -> "root"
         tokens.size <= SHOWN_FIRST + SHOWN_LAST + 1 -> tokens.joinToString(SEPARATOR, transform = ::readable)
@@ -18,7 +18,7 @@ public class ProgramPlace(public val node: Any, tokens: List<Any?>) {
             ).joinToString(SEPARATOR)
     }
 
-    /** The innermost place of the sources on the path, `Swarm.kt:12`; `null` when no compiled program is on it. */
+    /** The innermost source location on the path, such as `Swarm.kt:12`; `null` when no compiled program is on it. */
     public val location: String? = tokens.asReversed().firstNotNullOfOrNull(::location)
 
     override fun toString(): String = "node $node at $path" + if (location == null) "" else " ($location)"
@@ -30,7 +30,7 @@ public class ProgramPlace(public val node: Any, tokens: List<Any?>) {
     }
 }
 
-/** [message], followed by where this device's program is: the form of all errors of programs. */
+/** [message] followed by the place that this device's program has reached. All errors of programs have this form. */
 public fun Aggregate<*>.withPlace(message: String): String =
     withPlace(message, (this as? AlignmentStack)?.place ?: ProgramPlace(localId, emptyList()))
 

@@ -4,7 +4,7 @@ import it.unibo.collektive.networking.OutboundEnvelope
 import it.unibo.collektive.state.State
 
 /**
- * What one round made.
+ * The outcome of one round.
  *
  * @property localId the device that ran it.
  * @property result what the program returned.

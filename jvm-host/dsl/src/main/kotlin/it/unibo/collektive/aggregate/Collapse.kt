@@ -1,6 +1,6 @@
 package it.unibo.collektive.aggregate
 
-/** The elements of a [Field] as a plain collection: a view, in the field's order. */
+/** A view of a [Field] as a plain collection, in the field's order. Making one copies nothing. */
 public sealed interface Collapse<out E> {
     /** The elements, ascending by device id. */
     public val list: List<E>
@@ -11,24 +11,24 @@ public sealed interface Collapse<out E> {
     /** The elements, one by one. */
     public val sequence: Sequence<E>
 
-    /** How many elements there are. */
+    /** The number of elements. */
     public val size: Int
 
-    /** Whether [element] is among them. */
+    /** Whether the collection contains [element]. */
     public operator fun contains(element: @UnsafeVariance E): Boolean
 }
 
-/** The neighbours' elements, without the device's own. */
+/** The neighbours' elements, without this device's. */
 public sealed interface CollapseNeighbors<out E> : Collapse<E>
 
-/** The neighbours' elements, then the device's own. */
+/** The neighbours' elements, then this device's. */
 public sealed interface CollapseAll<out E> : Collapse<E>
 
 /** The entries' ids. */
 public val <ID : Any> CollapseNeighbors<FieldEntry<ID, *>>.ids: CollapseNeighbors<ID>
     get() = NeighborIds(list)
 
-/** The entries' ids, the own one last. */
+/** The entries' ids, this device's last. */
 public val <ID : Any> CollapseAll<FieldEntry<ID, *>>.ids: CollapseAll<ID>
     get() = AllIds(list)
 
@@ -36,14 +36,14 @@ public val <ID : Any> CollapseAll<FieldEntry<ID, *>>.ids: CollapseAll<ID>
 public val <T> CollapseNeighbors<FieldEntry<*, T>>.values: CollapseNeighbors<T>
     get() = NeighborValues(list)
 
-/** The entries' values, the own one last. */
+/** The entries' values, this device's last. */
 public val <T> CollapseAll<FieldEntry<*, T>>.values: CollapseAll<T>
     get() = AllValues(list)
 
 /** The entries as a map, in the field's order. */
 public fun <ID : Any, T> Collapse<FieldEntry<ID, T>>.toMap(): Map<ID, T> = list.associate { it.id to it.value }
 
-/** A view of a class of its own each, so that loops over it compile to loops over the field's arrays. */
+/** Each view is a separate class, so that the JIT inlines its `get` and a loop over it becomes a loop over the field's arrays. */
 internal abstract class View<out E> :
     AbstractList<E>(),
     RandomAccess {

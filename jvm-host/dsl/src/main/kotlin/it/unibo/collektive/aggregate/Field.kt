@@ -7,22 +7,26 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import org.collektive.alignment.withPlace
 
 /**
- * A value for this device and one for each neighbour aligned where the field was made.
+ * A value for this device and one for each neighbour that was aligned where the field was made.
  *
- * Immutable and evaluated when made; neighbours are in ascending order of their ids. Functions given to `map` and its kin run once
- * per entry, neighbours first, and primitives in them are aligned on the entry's id. Two fields are equal when their maps from id to value are, the local
- * one included.
+ * A field is immutable and evaluated eagerly. Its neighbours are in ascending order of their ids. The functions passed to `map`,
+ * `mapValues` and `alignedMap` run once per entry, neighbours first; primitives inside them are aligned on the entry's id. Two
+ * fields are equal when they map the same ids, this device's included, to equal values.
  *
- * Inside a branch (an arm of `if` or `when`, the right of `?:`, `&&`, `||`) and inside `alignedOn`, a field from outside has only the neighbours that went the
- * same way. So what all need is taken from it before: `val near = seen.neighbors.values.list.min(); if (source) 0 else near + 1`, since inside
- * `else` the sources, which went the other way, are not seen.
+ * A branch is an arm of `if` or `when`, or the right side of `?:`, `&&` or `||`. Inside a branch or an `alignedOn` body, a field
+ * made outside has only the neighbours that entered the same branch or body. Read what concerns all neighbours before branching:
  *
- * @property context the device and round that the field belongs to.
+ * ```
+ * val near = seen.neighbors.values.list.min()
+ * if (source) 0 else near + 1 // inside `else`, `seen` lacks the sources: they took the other branch
+ * ```
+ *
+ * @property context the device and the round that the field belongs to.
  */
 public class Field<ID : Any, out T> private constructor(
     public val context: Aggregate<ID>,
     private val ids: Array<out Any>,
-    // null: every neighbour's value is the local one.
+    // null: every neighbour has the local value.
     private val neighborValues: Array<out Any?>?,
     /** The value for this device. */
     public val localValue: T,
@@ -36,24 +40,24 @@ public class Field<ID : Any, out T> private constructor(
     /** The neighbours' entries, then the local one. */
     public val all: CollapseAll<FieldEntry<ID, T>> get() = AllEntries(this)
 
-    /** How many neighbours there are; for libraries that cannot afford entries, like the next ones. */
+    /** The number of neighbours. With [neighborId] and [neighborValue], loops over a field allocate no entries. */
     public val neighborCount: Int get() = (neighborValues ?: ids).size
 
-    /** Whether it is known that all values are one object. */
+    /** `true` when the field stores one value for all devices, as after [mapToConstant]. */
     public val isConstant: Boolean get() = neighborValues == null
 
-    /** The id of the neighbour [index], below [neighborCount]; ascending as in [neighbors]. */
+    /** The id of the neighbour at [index], from 0 until [neighborCount], in ascending order of ids. */
     @Suppress("UNCHECKED_CAST")
     public fun neighborId(index: Int): ID = ids[index] as ID
 
-    /** The value for the neighbour [index], below [neighborCount]. */
+    /** The value for the neighbour at [index], from 0 until [neighborCount]. */
     @Suppress("UNCHECKED_CAST")
     public fun neighborValue(index: Int): T = if (neighborValues == null) localValue else neighborValues[index] as T
 
     /**
      * The value for the device [id].
      *
-     * @throws NoSuchElementException when it is neither this device nor an aligned neighbour.
+     * @throws NoSuchElementException when [id] is neither this device nor an aligned neighbour.
      */
     public operator fun get(id: ID): T {
         if (id == context.localId) return localValue
@@ -62,29 +66,29 @@ public class Field<ID : Any, out T> private constructor(
         return valueAt(index)
     }
 
-    /** The value for the device [id], the local one when it is not in this field: what a receiver [id] gets. */
+    /** The value to send to the device [id]: its own, or the local value when this field has none for it. Readers use [get]. */
     @DelicateCollektiveApi
     public fun getOrLocal(id: ID): T {
         val index = indexOf(id)
         return if (index < 0) localValue else neighborValue(index)
     }
 
-    /** A field of [transform] applied to each entry. */
+    /** Returns a field with the result of [transform] for each entry. */
     public fun <R> map(transform: (FieldEntry<ID, T>) -> R): Field<ID, R> = build { transform(entryAt(it)) }
 
-    /** A field of [transform] applied to each value. */
+    /** Returns a field with the result of [transform] for each value. */
     public fun <R> mapValues(transform: (T) -> R): Field<ID, R> = build { transform(valueAt(it)) }
 
-    /** A field with these devices and one [value]. */
+    /** Returns a field with the same devices and [value] for all of them. */
     public fun <R> mapToConstant(value: R): Field<ID, R> {
         refuseField(context, value)
         return Field(context, ids, null, value)
     }
 
     /**
-     * A field of [transform] applied to each id with its value here and in [other].
+     * Returns a field with the result of [transform] for each id, its value in this field and its value in [other].
      *
-     * @throws IllegalStateException when the fields are not of the same devices; this holds for all functions of this name.
+     * @throws IllegalStateException when the fields have different devices; so do all overloads.
      */
     public fun <A, R> alignedMap(other: Field<ID, A>, transform: (ID, T, A) -> R): Field<ID, R> {
         requireAligned(other)
@@ -266,10 +270,10 @@ public class Field<ID : Any, out T> private constructor(
 
     public companion object {
         /**
-         * Makes a field of [context]'s device from its neighbours' [ids] (ascending where they are [Int]s) and their [values].
+         * Makes a field of [context]'s device. For implementations of [Aggregate]; programs use `neighboring`.
          *
-         * For implementations of [Aggregate], who promise that [context]'s own id is not among [ids]. Both arrays now belong to
-         * the field.
+         * [ids] are the neighbours' ids, ascending if they are [Int]s and without [context]'s own; this is not checked. `values[i]`
+         * is the value of `ids[i]`. The field takes ownership of both arrays: do not change them afterwards.
          *
          * @throws IllegalStateException when a value is itself a [Field].
          */

@@ -1,16 +1,16 @@
 package it.unibo.collektive.networking
 
-/** How one device reaches its neighbours: theirs to implement who bring a network. */
+/** Connects one device to its neighbours. Implement it to run programs over a network of your own. */
 public interface Mailbox<ID : Any> {
-    /** `true` when messages stay in the process, so that any object can be sent. */
+    /** `true` when messages stay in the process, so that any object can be sent without a serializer. */
     public val inMemory: Boolean
 
-    /** Sends [outboundMessage], the device's latest, to its neighbours, in place of the former; called after each round. */
+    /** Sends [outboundMessage] to the device's neighbours; it replaces the previous one. Called after each round. */
     public fun deliverableFor(outboundMessage: OutboundEnvelope<ID>)
 
-    /** Takes in [message] from a neighbour, in place of its former one. */
+    /** Stores [message] from a neighbour; it replaces that neighbour's previous one. */
     public fun deliverableReceived(message: Message<ID, *>)
 
-    /** The neighbours' latest messages; asked once, before a round. */
+    /** The neighbours' latest messages. Called once, before a round. */
     public fun currentInbound(): NeighborsData<ID>
 }

@@ -3,12 +3,12 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.path.Path
 import kotlinx.serialization.Serializable
 
-/** What one device sends one neighbour after a round. */
+/** The message from one device to one neighbour after a round. */
 public sealed interface Message<ID : Any, out Payload> {
     /** The device that sent it. */
     public val senderId: ID
 
-    /** For each path that the sender visited, the value for the receiver. */
+    /** The value for the receiver at each path that the sender visited. */
     public val sharedData: Map<Path, Payload>
 }
 
@@ -18,7 +18,7 @@ public data class InMemoryMessage<ID : Any>(
     override val sharedData: Map<Path, Any?>,
 ) : Message<ID, Any?>
 
-/** A message whose values are serialised one by one, as receivers learn their types only when their programs come to the paths. */
+/** A message whose values are serialised one by one: a receiver learns the type of each when its program reaches the path. */
 @Serializable
 public data class SerializedMessage<ID : Any>(
     override val senderId: ID,

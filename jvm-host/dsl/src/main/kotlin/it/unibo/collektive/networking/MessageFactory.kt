@@ -3,7 +3,7 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** Gives messages their form. */
+/** Makes messages of one kind. */
 public interface MessageFactory<ID : Any, out Payload> {
     /** The message of [senderId] with [sharedData]. */
     public operator fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, Payload>

@@ -3,13 +3,13 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** The latest messages of a device's neighbours. It must not change while a round runs. */
+/** The latest messages of a device's neighbours. Must not change while a round runs. */
 public interface NeighborsData<ID : Any> {
     /** The ids of the neighbours, without the device's own. */
     public val neighbors: Set<ID>
 
     /**
-     * What neighbours sent at [path]: an entry for each whose message holds the path, `null` values included.
+     * The values that neighbours sent at [path]: one entry per neighbour whose message has that path, even if the value is `null`.
      *
      * @param dataSharingMethod how to read serialised values.
      */

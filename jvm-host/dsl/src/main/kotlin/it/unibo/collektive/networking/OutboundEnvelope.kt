@@ -3,12 +3,12 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** All that a device sends after one round: for each path a value for each neighbour. */
+/** Everything that a device sends after one round: a value for each neighbour at each path. */
 public interface OutboundEnvelope<ID : Any> {
     /**
-     * Adds what is sent at [path].
+     * Adds the values to send at [path].
      *
-     * @throws IllegalStateException when something is sent there already.
+     * @throws IllegalStateException when [path] already has values.
      */
     public fun <V> addData(path: Path, data: SharedData<ID, V>, dataSharingMethod: DataSharingMethod<V>)
 
@@ -18,16 +18,16 @@ public interface OutboundEnvelope<ID : Any> {
     /** Whether something is sent. */
     public fun isNotEmpty(): Boolean = !isEmpty()
 
-    /** The message for [receiverId], in the form that [factory] gives it; one that was no neighbour in the round gets the defaults. */
+    /** The message for [receiverId], made by [factory]. A receiver that was no neighbour during the round gets the default values. */
     public fun prepareMessageFor(
         receiverId: ID,
         factory: MessageFactory<ID, *> = InMemoryMessageFactory(),
     ): Message<ID, Any?>
 
     /**
-     * The values sent at one path.
+     * The values to send at one path.
      *
-     * @property default for all that have no value in [overrides].
+     * @property default the value for receivers that are not in [overrides].
      */
     public data class SharedData<ID : Any, Value>(val default: Value, val overrides: Map<ID, Value> = emptyMap()) {
         /** The value for [receiverId]. */

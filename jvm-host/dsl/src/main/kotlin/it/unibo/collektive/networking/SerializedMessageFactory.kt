@@ -15,10 +15,10 @@ import kotlinx.serialization.StringFormat
 /**
  * Makes [SerializedMessage]s.
  *
- * @param serializerFormat writes the values: a [BinaryFormat], or a [StringFormat] such as JSON (as UTF-8).
+ * @param serializerFormat encodes the values: a [BinaryFormat], or a [StringFormat] such as JSON, stored as UTF-8.
  */
 public class SerializedMessageFactory<ID : Any, Payload>(private val serializerFormat: SerialFormat) : MessageFactory<ID, ByteArray> {
-    /** @throws SerializationException when a value cannot be written; the message names its path. */
+    /** @throws SerializationException when a value cannot be encoded; the message names its path. */
     override fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, ByteArray> =
         SerializedMessage(senderId, sharedData.mapValues { (path, value) -> encode(senderId, path, value) })
 

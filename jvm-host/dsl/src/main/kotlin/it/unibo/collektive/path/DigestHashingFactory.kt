@@ -3,13 +3,13 @@ package it.unibo.collektive.path
 import java.security.MessageDigest
 
 /**
- * Makes short paths that can be serialised: digests of the tokens' classes and texts.
+ * Makes short, serialisable paths: SHA-256 digests of the tokens' class names and texts.
  *
- * A token's `toString` must say all that its `equals` compares, and the same on all devices, as that of numbers, strings, enums and
- * data classes of these does.
+ * A token's `toString` must contain everything that its `equals` compares, and be the same on all devices. Numbers, strings, enums
+ * and data classes of these qualify.
  */
 public object DigestHashingFactory : PathFactory {
-    /** @throws IllegalArgumentException when the text of a token is that of `Any`, which differs from device to device. */
+    /** @throws IllegalArgumentException when a token inherits `Any.toString`, whose result differs from device to device. */
     override fun invoke(tokens: List<Any?>): Path {
         val digest = MessageDigest.getInstance("SHA-256")
         for (token in tokens) {

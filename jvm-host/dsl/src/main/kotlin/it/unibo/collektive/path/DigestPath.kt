@@ -1,6 +1,6 @@
 package it.unibo.collektive.path
 
-/** A path that is the SHA-256 [digest] of its tokens, in hexadecimal digits; [tokens], for errors, are known where it was made. */
+/** The SHA-256 [digest] of a path's tokens, in hexadecimal. [tokens] serve error messages; they are `null` on a received path. */
 internal class DigestPath(val digest: String, val tokens: List<Any?>? = null) : Path {
     override fun equals(other: Any?): Boolean = other is DigestPath && digest == other.digest
 
@@ -9,7 +9,7 @@ internal class DigestPath(val digest: String, val tokens: List<Any?>? = null) : 
     override fun toString(): String = digest
 }
 
-/** The tokens of this path, as far as they are known here. */
+/** The tokens of this path, or the path itself where they are unknown. */
 internal fun Path.tokens(): List<Any?> = when (this) {
     is FullPath -> tokens
     is DigestPath -> tokens ?: listOf(this)

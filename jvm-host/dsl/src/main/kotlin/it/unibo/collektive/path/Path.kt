@@ -2,6 +2,6 @@ package it.unibo.collektive.path
 
 import kotlinx.serialization.Serializable
 
-/** Where a primitive runs: stands for the tokens on the alignment stack. Equal stacks give equal paths, on all devices. */
+/** The place where a primitive runs: stands for the tokens on the alignment stack. Equal stacks give equal paths on all devices. */
 @Serializable(with = PathSerializer::class)
 public interface Path

@@ -1,6 +1,6 @@
 package it.unibo.collektive.path
 
-/** Makes paths of tokens; all devices of a network use the same. */
+/** Makes paths from tokens. All devices of a network must use the same factory. */
 public interface PathFactory {
     /** The path of [tokens], the outermost first. */
     public operator fun invoke(tokens: List<Any?>): Path

@@ -8,7 +8,7 @@ import kotlinx.serialization.descriptors.SerialDescriptor
 import kotlinx.serialization.encoding.Decoder
 import kotlinx.serialization.encoding.Encoder
 
-/** Writes the paths of [DigestHashingFactory] as strings; refuses others. */
+/** Serialises the paths that [DigestHashingFactory] makes as strings; rejects all others. */
 internal object PathSerializer : KSerializer<Path> {
     override val descriptor: SerialDescriptor = PrimitiveSerialDescriptor("it.unibo.collektive.path.Path", PrimitiveKind.STRING)
 

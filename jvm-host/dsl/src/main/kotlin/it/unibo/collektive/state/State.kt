@@ -2,5 +2,5 @@ package it.unibo.collektive.state
 
 import it.unibo.collektive.path.Path
 
-/** What a device keeps from round to round: for each path visited, the value kept there. */
+/** What a device stores from round to round: the value at each path that it visited. */
 public typealias State = Map<Path, Any?>

@@ -7,9 +7,9 @@ import it.unibo.collektive.aggregate.Field
  *
  * Valid only while the round runs, and only on the thread that runs it.
  *
- * Every primitive works at a *path*, the stack of pivots put there by [alignedOn] (or [align]). Devices see each other's values
- * where their paths are equal. Two primitives at one path in one round clash
- * ([it.unibo.collektive.aggregate.AlignmentClashException]): give each a pivot of its own.
+ * Every primitive runs at a *path*: the stack of pivots that [alignedOn] (or [align]) pushed. Two devices exchange values only
+ * where their paths are equal. Two primitives at the same path in one round throw an
+ * [it.unibo.collektive.aggregate.AlignmentClashException]; wrap each in [alignedOn] with a distinct pivot.
  *
  * ```
  * fun Aggregate<Int>.hottest(temperature: Double): Double {
@@ -19,41 +19,45 @@ import it.unibo.collektive.aggregate.Field
  * ```
  */
 public interface Aggregate<ID : Any> {
-    /** `true` when values never leave the process, so that any object can be shared. */
+    /** `true` when values stay inside the process, so that any object can be shared without a serializer. */
     public val inMemoryOnly: Boolean
 
     /** This device's id. */
     public val localId: ID
 
-    /** Replaces the value kept at this path ([initial] at first, or when the last round did not come here) and returns it. */
+    /**
+     * Applies [transform] to the value stored at this path, stores the result and returns it.
+     *
+     * [transform] gets [initial] in the first round, and whenever the previous round did not reach this path.
+     */
     public fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored
 
     /**
-     * Like [evolve], but returns another value than it keeps: `evolving(0) { n -> (n + 1).yielding { "round $this" } }`.
+     * [evolve] that stores one value and returns another: `evolving(0) { n -> (n + 1).yielding { "round $this" } }`.
      *
      * @throws IllegalStateException when the returned value is a [Field].
      */
     public fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return
 
     /**
-     * Runs [body] below [pivot]: its primitives meet only those of devices that are below an equal pivot.
+     * Runs [body] below [pivot]: its primitives exchange values only with devices that run them below an equal pivot.
      *
-     * Pivots are told apart by `equals` and `hashCode`, and must not change. The stack is as before afterwards, whatever
-     * [body] does.
+     * Pivots are compared by `equals` and `hashCode` and must be immutable. The stack is restored afterwards, even when [body]
+     * throws.
      *
-     * @throws IllegalStateException when the result is a [Field]: it would mix devices that are not aligned outside.
+     * @throws IllegalStateException when the result is a [Field]: its devices may not be aligned outside [body].
      */
     public fun <R> alignedOn(pivot: Any?, body: () -> R): R
 
-    /** Pushes [pivot]; prefer [alignedOn], which cannot be left open. */
+    /** Pushes [pivot] until [dealign] pops it. Prefer [alignedOn], which always pops. */
     @DelicateCollektiveApi
     public fun align(pivot: Any?)
 
-    /** Pops the last pivot pushed by [align]. */
+    /** Pops the last pivot that [align] pushed. */
     @DelicateCollektiveApi
     public fun dealign()
 
-    /** What `exchanging` becomes once the way in which values travel is known. */
+    /** Implements the extension `exchanging`, which finds [dataSharingMethod] from the type; programs call that one. */
     @DelicateCollektiveApi
     public fun <Shared, Return> exchanging(
         initial: Shared,
@@ -61,7 +65,7 @@ public interface Aggregate<ID : Any> {
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return
 
-    /** What `neighboring` becomes once the way in which values travel is known. */
+    /** Implements the extension `neighboring`, which finds [dataSharingMethod] from the type; programs call that one. */
     @DelicateCollektiveApi
     public fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared>
 }

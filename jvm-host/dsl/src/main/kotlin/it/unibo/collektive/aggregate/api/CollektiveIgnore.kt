@@ -1,6 +1,6 @@
 package it.unibo.collektive.aggregate.api
 
-/** Keeps the compiler plugin away from a declaration (and all within); [reason] tells readers why that is safe. */
+/** Excludes a declaration and everything inside it from the compiler plugin. [reason] states why that is safe. */
 @Target(
     AnnotationTarget.FILE,
     AnnotationTarget.CLASS,

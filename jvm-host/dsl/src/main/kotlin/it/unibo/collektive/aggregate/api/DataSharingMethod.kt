@@ -5,12 +5,12 @@ import kotlinx.serialization.KSerializer
 /** How values of type [T] travel between devices. */
 public sealed interface DataSharingMethod<in T>
 
-/** By reference, inside one process: a shared value must not change afterwards. */
+/** By reference, inside one process. A shared value must not change afterwards: every receiver holds the same object. */
 public data object InMemory : DataSharingMethod<Any?>
 
 /**
- * As written and read by [serializer].
+ * As bytes or text.
  *
- * @property serializer writes and reads the values.
+ * @property serializer encodes and decodes the values.
  */
 public data class Serialize<T>(public val serializer: KSerializer<T>) : DataSharingMethod<T>

@@ -1,6 +1,6 @@
 package it.unibo.collektive.aggregate.api
 
-/** Marks what can break alignment when used carelessly; each declaration names the safe way. */
+/** Marks declarations that can break alignment when misused. The documentation of each names the safe alternative. */
 @RequiresOptIn("Can break alignment; its documentation names the safe way.", RequiresOptIn.Level.WARNING)
 @Retention(AnnotationRetention.BINARY)
 @Target(AnnotationTarget.CLASS, AnnotationTarget.FUNCTION, AnnotationTarget.CONSTRUCTOR)

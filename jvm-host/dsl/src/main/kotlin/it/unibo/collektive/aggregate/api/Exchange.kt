@@ -11,23 +11,24 @@ import kotlin.reflect.KType
 import kotlin.reflect.typeOf
 
 /**
- * Sends a value of its own to each neighbour and keeps one: [body] gets what aligned neighbours sent here, with the value kept
- * by the last round ([initial] at first) as the local one, and yields the field to send.
+ * Sends each neighbour a different value and stores one for the next round.
  *
- * A receiver unknown to this device when it sends gets the field's local value.
+ * [body] receives a field of what the aligned neighbours sent to this device. Its local value is the one stored by the previous
+ * round, or [initial] if there is none. [body] yields the field to send; the field's local value is stored. A receiver that is not
+ * in that field also gets its local value.
  */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.exchanging(
     initial: Shared,
     noinline body: YieldingScope<Field<ID, Shared>, Return>,
 ): Return = exchanging(initial, dataSharingMethod<Shared>(), body)
 
-/** [exchanging] that returns the field it sends. */
+/** [exchanging] that returns the field that it sends. */
 public inline fun <ID : Any, reified Shared> Aggregate<ID>.exchange(
     initial: Shared,
     noinline body: (Field<ID, Shared>) -> Field<ID, Shared>,
 ): Field<ID, Shared> = exchanging(initial) { received -> body(received).yielding { this } }
 
-/** [exchanging] of one value for all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
+/** [exchanging] that sends one value to all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.sharing(
     initial: Shared,
     noinline transform: YieldingContext<Shared, Return>.(Field<ID, Shared>) -> YieldingResult<Shared, Return>,
@@ -36,16 +37,16 @@ public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.sharing(
     received.mapToConstant(toSend).yielding { toReturn }
 }
 
-/** [sharing] that returns what it sends. */
+/** [sharing] that returns the value that it sends: `share(0) { seen -> seen.all.values.list.max() + 1 }`. */
 public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(
     initial: Shared,
     noinline transform: (Field<ID, Shared>) -> Shared,
 ): Shared = sharing(initial) { received -> transform(received).yielding { this } }
 
 /**
- * How values of type [Shared] travel: by reference inside one process, else by their serializer.
+ * How values of type [Shared] travel: by reference inside one process, otherwise by their serializer. Primitives call it for you.
  *
- * @throws kotlinx.serialization.SerializationException when [Shared] has none and needs one.
+ * @throws kotlinx.serialization.SerializationException when values leave the process and [Shared] has no serializer.
  */
 @DelicateCollektiveApi
 public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> =

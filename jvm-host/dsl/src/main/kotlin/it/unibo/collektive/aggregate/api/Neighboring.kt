@@ -4,13 +4,13 @@ package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
 
-/** Sends [local] to all neighbours and returns what aligned neighbours sent here, with [local] as the local value. */
+/** Sends [local] to all neighbours. Returns the field of what the aligned neighbours sent, with [local] as its local value. */
 public inline fun <ID : Any, reified Shared> Aggregate<ID>.neighboring(local: Shared): Field<ID, Shared> =
     neighboring(local, dataSharingMethod<Shared>())
 
-/** The aligned neighbours, without values. */
+/** The field of the aligned neighbours, without values. */
 public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, Unit> = neighboring(Unit)
 
-/** A field of [transform] applied to the id of each aligned neighbour and to the own one. */
+/** The field of [transform] applied to the id of each aligned neighbour and of this device. */
 public fun <ID : Any, Value> Aggregate<ID>.mapNeighborhood(transform: (ID) -> Value): Field<ID, Value> =
     neighborhood().map { transform(it.id) }

@@ -1,14 +1,14 @@
 package it.unibo.collektive.aggregate.api
 
-/** A step of an `...ing` primitive: from the old value to what is kept (or sent) and what is returned. */
+/** The body of `evolving`, `exchanging` or `sharing`: maps the old value to the one to store or send and the one to return. */
 public typealias YieldingScope<Stored, Return> = YieldingContext<Stored, Return>.(Stored) -> YieldingResult<Stored, Return>
 
-/** Gives [yielding] to the body of an `...ing` primitive. */
+/** Provides [yielding] in the body of `evolving`, `exchanging` and `sharing`. */
 public class YieldingContext<Stored, Return> {
-    /** Keeps (or sends) the receiver and returns the result of [toReturn]. */
+    /** Stores or sends the receiver, and returns the result of [toReturn]. */
     public fun Stored.yielding(toReturn: Stored.() -> Return): YieldingResult<Stored, Return> =
         YieldingResult(this, toReturn())
 }
 
-/** What a step keeps or sends, and what it returns. */
+/** The value that a primitive stores or sends, and the one that it returns. */
 public data class YieldingResult<out Stored, out Return>(val toSend: Stored, val toReturn: Return)
