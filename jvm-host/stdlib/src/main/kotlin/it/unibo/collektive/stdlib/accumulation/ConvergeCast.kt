@@ -15,18 +15,19 @@ import it.unibo.collektive.stdlib.util.Maybe
 import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * Collects [local] values downhill along [potential]: each device's result is its own value with those of all devices above it on a
- * spanning tree; at the bottom (a sink) that is everybody uphill of it.
+ * Collects the [local] values downhill along [potential] on a spanning tree. Each device's result combines its own value with those of
+ * its descendants in the tree; at a sink, these are all devices uphill.
  *
- * Single-path collection (Beal and Viroli's "C" block): a device sends what it collected to its parent alone, the least entry by
- * [selectParent] ([findParent] tells about ties), and nothing where it is its own parent. Self-stabilising: once values,
- * links and potential stay as they are, results are right after as many rounds of every device as the tree is deep. While the
- * potential changes, values may be missing or count twice.
+ * This is single-path collection (Beal and Viroli's "C" block): a device sends what it collected only to its parent, which is the
+ * least entry by [selectParent]; see [findParent] for ties. A device that is its own parent sends nothing.
+ *
+ * Self-stabilising: once values, links and potential stop changing, results are correct after as many rounds of every device as the
+ * tree is deep. While the potential changes, values may be missing or counted twice.
  *
  * @param local this device's value.
- * @param potential falls towards the sinks, for example their distance.
- * @param selectParent the least entry by it is the parent; parents must not form a circle.
- * @param accumulateData adds a child's collection to what is there; children come in ascending order of their ids.
+ * @param potential decreases towards the sinks, for example the distance to the nearest sink.
+ * @param selectParent orders the entries; the least one is the parent. Parents must not form a cycle.
+ * @param accumulateData combines the value collected so far with a child's. Children come in ascending order of their ids.
  */
 public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggregate<ID>.convergeCast(
     local: T,
@@ -35,7 +36,7 @@ public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggre
     noinline accumulateData: (T, T) -> T,
 ): T = collect(local, findParent(potential, selectParent), dataSharingMethod<Maybe<T>>(), accumulateData)
 
-/** [convergeCast] along this device's [potential] and its neighbours' as they were in their last round. */
+/** [convergeCast] along this device's [potential] and the potentials of its neighbours' last rounds. */
 public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggregate<ID>.convergeCast(
     local: T,
     potential: P,
@@ -43,7 +44,7 @@ public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggre
     noinline accumulateData: (T, T) -> T,
 ): T = convergeCast(local, potentialField(potential, dataSharingMethod<P>()), selectParent, accumulateData)
 
-/** [convergeCast] to the nearest [sink] in hops; stabilises after `hopDistanceTo` has. Devices that reach none keep to themselves. */
+/** [convergeCast] to the nearest [sink] in hops. Stabilises after `hopDistanceTo` does. A device that reaches no sink sends nothing. */
 public inline fun <reified ID : Any, reified T> Aggregate<ID>.convergeCast(
     local: T,
     sink: Boolean,

@@ -8,8 +8,8 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 
 /**
- * The id of the entry of [potential] that is least by [selectParent]: the next device downhill, or this one at the bottom. On ties
- * this device wins, then the lower id, so that devices of one potential never choose each other.
+ * The id of the least entry of [potential] by [selectParent]: the next device downhill, or this device at the bottom. On ties this
+ * device wins, then the lower id, so that two devices of equal potential never choose each other.
  */
 @Suppress("UnusedReceiverParameter")
 public fun <ID : Any, P : Comparable<P>> Aggregate<ID>.findParent(
@@ -21,7 +21,7 @@ public fun <ID : Any, P : Comparable<P>> Aggregate<ID>.findParent(
     return parent.id
 }
 
-/** The ids of all neighbours whose entries of [potential] satisfy [isParent]: by default, all devices downhill; ascending. */
+/** The ids of the neighbours whose entries of [potential] satisfy [isParent], ascending. By default, all neighbours downhill. */
 @Suppress("UnusedReceiverParameter")
 public fun <ID : Any, P : Comparable<P>> Aggregate<ID>.findParents(
     potential: Field<ID, P>,

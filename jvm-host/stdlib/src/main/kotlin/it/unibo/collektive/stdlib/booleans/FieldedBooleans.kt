@@ -3,9 +3,9 @@ package it.unibo.collektive.stdlib.booleans
 import it.unibo.collektive.aggregate.Field
 
 /**
- * The members of [Boolean] for fields of them, entry by entry. Nothing is short-circuited: both sides are there already.
+ * The operators of [Boolean] for fields, entry by entry. Both sides are always evaluated.
  *
- * Two fields must be of the same devices (`IllegalStateException`).
+ * Two fields must have the same devices; otherwise an operator throws an [IllegalStateException].
  */
 public object FieldedBooleans {
     /** Each value [and][Boolean.and] [other]'s. */

@@ -5,7 +5,7 @@ import it.unibo.collektive.aggregate.Collapse
 /** Whether [predicate] holds for each element; `true` when there are none. */
 public inline fun <E> Collapse<E>.all(predicate: (E) -> Boolean): Boolean = list.all(predicate)
 
-/** Whether [predicate] holds for an element. */
+/** Whether [predicate] holds for at least one element. */
 public inline fun <E> Collapse<E>.any(predicate: (E) -> Boolean): Boolean = list.any(predicate)
 
 /** Whether [predicate] holds for no element. */

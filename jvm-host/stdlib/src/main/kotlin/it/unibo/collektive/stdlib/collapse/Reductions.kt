@@ -4,13 +4,13 @@ import it.unibo.collektive.aggregate.Collapse
 import it.unibo.collektive.aggregate.CollapseAll
 import it.unibo.collektive.aggregate.CollapseNeighbors
 
-/** [accumulate] applied to [base] and the elements one by one. */
+/** Starts from [base] and applies [accumulate] to the elements one by one. */
 public inline fun <E, R> Collapse<E>.fold(base: R, accumulate: (R, E) -> R): R = list.fold(base, accumulate)
 
-/** [accumulate] applied to the neighbours' elements one by one, the first to begin with; `null` when there are none. */
+/** Starts from the first of the neighbours' elements and applies [accumulate] to the others one by one; `null` when there are none. */
 public inline fun <E> CollapseNeighbors<E>.reduce(accumulate: (E, E) -> E): E? = list.reduceOrNull(accumulate)
 
-/** [accumulate] applied to the elements one by one, the first to begin with. */
+/** Starts from the first element and applies [accumulate] to the others one by one. */
 public inline fun <E> CollapseAll<E>.reduce(accumulate: (E, E) -> E): E = list.reduce(accumulate)
 
 /** The sum of the elements, 0 when there are none; overflows silently. */

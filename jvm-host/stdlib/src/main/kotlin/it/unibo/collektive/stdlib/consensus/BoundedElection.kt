@@ -16,21 +16,25 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * The id of this device's leader, which is at most [bound] away: sparse leader election (the "S" block, as bounded election in
- * "Self-stabilising Priority-Based Multi-Leader Election and Network Partitioning", Pianini, Casadei and Viroli, ACSOS 2022).
+ * Elects a leader at most [bound] away and returns its id. This is sparse leader election (the "S" block), as bounded election in
+ * "Self-stabilising Priority-Based Multi-Leader Election and Network Partitioning" (Pianini, Casadei and Viroli, ACSOS 2022).
  *
- * Each device passes on the best candidacy it knows, with the distances travelled; it starts from its own and hears no other of itself.
- * Self-stabilising: once strengths, links and metric stay as they are, the strongest device leads all within the bound, the strongest of
- * the others leads all within the bound through the others, and so on. Stale candidacies grow by the metric each
- * round until they are out of bounds, so that needs for each level (bound / least metric) rounds of every device, twice. Distances of
- * 0 between neighbours keep them alive for ever. Equal strengths are decided by distance, and then by who was there first.
+ * Each device starts from its own candidacy and passes on the best one that it receives within the bound, with the distance travelled.
+ * It ignores its own candidacy when a neighbour returns it.
  *
- * @param strength the strongest wins.
- * @param bound the greatest distance of a leader.
+ * Self-stabilising: once strengths, links and metric stop changing, the strongest device leads all devices within the bound. Among the
+ * devices that remain, the strongest leads those within the bound of it, along paths of remaining devices, and so on. Each such level
+ * takes up to 2 * bound / (least metric) rounds of every device, because the distance of a stale candidacy grows by the metric each
+ * round until it exceeds the bound. A metric of 0 between neighbours keeps stale candidacies alive for ever.
+ *
+ * Of equally strong candidates the nearest wins, then the one seen first.
+ *
+ * @param strength this device's strength; the greatest wins.
+ * @param bound the greatest distance between a device and its leader.
  * @param metric the distances to the neighbours.
  * @param bottom the distance of a device to itself.
  * @param accumulateDistance adds the distance to a neighbour to the neighbour's distance from its leader.
- * @param selectBest the better of two candidacies, the first on ties.
+ * @param selectBest returns the better of two candidacies, the first on ties.
  */
 public inline fun <reified ID : Any, reified S : Comparable<S>, reified D : Comparable<D>> Aggregate<ID>.boundedElection(
     strength: S,
@@ -43,7 +47,7 @@ public inline fun <reified ID : Any, reified S : Comparable<S>, reified D : Comp
     Candidacy(localId, bottom, strength), bound, metric, dataSharingMethod<Candidacy<ID, D, S>>(), accumulateDistance, selectBest,
 )
 
-/** [boundedElection] over distances from 0.0 on. */
+/** [boundedElection] over distances of 0.0 or greater. */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
     bound: Double,
@@ -51,7 +55,7 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.bo
     noinline selectBest: Reducer<Candidacy<ID, Double, S>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(strength, bound, metric, 0.0, Double::plus, selectBest)
 
-/** [boundedElection] over distances from 0 on, by default in hops. */
+/** [boundedElection] over distances of 0 or greater, by default in hops. */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
     bound: Int,
@@ -59,11 +63,11 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.bo
     noinline selectBest: Reducer<Candidacy<ID, Int, S>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(strength, bound, metric, 0, Int::nonOverflowingPlus, selectBest)
 
-/** [boundedElection] where the greatest id is the strongest. */
+/** [boundedElection] where the greatest id wins. */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bound: Double, metric: Field<ID, Double>): ID =
     boundedElection(localId, bound, metric)
 
-/** [boundedElection] where the greatest id is the strongest, by default in hops. */
+/** [boundedElection] where the greatest id wins, by default in hops. */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
     bound: Int,
     metric: Field<ID, Int> = hops(),

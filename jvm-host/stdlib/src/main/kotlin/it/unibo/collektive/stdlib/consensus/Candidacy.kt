@@ -3,8 +3,8 @@ package it.unibo.collektive.stdlib.consensus
 import kotlinx.serialization.Serializable
 
 /**
- * A claim to lead: the [candidate]'s, of this [strength], seen at this [distance]. Stronger is greater, then nearer; `compareTo` is 0
- * also for two candidates that are equally strong and near.
+ * The candidacy of [candidate], with its [strength] and its [distance] from here. A stronger candidacy is greater; of equally strong
+ * ones, the nearer is greater. `compareTo` ignores [candidate], so it is inconsistent with `equals`.
  */
 @Serializable
 public data class Candidacy<ID : Any, D : Comparable<D>, S : Comparable<S>>(

@@ -14,12 +14,12 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * The id of the strongest device of the connected component; of several equally strong ones the nearest by [metric], so that these
- * share the component among them.
+ * The id of the strongest device of the connected component; of several equally strong ones, the nearest by [metric], so that each
+ * leads its own region.
  *
- * Candidacies spread by [gossip] and stabilise like it: a leader that leaves or weakens is forgotten, though there is no bound.
+ * Candidacies spread by [gossip] and stabilise like it: a leader that leaves or weakens is replaced, although no bound limits distances.
  *
- * @param strength the strongest wins.
+ * @param strength this device's strength; the greatest wins.
  * @param metric the distances to the neighbours.
  */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.globalElection(

@@ -3,9 +3,10 @@ package it.unibo.collektive.stdlib.floats
 import it.unibo.collektive.aggregate.Field
 
 /**
- * The members of [Float] for fields of them, entry by entry: `distances + 1`, `distances * weights`, `distances.toLong()`.
+ * The operators and conversions of [Float] for fields, entry by entry: `distances + 1`, `distances * weights`, `distances.toLong()`.
  *
- * Two fields must be of the same devices (`IllegalStateException`); results and errors of each entry are those of the member.
+ * Two fields must have the same devices; otherwise an operator throws an [IllegalStateException]. Overflow, rounding and errors are
+ * those of [Float]'s members.
  */
 public object FieldedFloats {
     /** Each value [+][Float.plus] [other]'s. */

@@ -3,9 +3,10 @@ package it.unibo.collektive.stdlib.longs
 import it.unibo.collektive.aggregate.Field
 
 /**
- * The members of [Long] for fields of them, entry by entry: `distances + 1`, `distances * weights`, `distances.toLong()`.
+ * The operators and conversions of [Long] for fields, entry by entry: `distances + 1`, `distances * weights`, `distances.toInt()`.
  *
- * Two fields must be of the same devices (`IllegalStateException`); results and errors of each entry are those of the member.
+ * Two fields must have the same devices; otherwise an operator throws an [IllegalStateException]. Overflow, rounding and errors are
+ * those of [Long]'s members.
  */
 public object FieldedLongs {
     /** Each value [+][Long.plus] [other]'s. */

@@ -12,17 +12,18 @@ import kotlin.time.Instant
 import kotlinx.serialization.Serializable
 
 /**
- * The result of the oldest of several overlapping runs of [process]: makes one that never forgets (like `nonStabilizingGossip`) follow
- * changes, since each run ends after [timeToSpawn] times [maxReplicas] and takes what it learnt with it.
+ * Runs several overlapping replicas of [process] and returns the result of the oldest. A process that never forgets, such as
+ * `nonStabilizingGossip`, then follows changes, because each replica ends after [timeToSpawn] * [maxReplicas] and its state with it.
  *
- * Time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016). The
- * connected component agrees on the number of the youngest run; whoever has known it for [timeToSpawn] starts the next. Once inputs
- * and links stay as they are, the result forgets what was before after [timeToSpawn] times [maxReplicas], and the time that the
- * numbers take through the component. [process] must settle within [timeToSpawn] times [maxReplicas] - 1.
+ * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
+ * The connected component agrees on the number of the youngest replica; a device that has seen that number for [timeToSpawn] starts the
+ * next. Once inputs and links stop changing, the result no longer depends on earlier ones after [timeToSpawn] * [maxReplicas] plus
+ * the time that a number takes to cross the component. [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
  *
- * @param currentTime this device's clock; only its differences count.
- * @param maxReplicas the most runs at one time, 1 or greater.
- * @param timeToSpawn the time between two starts; positive.
+ * @param currentTime this device's clock; only differences matter.
+ * @param maxReplicas the number of replicas that run at the same time, 1 or greater.
+ * @param timeToSpawn the time between the starts of two replicas; positive.
+ * @throws IllegalArgumentException when [maxReplicas] or [timeToSpawn] is out of range.
  */
 public fun <ID : Any, T> Aggregate<ID>.timeReplicated(
     currentTime: Instant,
@@ -41,7 +42,7 @@ public fun <ID : Any, T> Aggregate<ID>.timeReplicated(
     }
 }
 
-/** The number of the youngest run that the component knows. */
+/** The number of the youngest replica in the component. */
 private fun <ID : Any> Aggregate<ID>.youngestRun(passed: Duration, timeToSpawn: Duration): Long =
     share(Run(0, Duration.ZERO)) { seen ->
         val mine = seen.local.value
@@ -52,6 +53,6 @@ private fun <ID : Any> Aggregate<ID>.youngestRun(passed: Duration, timeToSpawn: 
         if (known.age >= timeToSpawn) Run(known.number + 1, Duration.ZERO) else known
     }.number
 
-/** A run's [number], and the [age] since this device knows it. */
+/** A replica's [number], and the [age]: time since this device first saw it. */
 @Serializable
 private data class Run(val number: Long, val age: Duration)

@@ -13,21 +13,24 @@ import it.unibo.collektive.stdlib.util.aligned
 import it.unibo.collektive.stdlib.util.forEachNeighborWith
 
 /**
- * Brings the data of the nearest source to every device, by the distributed Bellman-Ford algorithm: each device takes its
- * neighbours' best distance plus the distance to that neighbour. The cheapest gradient cast; messages hold no paths.
+ * Brings the data of the nearest source to every device by the distributed Bellman-Ford algorithm: each device minimises a neighbour's
+ * distance plus the distance to that neighbour. This is the cheapest gradient cast, since its messages hold no paths. Use it where
+ * sources and links do not vanish; otherwise use [gradientCast].
  *
- * After a source or a link vanishes, the devices that relied on it count on one another and climb by no more than the metric of a
- * few links each round ("count to infinity", the "raising value" problem): between two devices 0.1 apart it takes ten rounds to climb
- * by 1. Where no source is left the values never come to rest. Otherwise, self-stabilising: once sources, links, data and
- * metric stay as they are, too small values have risen to the true ones after (greatest distance / least metric) rounds, and too
- * great ones have fallen after as many rounds as the longest shortest path has hops. Where sources or links vanish, take [gradientCast].
+ * When a source or a link vanishes, the devices that relied on it rely on each other, and their distances rise only by the metric of a
+ * few links per round ("count to infinity", the "rising value" problem). Two devices 0.1 apart take ten rounds to rise by 1. If no
+ * source is left, the distances rise for ever.
+ *
+ * If a source is left, it is self-stabilising: once sources, links, data and metric stop changing, distances that are too small are
+ * correct after (greatest distance / least metric) rounds, and those that are too great after as many rounds as the longest shortest
+ * path has hops.
  *
  * @param source whether this device is a source.
- * @param local what a source offers, and the result without any.
+ * @param local what a source offers, and the result where no source is reached.
  * @param bottom the distance of a source to itself.
- * @param top infinity: who is that far away from all sources is not reached.
- * @param accumulateData the data as it arrives from a neighbour, given the neighbour's distance from the source, the distance to the
- *   neighbour, and its data.
+ * @param top infinity: a device at this distance or farther from all sources is not reached.
+ * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
+ *   neighbour's data.
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
  * @param metric the distances to the neighbours.
  */

@@ -10,13 +10,13 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * The length of the shortest path to the nearest [source], [top] when there is none: the classic gradient, self-stabilising like the
- * [gradientCast] that carries it.
+ * The length of the shortest path to the nearest [source], or [top] when none is reached: the classic gradient. Self-stabilising like
+ * [gradientCast].
  *
- * @param bottom the distance of a source to itself, and the least distance of two neighbours.
- * @param top the greatest distance of two neighbours.
+ * @param bottom the distance of a source to itself, and the lower bound of [metric].
+ * @param top infinity: the upper bound of [metric], and the result where no source is reached.
  * @param metric the distances to the neighbours.
- * @param maxDiameter the most hops of a path.
+ * @param maxDiameter the greatest number of hops of a path.
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance.
  */
 public inline fun <reified ID : Any, reified D : Comparable<D>> Aggregate<ID>.distanceTo(
@@ -44,6 +44,6 @@ public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
     maxDiameter: Int = Int.MAX_VALUE,
 ): Double = distanceTo(source, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, Double::plus)
 
-/** The number of hops to the nearest [source], `Int.MAX_VALUE` when there is none within [maxDiameter]. */
+/** The number of hops to the nearest [source], or `Int.MAX_VALUE` when there is none within [maxDiameter] hops. */
 public inline fun <reified ID : Any> Aggregate<ID>.hopDistanceTo(source: Boolean, maxDiameter: Int = Int.MAX_VALUE): Int =
     distanceTo(source, 0, Int.MAX_VALUE, hops(), maxDiameter, Int::nonOverflowingPlus)

@@ -15,19 +15,19 @@ import it.unibo.collektive.stdlib.util.aligned
 import kotlinx.serialization.Serializable
 
 /**
- * The best of all devices' [local] values, where [reducer] chooses the better of two.
+ * The best of all devices' [local] values: [reducer] chooses the better of two.
  *
- * Gossip over self-avoiding paths: a value carries the devices that it came through, so that one whose origin changed or left cannot
- * circle and goes away; equally good values keep the shorter path. Self-stabilising: once values and links stay as they are, every
- * device has the best value of its connected component after as many rounds of every device as a path without repetition can have
- * hops, plus the component's diameter.
+ * This is gossip over self-avoiding paths: each value carries the devices that it passed. A value whose origin changed or left therefore
+ * cannot circulate and dies out. Of equally good values, the one with the shorter path wins.
+ *
+ * Self-stabilising: once values and links stop changing, every device has the best value of its connected component after as many
+ * rounds of every device as the longest simple path has hops, plus the component's diameter.
  *
  * @param local this device's value.
- * @param maxDiameter the most hops that a value travels. With a limit, a value may be hidden from devices near it by a better one that
- *   ends on the way.
- * @param reducer returns the better of its arguments, whatever their order; like a maximum.
- * @throws IllegalStateException when [reducer] returns something else: merged values never leave again, which is
- *   [nonStabilizingGossip].
+ * @param maxDiameter the greatest number of hops that a value travels. With a limit, a device may miss a value within reach, where a
+ *   better value displaces it on the way but does not reach the device itself.
+ * @param reducer returns the better of its arguments, independent of their order, as a maximum does.
+ * @throws IllegalStateException when [reducer] returns neither of its arguments. To merge values, use [nonStabilizingGossip].
  */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.gossip(
     local: V,
@@ -47,14 +47,14 @@ public inline fun <reified ID : Any, reified V : Comparable<V>> Aggregate<ID>.go
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> minOf(a, b) }
 
-/** The one of all devices' [local] values for which [selector] gives the greatest result, by [gossip]. */
+/** The [local] value of all devices for which [selector] returns the greatest result, by [gossip]. */
 public inline fun <reified ID : Any, reified V, C : Comparable<C>> Aggregate<ID>.gossipMaxBy(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,
     crossinline selector: (V) -> C,
 ): V = gossip(local, maxDiameter) { a, b -> if (selector(b) > selector(a)) b else a }
 
-/** The one of all devices' [local] values for which [selector] gives the least result, by [gossip]. */
+/** The [local] value of all devices for which [selector] returns the least result, by [gossip]. */
 public inline fun <reified ID : Any, reified V, C : Comparable<C>> Aggregate<ID>.gossipMinBy(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,
@@ -75,16 +75,16 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.gossipMinWith(
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> if (comparator.compare(b, a) < 0) b else a }
 
-/** Whether [condition] holds on any device of the connected component now; stabilises like [gossip], also when it holds no more. */
+/** Whether [condition] holds on any device of the connected component now. Stabilises like [gossip], also back to `false`. */
 public inline fun <reified ID : Any> Aggregate<ID>.isHappeningAnywhere(condition: () -> Boolean): Boolean =
     gossip(condition()) { a, b -> a || b }
 
-/** A [value] of [gossip] and the devices that it came through. */
+/** A [value] of [gossip] and the [path] of devices that it passed. */
 @Serializable
 @PublishedApi
 internal data class GossipValue<ID : Any, V>(val value: V, val path: HopPath<ID>)
 
-/** [gossip] whose values change on the way: [advance] gives a neighbour's value as it arrives here. */
+/** [gossip] whose values change on the way: [advance] maps a neighbour's value to the one that arrives here. */
 @PublishedApi
 internal fun <ID : Any, V> Aggregate<ID>.gossip(
     local: V,

@@ -17,28 +17,28 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * Brings the data of the nearest source to every device, along a shortest path; [local] where no source is reached.
+ * Brings the data of the nearest source to every device along a shortest path; returns [local] where no source is reached.
  *
- * A gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as routing protocols with path vectors do it: an offer
- * carries the devices it came through. A device takes the nearest offer that did not come through itself, and tells the neighbour
- * whose offer it took its next best one that agrees with it: one that no neighbour on its path undercuts, and whose common hops
- * come in the same order. On ties the neighbour with the lower id wins.
+ * This is a gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as in path-vector routing: each offer carries the
+ * devices that it passed. A device takes the nearest offer whose path does not contain it and sends the result to its neighbours. To the
+ * neighbour whose offer it took it sends the next best one instead, provided that no neighbour on that offer's path is nearer and that
+ * the hops common to both paths are in the same order. On ties the neighbour with the lower id wins.
  *
- * Self-stabilising: once sources, links, data and metric stay as they are, all stale offers are gone after as many rounds of every
- * device as a path without repetition can have hops (at most the number of devices, or [maxDiameter]), and values are those of the
- * shortest paths after as many rounds again as these have hops. Stale offers cannot circle, so values do not creep up when a source
- * vanishes or links break, however small the metric is (the "raising value" problem of [bellmanFordGradientCast]).
+ * Self-stabilising: once sources, links, data and metric stop changing, stale offers are gone after as many rounds of every device as
+ * the longest simple path has hops (at most the number of devices, or [maxDiameter]). Values are those of the shortest paths after
+ * as many further rounds as these have hops. Stale offers cannot circulate, so values do not creep up when a source vanishes or a link
+ * breaks, however small the metric is (the "rising value" problem of [bellmanFordGradientCast]).
  *
  * @param source whether this device is a source.
- * @param local what a source offers, and the result without any.
- * @param bottom the distance of a source to itself, and the least distance of two neighbours.
- * @param top the greatest distance of two neighbours.
- * @param metric the distances to the neighbours, coerced to [bottom]..[top]; shortest paths need them to be greater than [bottom].
- * @param maxDiameter the most hops that data travels.
- * @param accumulateData the data as it arrives from a neighbour, given the neighbour's distance from the source, the distance to the
- *   neighbour, and its data. Called only for offers that are taken; it must depend on nothing but its arguments.
+ * @param local what a source offers, and the result where no source is reached.
+ * @param bottom the distance of a source to itself, and the lower bound of [metric].
+ * @param top infinity: the upper bound of [metric].
+ * @param metric the distances to the neighbours, coerced to [bottom]..[top]. Paths are shortest only if distances exceed [bottom].
+ * @param maxDiameter the greatest number of hops that data travels.
+ * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
+ *   neighbour's data. Called only for offers that are taken; must depend on its arguments alone.
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
- * @throws IllegalStateException when a neighbour aligned here has no value in [metric].
+ * @throws IllegalStateException when an aligned neighbour has no value in [metric].
  */
 public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.gradientCast(
     source: Boolean,
@@ -101,7 +101,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
             }
         }
 
-    /** The field to send: locally the value taken up. */
+    /** The field to send; its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, D, V>?>): Field<ID, PathValue<ID, D, V>?> {
         val offers = usableOffers(received)
         val best = offers.minOrNull() ?: return received.mapToConstant(null)
@@ -122,7 +122,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return offers
     }
 
-    /** The nearest offer beside [best] that no neighbour on its path undercuts and that agrees with the [taken] path. */
+    /** The nearest offer except [best] that has no nearer neighbour on its path and agrees with the [taken] path. */
     private fun nextBest(offers: List<Offer<ID, V, D>>, best: Offer<ID, V, D>, taken: HopPath<ID>): Offer<ID, V, D>? {
         var found: Offer<ID, V, D>? = null
         for (offer in offers) {
@@ -133,7 +133,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return found
     }
 
-    /** The value of [offer] here: [former] itself when nothing changed, so that settled networks make no new paths. */
+    /** The value of [offer] on this device. Returns [former] itself if nothing changed, so that a settled network allocates no paths. */
     private fun take(offer: Offer<ID, V, D>, former: PathValue<ID, D, V>?): PathValue<ID, D, V> {
         val value = offer.value
         val data = accumulateData(value.distance, offer.step, value.data)
@@ -147,7 +147,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 }
 
-/** What the neighbour [id] offers, [step] away; [distance] counts from the source to this device. */
+/** The offer [value] of the neighbour [id], which is [step] away; [distance] is from the source to this device. */
 private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, D, V>) :
     Comparable<Offer<ID, V, D>> {
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)

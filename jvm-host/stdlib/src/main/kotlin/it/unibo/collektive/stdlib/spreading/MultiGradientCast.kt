@@ -9,11 +9,11 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * One [gradientCast] for each of [sources]: what each of them offers, as it arrives here; [local] for those that do not reach this
- * device. Each stabilises on its own, among the devices that name its source.
+ * Runs one [gradientCast] for each of [sources]. Returns, by source, the data that arrives here, or [local] if the source is not
+ * reached. Each gradient cast stabilises independently, among the devices that list its source.
  *
- * @param sources the sources' ids; a repeated one counts once. Data of a source passes only through devices that name it.
- * @param local what this device offers where it is among the sources.
+ * @param sources the sources' ids; repeated ids count once. Data of a source passes only through devices that list it.
+ * @param local what this device offers if it is a source, and the result for sources that are not reached.
  */
 public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.multiGradientCast(
     sources: Iterable<ID>,

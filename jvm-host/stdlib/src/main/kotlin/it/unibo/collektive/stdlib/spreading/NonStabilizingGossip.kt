@@ -12,20 +12,20 @@ import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * All values that devices ever had, reduced to one: flooding.
+ * Merges all values that devices ever had into one: flooding.
  *
- * Converges to the reduction over the connected component after as many rounds as its diameter, but is **not** self-stabilising:
- * what was once merged stays, also when its origin changes its value or leaves. [gossip] forgets.
+ * Converges to the reduction over the connected component after as many rounds as its diameter. It is **not** self-stabilising: a merged
+ * value stays, even when its origin changes its value or leaves. Use [gossip] where values must be forgotten.
  *
  * @param value this device's value.
- * @param reducer merges two values; associative, commutative and idempotent (like a maximum or a union), as a value arrives many times.
+ * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is: a value arrives often.
  */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(
     value: V,
     noinline reducer: Reducer<V>,
 ): V = nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
 
-/** Whether [condition] ever held on a device from which word came here; once `true`, always `true`. */
+/** Whether [condition] ever held on a device from which a message chain led here. Once `true`, it stays `true`. */
 public inline fun <reified ID : Any> Aggregate<ID>.everHappened(condition: () -> Boolean): Boolean =
     nonStabilizingGossip(condition()) { a, b -> a || b }
 

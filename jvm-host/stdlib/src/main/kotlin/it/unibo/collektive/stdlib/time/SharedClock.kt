@@ -10,13 +10,13 @@ import kotlin.time.Duration
 import kotlin.time.Instant
 
 /**
- * A clock that never goes back and that all devices of a connected component share: the greatest that is known, moved on by the
- * time since this device's last round.
+ * A monotonic clock that all devices of a connected component share: the greatest clock received, or this device's last value advanced
+ * by the time since its last round if that is greater.
  *
- * Once links stay as they are, devices differ by no more than the age of the messages between them after as many rounds as the
- * component's diameter. Not self-stabilising: a clock once set too far ahead pulls all others along for ever.
+ * Once links stop changing, clocks differ by no more than the age of the messages between them, after as many rounds as the
+ * component's diameter. Not self-stabilising: one clock that is set too far ahead advances all others for ever.
  *
- * @param localTime this device's own clock; only its differences count after the first round.
+ * @param localTime this device's own clock; after the first round only differences matter.
  */
 public fun <ID : Any> Aggregate<ID>.sharedClock(localTime: Instant): Instant = aligned("sharedClock") {
     val passed = localDeltaTime(localTime)
@@ -28,8 +28,8 @@ public fun <ID : Any> Aggregate<ID>.sharedClock(localTime: Instant): Instant = a
 }
 
 /**
- * The time left until [timeToWait] has passed on the [sharedClock] since the first device of the connected component came here;
- * zero from then on. Devices that come later join the running wait. Not self-stabilising, as the clock.
+ * The time left until [timeToWait] has passed on the [sharedClock], counted from when the first device of the connected component
+ * called this function; then zero. Devices that call it later join the same wait. Not self-stabilising, like the clock.
  */
 public fun <ID : Any> Aggregate<ID>.sharedTimeLeftTo(now: Instant, timeToWait: Duration): Duration = aligned("sharedTimeLeftTo") {
     val clock = sharedClock(now)

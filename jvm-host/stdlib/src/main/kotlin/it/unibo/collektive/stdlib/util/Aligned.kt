@@ -8,8 +8,8 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 
 /**
- * Runs [body] below [pivot]. The library aligns itself with it, so that its functions mean the same in programs compiled with and
- * without the compiler plugin; unlike `alignedOn` it lets a field out, which is right where every caller goes the same way.
+ * Runs [body] below [pivot]. The library aligns its functions explicitly, so that they behave the same in programs compiled with and
+ * without the compiler plugin. Unlike `alignedOn`, it may return a field: [pivot] is a constant, so all callers stay aligned.
  */
 internal inline fun <R> Aggregate<*>.aligned(pivot: String, body: () -> R): R {
     align(pivot)

@@ -7,7 +7,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.neighboring
 
-/** The distance from [position], this device's, to each neighbour's as it was in its last round; 0 to itself. */
+/** The distance from this device's [position] to each neighbour's position in its last round; 0 to itself. In the unit of [position]. */
 public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: Point2D): Field<ID, Double> =
     aligned("euclideanDistance2D") { neighboring(position).mapValues { position.distanceTo(it) } }
 
@@ -15,11 +15,11 @@ public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: Point2D): Fiel
 public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: Pair<Double, Double>): Field<ID, Double> =
     euclideanDistance2D(Point2D(position.first, position.second))
 
-/** [euclideanDistance2D] for the position that [position] returns, asked once. */
+/** [euclideanDistance2D] for the position that [position] returns; called once. */
 public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: () -> Point2D): Field<ID, Double> =
     euclideanDistance2D(position())
 
-/** The distance from [position], this device's, to each neighbour's as it was in its last round; 0 to itself. */
+/** The distance from this device's [position] to each neighbour's position in its last round; 0 to itself. In the unit of [position]. */
 public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: Point3D): Field<ID, Double> =
     aligned("euclideanDistance3D") { neighboring(position).mapValues { position.distanceTo(it) } }
 
@@ -27,6 +27,6 @@ public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: Point3D): Fiel
 public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: Triple<Double, Double, Double>): Field<ID, Double> =
     euclideanDistance3D(Point3D(position.first, position.second, position.third))
 
-/** [euclideanDistance3D] for the position that [position] returns, asked once. */
+/** [euclideanDistance3D] for the position that [position] returns; called once. */
 public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: () -> Point3D): Field<ID, Double> =
     euclideanDistance3D(position())

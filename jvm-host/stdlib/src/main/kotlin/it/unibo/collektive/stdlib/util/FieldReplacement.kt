@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.FieldEntry
 
 /**
- * Each value, or the nearer of [min] and [max] where it lies outside.
+ * Each value, limited to [min]..[max].
  *
  * @throws IllegalArgumentException when [min] is greater than [max].
  */

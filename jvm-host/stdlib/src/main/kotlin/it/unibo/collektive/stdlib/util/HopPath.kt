@@ -3,10 +3,10 @@ package it.unibo.collektive.stdlib.util
 import kotlinx.serialization.Serializable
 
 /**
- * The devices that a value came through, from its origin to the last; immutable.
+ * The devices that a value passed, from its origin to the last. Immutable.
  *
- * A path shares all but its last hop with the path it was made from, and [mask], a Bloom filter of one word, mostly tells at once
- * that a device is not on it.
+ * A path shares all hops but the last with the path that it extends. [mask] is a Bloom filter of one word: it answers most look-ups of
+ * devices that are not on the path without a walk.
  */
 @Serializable(with = HopPathSerializer::class)
 @PublishedApi
@@ -20,10 +20,10 @@ internal class HopPath<ID : Any> private constructor(
 
     operator fun contains(id: ID): Boolean = prefixUpTo(id) != null
 
-    /** Whether this is [path] with [id] after it, told without looking at the hops before. */
+    /** Whether this path was made by appending [id] to [path]. Compares [path] by identity, so it takes constant time. */
     fun extends(path: HopPath<ID>, id: ID): Boolean = previous === path && hop == id
 
-    /** Whether those devices that are on both paths come in the same order. */
+    /** Whether the devices common to both paths are in the same order. */
     fun agreesWith(other: HopPath<ID>): Boolean {
         var mine = this
         var rest = other
@@ -46,7 +46,7 @@ internal class HopPath<ID : Any> private constructor(
 
     override fun toString(): String = toList().toString()
 
-    /** The part of this path that ends with [id]. */
+    /** The prefix of this path that ends with [id]; `null` when [id] is not on it. */
     private fun prefixUpTo(id: ID): HopPath<ID>? {
         val bit = bitOf(id)
         var path: HopPath<ID>? = this
@@ -60,7 +60,7 @@ internal class HopPath<ID : Any> private constructor(
     companion object {
         private val EMPTY = HopPath<Nothing>(null, null, 0, 0)
 
-        /** The path of a value that is where it was made. */
+        /** The path of a value on the device that made it. */
         @Suppress("UNCHECKED_CAST")
         fun <ID : Any> empty(): HopPath<ID> = EMPTY as HopPath<ID>
 

@@ -6,7 +6,7 @@ import kotlinx.serialization.descriptors.SerialDescriptor
 import kotlinx.serialization.encoding.Decoder
 import kotlinx.serialization.encoding.Encoder
 
-/** Writes a path as the list of its hops. */
+/** Serialises a path as the list of its hops. */
 internal class HopPathSerializer<ID : Any>(id: KSerializer<ID>) : KSerializer<HopPath<ID>> {
     private val hops = ListSerializer(id)
     override val descriptor: SerialDescriptor get() = hops.descriptor

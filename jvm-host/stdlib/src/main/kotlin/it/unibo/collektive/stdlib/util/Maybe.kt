@@ -2,10 +2,10 @@ package it.unibo.collektive.stdlib.util
 
 import kotlinx.serialization.Serializable
 
-/** A value or none, where `null` is a value like others. */
+/** An optional value that may itself be `null`. */
 @Serializable(with = MaybeSerializer::class)
 public sealed interface Maybe<out T> {
-    /** A [value]. */
+    /** The [value] is present. */
     public data class Some<out T>(public val value: T) : Maybe<T>
 
     /** No value. */

@@ -7,7 +7,7 @@ import kotlinx.serialization.descriptors.SerialDescriptor
 import kotlinx.serialization.encoding.Decoder
 import kotlinx.serialization.encoding.Encoder
 
-/** Writes a value as a list of one, none as an empty list. */
+/** Serialises a value as a list of one element, and its absence as an empty list. */
 internal class MaybeSerializer<T>(value: KSerializer<T>) : KSerializer<Maybe<T>> {
     private val values = ListSerializer(value)
     override val descriptor: SerialDescriptor get() = values.descriptor

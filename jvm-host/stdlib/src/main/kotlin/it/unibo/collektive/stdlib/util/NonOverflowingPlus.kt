@@ -1,5 +1,5 @@
 package it.unibo.collektive.stdlib.util
 
-/** The sum, or the [Int] nearest to it where it does not fit: `Int.MAX_VALUE` serves as infinity. */
+/** The sum, saturated at the range of [Int]; so `Int.MAX_VALUE` can serve as infinity. */
 public fun Int.nonOverflowingPlus(other: Int): Int =
     (toLong() + other).coerceIn(Int.MIN_VALUE.toLong(), Int.MAX_VALUE.toLong()).toInt()

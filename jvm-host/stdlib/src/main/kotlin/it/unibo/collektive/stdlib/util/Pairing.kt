@@ -4,17 +4,17 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.ids
 
 /**
- * Runs [action] with the id, the value and the distance of each neighbour, ascending.
+ * Runs [action] with the id, the value and the distance of each neighbour of this field, in ascending order of ids.
  *
- * [metric] may know more neighbours: it may come from outside the branch that this field was made in.
+ * [metric] may have more neighbours than this field: it may come from outside the branch that made this field.
  *
- * @throws IllegalStateException when [metric] lacks one.
+ * @throws IllegalStateException when [metric] has no value for a neighbour of this field.
  */
 internal inline fun <ID : Any, T, D> Field<ID, T>.forEachNeighborWith(
     metric: Field<ID, D>,
     action: (id: ID, value: T, distance: D) -> Unit,
 ) {
-    // Both are in the order of this round's links.
+    // Both fields are in the order of this round's links.
     var place = 0
     for (index in 0 until neighborCount) {
         val id = neighborId(index)

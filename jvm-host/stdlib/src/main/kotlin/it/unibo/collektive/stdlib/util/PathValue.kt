@@ -3,10 +3,10 @@ package it.unibo.collektive.stdlib.util
 import kotlinx.serialization.Serializable
 
 /**
- * What a device offers its neighbours in a gradient cast: [data], at a [distance] from its source.
+ * A device's offer to its neighbours in a gradient cast: [data], at a [distance] from its source.
  *
- * @property distance the accumulated distance from the source to the device that offers.
- * @property data the source's data as it arrived there.
+ * @property distance the accumulated distance from the source to the offering device.
+ * @property data the source's data as it arrived at the offering device.
  */
 @Serializable
 public class PathValue<ID : Any, D : Comparable<D>, T> @PublishedApi internal constructor(
@@ -14,10 +14,10 @@ public class PathValue<ID : Any, D : Comparable<D>, T> @PublishedApi internal co
     public val data: T,
     internal val path: HopPath<ID>,
 ) : Comparable<PathValue<ID, D, T>> {
-    /** The devices that the data came through: the source first, the one that offers not among them. */
+    /** The devices that the data passed, the source first, without the offering device. */
     public val hops: List<ID> get() = path.toList()
 
-    /** Nearer is less. */
+    /** The nearer offer is less. */
     override fun compareTo(other: PathValue<ID, D, T>): Int = distance.compareTo(other.distance)
 
     override fun equals(other: Any?): Boolean =

@@ -3,7 +3,7 @@ package it.unibo.collektive.stdlib.util
 import kotlin.math.sqrt
 import kotlinx.serialization.Serializable
 
-/** A point of the plane. */
+/** A point in the plane. */
 @Serializable
 public data class Point2D(public val x: Double, public val y: Double) {
     /** The Euclidean distance to [other]. */

@@ -3,7 +3,7 @@ package it.unibo.collektive.stdlib.util
 import kotlin.math.sqrt
 import kotlinx.serialization.Serializable
 
-/** A point of space. */
+/** A point in space. */
 @Serializable
 public data class Point3D(public val x: Double, public val y: Double, public val z: Double) {
     /** The Euclidean distance to [other]. */

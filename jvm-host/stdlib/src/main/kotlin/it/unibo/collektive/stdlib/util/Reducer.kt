@@ -1,4 +1,4 @@
 package it.unibo.collektive.stdlib.util
 
-/** Makes one value of two. */
+/** Reduces two values to one. */
 public typealias Reducer<T> = (T, T) -> T
