@@ -1,16 +1,16 @@
 package org.collektive.api
 
 /**
- * Makes a public top-level function a program that nodes can run:
+ * Declares a public top-level function as a program that nodes can run:
  *
  * ```
  * @Program("follow-the-leader", parameters = [Parameter("gap", "1.0", "Metres to the next node.")])
  * public fun Aggregate<Int>.followTheLeader(sensors: SensorData, device: Device): ActuatorDataT = ...
  * ```
- * `device` may be left out. `SensorData` and `ActuatorDataT` are the types generated from the project's schema.
+ * The parameter `device` is optional. `SensorData` and `ActuatorDataT` are generated from the project's schema.
  *
- * @property name unique among the session's jars; what scenes and scenarios say.
- * @property parameters what each node may set.
+ * @property name the name that scenes and scenarios use; unique among the session's jars.
+ * @property parameters the settings that each node may override.
  */
 @Target(AnnotationTarget.FUNCTION)
 @Retention(AnnotationRetention.RUNTIME)
@@ -18,10 +18,10 @@ package org.collektive.api
 public annotation class Program(val name: String, val parameters: Array<Parameter> = [])
 
 /**
- * A setting of a program that each node may have its own value for.
+ * A setting of a program; each node may override its value.
  *
  * @property name unique in its program.
- * @property default value of nodes that set none, as text.
+ * @property default the value, as text, of nodes that do not override it.
  * @property description one line for the inspector: meaning, unit, range.
  */
 @Target()

@@ -8,7 +8,7 @@ class ParametersTest {
     private val parameters = Parameters(mapOf("step" to "1.5", "count" to "3", "loud" to "true", "name" to "x"))
 
     @Test
-    fun `values are read as what the program asks for`() {
+    fun `a value is read as text, number, whole number or switch`() {
         assertEquals("1.5", parameters["step"])
         assertEquals(1.5, parameters.double("step"))
         assertEquals(3, parameters.int("count"))
@@ -16,13 +16,13 @@ class ParametersTest {
     }
 
     @Test
-    fun `an unknown name is refused with those that there are`() {
+    fun `an unknown name throws, and the message lists the known names`() {
         val error = assertFailsWith<NoSuchElementException> { parameters["stpe"] }
         assertEquals("the program declares no parameter 'stpe', only [step, count, loud, name]", error.message)
     }
 
     @Test
-    fun `a text of another kind is refused with the text`() {
+    fun `a text of another kind throws, and the message quotes the text`() {
         assertEquals(
             "parameter 'name' must be a number, but is 'x'",
             assertFailsWith<IllegalArgumentException> { parameters.double("name") }.message,
