@@ -3,24 +3,24 @@ package org.collektive.spi
 import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 
 /**
- * What a device sent in one round, to all its neighbours at once; read in place. Threads: any.
+ * The messages of one device's round to all its neighbours. Receivers read it in place, on any thread.
  *
- * Once a later export replaced it and nobody holds it, its device reuses it for another round.
+ * The device reuses it for another round once a later export has replaced it and nobody holds it.
  */
 public abstract class Export protected constructor() {
     @Volatile
     private var holders = 0
 
-    /** Tick in which it was sent; set by the engine before any neighbour can see the export. */
+    /** The tick in which it was sent. The engine sets it before it publishes the export to neighbours. */
     public var tick: Long = 0
 
-    /** Whether somebody relies on this export to stay as it is. */
+    /** Whether a holder still prevents its reuse. */
     public val isHeld: Boolean get() = holders > 0
 
-    /** Reads what neighbours will read, to have it in the processor's caches. The result only keeps the JIT from dropping the reads. */
+    /** Prefetches what neighbours will read into the CPU cache. The result only keeps the JIT from removing the reads. */
     public open fun touch(): Int = 0
 
-    /** Keeps this export as it is until [release]; once per holder. */
+    /** Prevents the reuse of this export until [release]. Each holder calls it once. */
     public fun hold() {
         HOLDERS.incrementAndGet(this)
     }
