@@ -1,10 +1,10 @@
 package org.collektive.engine
 
 /**
- * The order in which rounds run: breadth first along the links, so that neighbours run soon after each other.
+ * The order in which rounds run: breadth first along the links, so that neighbours run close together.
  *
- * A round reads what its neighbours sent; in this order most of that is still in the processor's caches. Collectors, too, place
- * objects in the order in which they find them. No result depends on this order.
+ * A round reads its neighbours' exports; in this order, most of them are still in the CPU cache. Garbage collectors also place objects
+ * in the order in which they reach them. Results do not depend on this order.
  */
 internal class BreadthFirst {
     private var nodes = arrayOfNulls<Node>(0)
@@ -14,17 +14,17 @@ internal class BreadthFirst {
     // reached[i]: end of the prefix of `nodes` that rounds 0..i read.
     private var reached = IntArray(0)
 
-    /** Number of links made and ended since the last [arrange]. */
+    /** Number of links added and removed since the last [arrange]. */
     private var linksChanged = 0
 
-    /** Whether [turns] holds all nodes in their present order. */
+    /** Whether [turns] contains all nodes in their current order. */
     private var isForAll = false
 
     fun linkChanged() {
         linksChanged++
     }
 
-    /** Appends [added]; they find their places with the next [arrange]. */
+    /** Appends [added]; the next [arrange] puts them in order. */
     fun addAll(added: List<Node>) {
         if (nodes.size < size + added.size) nodes = nodes.copyOf(maxOf(size + added.size, size + (size shr 1)))
         for (node in added) nodes[size++] = node
@@ -42,7 +42,7 @@ internal class BreadthFirst {
         isForAll = false
     }
 
-    /** Orders the nodes anew once enough of the [linkCount] links have changed; [all] holds the same nodes by id. */
+    /** Reorders the nodes if enough of the [linkCount] links have changed; [all] contains the same nodes by id. */
     fun arrange(all: Peers, linkCount: Int, tick: Long) {
         if (linksChanged * CHANGES_WORTH_IT <= linkCount + size) return
         linksChanged = 0
@@ -81,7 +81,7 @@ internal class BreadthFirst {
      * Prefetches the nodes that the rounds [begin] until [end] are the first to read. A round's own reads depend on each other and would
      * wait one by one; here the misses of many nodes overlap.
      *
-     * @return a value without meaning, which keeps the JIT from dropping the reads.
+     * @return a meaningless value, which keeps the JIT from removing the reads.
      */
     fun touch(begin: Int, end: Int): Int {
         if (!isForAll || end > reached.size) return 0
@@ -101,7 +101,7 @@ internal class BreadthFirst {
     }
 
     private companion object {
-        /** A quarter of the links must have changed: rare while a swarm moves, and certain at the start. */
+        /** Reorder once a quarter of the links has changed: always at the start, rarely while a swarm moves. */
         const val CHANGES_WORTH_IT = 4
     }
 }

@@ -2,22 +2,22 @@ package org.collektive.engine
 
 import org.collektive.spi.Export
 
-/** One link under a network model: the messages on their way, and the one that arrived. One thread at a time. */
+/** One link under a network model: the messages in flight, and the one received. Confined to one thread at a time. */
 internal class Channel {
-    /** What arrived last and is still valid. */
+    /** The message received last; `null` once it has expired. */
     var held: Export? = null
         private set
 
-    /** Tick in which the newest message that arrived was sent; 0 before the first. */
+    /** Tick in which the newest message received was sent; 0 before the first. */
     var heldAt = 0L
         private set
 
-    /** Tick of the last message put on this link; 0 before the first. */
+    /** Tick of the last message that this link took from its sender; 0 before the first. */
     var takenAt = 0L
 
     private var validUntil = 0.0
 
-    // Messages on their way, in no order.
+    // Messages in flight, unordered.
     private var exports = NONE
     private var sentAt = LongArray(0)
     private var arrivals = DoubleArray(0)
@@ -36,7 +36,7 @@ internal class Channel {
         arrivals[count++] = arrival
     }
 
-    /** Takes all messages that are due by [now]; of these and [held], the one sent last stays. */
+    /** Receives all messages due by [now], in simulated seconds. Of these and [held], it keeps the one sent last. */
     fun arrive(now: Double, retention: Double) {
         var index = 0
         while (index < count) {
@@ -61,7 +61,7 @@ internal class Channel {
         }
     }
 
-    /** Drops the held message if its validity ended before [now]; `true` when it did. */
+    /** Drops the held message if it expired before [now], in simulated seconds. Returns whether it did. */
     fun expire(now: Double): Boolean {
         val export = held
         if (export == null || validUntil >= now) return false
@@ -70,7 +70,7 @@ internal class Channel {
         return true
     }
 
-    /** Releases all messages, when the link ends. */
+    /** Releases all messages. Call it when the link is removed. */
     fun close() {
         held?.release()
         for (index in 0 until count) exports[index]?.release()

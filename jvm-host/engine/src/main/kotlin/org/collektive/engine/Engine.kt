@@ -4,13 +4,12 @@ import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 
 /**
- * Nodes, links and their rounds: one simulation.
+ * One simulation: nodes, links and their rounds.
  *
- * One thread at a time calls it; rounds run on threads of its own. In steady state a tick allocates nothing but what programs
- * allocate.
+ * Call it from one thread at a time; rounds run on the engine's own threads. In steady state the engine allocates nothing per tick.
  */
 public class Engine(private val settings: EngineSettings, private val runtimes: DeviceRuntimes) : AutoCloseable {
-    // Declared before `nodes`, so that collectors find the nodes in this order.
+    // Declared before `nodes`, so that garbage collectors reach the nodes in this order.
     private val order = BreadthFirst()
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
@@ -37,7 +36,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     public var linkCount: Int = 0
         private set
 
-    /** Announces a tick, so that threads wake up meanwhile. */
+    /** Announces a tick, so that the threads wake up while its frame is prepared. */
     public fun wake() {
         pool.wake()
     }
@@ -45,13 +44,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     /**
      * Applies the changes of [tick], then runs one round of each due node.
      *
-     * A round that throws costs its node this round only: state and messages stay those of its last good round.
+     * A round that throws fails alone: its node keeps the state and messages of its last successful round.
      *
-     * @param data called on the threads that run rounds.
-     * @param deadline in terms of `System.nanoTime()`.
-     * @return valid until the next call.
-     * @throws TickRefused when the tick breaks a rule; then nothing has changed.
-     * @throws RoundsNotFinished when rounds still ran at the deadline; then this engine can only be closed.
+     * @param data source and sink of the rounds; called on the threads that run them.
+     * @param deadline limit for all rounds, on the clock of `System.nanoTime()`.
+     * @return the outcome, valid until the next call.
+     * @throws TickRefused when the tick breaks a rule; nothing has changed.
+     * @throws RoundsNotFinished when rounds still run at the deadline; from then on this engine can only be closed.
      */
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
@@ -68,7 +67,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         return result
     }
 
-    /** Ends the engine's threads: idle ones now, the others when their round ends. */
+    /** Ends the engine's threads: idle ones immediately, busy ones after their round. */
     override fun close() {
         pool.abandon()
     }
@@ -135,7 +134,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
-    /** Index of the due node whose round is number [turn]; in id order under the sequential schedule. */
+    /** Index of the due node that runs as number [turn]; in id order under the sequential schedule. */
     private fun indexOf(turn: Int) = if (isSequential) turn else turns[turn]
 
     private fun runRounds(data: RoundData, deadline: Long) {
@@ -144,7 +143,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         result.countFailures()
     }
 
-    /** Puts what was sent on the links. In an ideal network receivers read their senders' exports, and there is only counting to do. */
+    /** Moves sent messages to the links. In an ideal network receivers read exports directly, so this only counts. */
     private fun deliver(deadline: Long) {
         val counts = result.network
         if (settings.network.isIdeal) {
@@ -163,7 +162,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         for (index in 0 until result.size) if (result.failure(index) == null) counts.sent += result.node(index).outgoing.size
     }
 
-    @Suppress("UNUSED_PARAMETER") // The signature of a task.
+    @Suppress("UNUSED_PARAMETER") // RoundPool.Task fixes the signature.
     private fun deliverRange(transmitters: Array<Transmitter>, thread: RoundThread, worker: Int, begin: Int, end: Int) {
         for (index in begin until end) {
             if (pool.isClosed) return
@@ -199,14 +198,14 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             try {
                 result.answered(index, answer(node, data, worker, index))
             } catch (failure: Throwable) {
-                // Whatever a program throws, errors of the JVM included, is the failure of its round.
+                // Everything that a program throws fails its round only, errors of the JVM included.
                 result.failed(index, describe(node, failure))
             }
             thread.end()
         }
     }
 
-    /** Runs the round of [node], packs its answer, and then makes its state and messages the valid ones. */
+    /** Runs the round of [node] and packs its answer; then commits its state and messages. */
     private fun answer(node: Node, data: RoundData, worker: Int, index: Int): Any {
         if (isSequential) node.incoming.take(transmitters[worker])
         node.incoming.advance(transmitters[worker])
@@ -216,7 +215,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         return answer
     }
 
-    /** Runs on the thread of the round: a program's exceptions are its code too. */
+    /** Runs on the round's thread, because it may call code of the program's exceptions. */
     private fun describe(node: Node, failure: Throwable): String = try {
         node.program.describe(failure, node.runtime.placeOf(failure))
     } catch (_: Throwable) {
@@ -224,17 +223,17 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     private companion object {
-        // Small enough that no thread waits long for another's last range, large enough that taking one costs little.
+        // Small ranges balance the threads at the end of a tick; large ones cost fewer atomic operations.
         const val RANGES_PER_THREAD = 32
         const val MIN_RANGE = 16
         const val MAX_RANGE = 128
 
-        // Enough misses to overlap, few enough nodes to stay in the first-level cache.
+        // Enough nodes for their cache misses to overlap, few enough for all of them to stay in the L1 cache.
         const val TOUCHED_TOGETHER = 64
     }
 }
 
-/** A program's answer that cannot be packed; the message says why. */
+/** A program's answer cannot be packed; the message says why. */
 public class UnusableAnswer(message: String) : IllegalStateException(message)
 
 /** Rounds still ran at the deadline; [threads] is a dump of their stacks. */

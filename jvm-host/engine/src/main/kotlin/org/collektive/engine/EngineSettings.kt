@@ -1,22 +1,24 @@
 package org.collektive.engine
 
-/** In which order rounds of one tick see each other. */
+/** Which messages the rounds of a tick read. */
 public enum class Schedule {
-    /** All due nodes read what was sent before the tick; rounds run in parallel. */
+    /** All due nodes read the messages of earlier ticks; their rounds run in parallel. */
     LOCKSTEP,
 
-    /** Due nodes run in id order; each sees what earlier ones sent in the same tick. */
+    /** Due nodes run in id order; each reads the messages that earlier ones sent in the same tick. */
     SEQUENTIAL,
 
-    /** Nodes are due at times of their own, which the caller knows; those due in one tick see what was sent before it. */
+    /** The caller schedules each node individually; nodes due in one tick behave as under [LOCKSTEP]. */
     ASYNCHRONOUS,
 }
 
 /**
- * How an engine runs.
+ * Settings of an [Engine].
  *
- * @property seed of all random numbers.
- * @property threads that run rounds, 1..256; results do not depend on it.
+ * @property seed the seed of all random numbers.
+ * @property threads the number of threads that run rounds, 1..256; results do not depend on it.
+ * @property schedule which messages the rounds of a tick read.
+ * @property network the network model; ideal by default.
  */
 public class EngineSettings(
     public val seed: Long,

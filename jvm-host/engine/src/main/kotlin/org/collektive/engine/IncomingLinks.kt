@@ -3,14 +3,14 @@ package org.collektive.engine
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 
-/** The links into the node [receiver], ascending by the sender's id, with their values; channels only unless [isIdeal]. */
+/** The links into the node [receiver] with their values, in ascending order of the senders' ids. Without channels if [isIdeal]. */
 internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, private val clock: Clock) :
     Peers(),
     Inbox {
     private var lengths = FloatArray(keys.size)
     private var attenuations = FloatArray(keys.size)
 
-    // Tick at which each link was made.
+    // Tick at which each link was added.
     private var since = LongArray(keys.size)
 
     // Last validation that touched each link: see TickValidator.
@@ -26,13 +26,13 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     override fun wasKnown(index: Int): Boolean =
         since[index] <= if (channels == null) node(index).readable(clock.readsBefore)?.tick ?: 0 else channel(index).heldAt
 
-    /** Takes over what senders sent since the last time; nothing to do in an ideal network. No sender may run meanwhile. */
+    /** Takes what senders sent since the last call; a no-op in an ideal network. Call it only while no sender's round runs. */
     fun take(transmitter: Transmitter) {
         if (channels == null) return
         for (index in 0 until size) if (node(index).sentAt > channel(index).takenAt) take(index, transmitter)
     }
 
-    /** Lets arrive what is due; nothing to do in an ideal network. */
+    /** Receives the messages that are due; a no-op in an ideal network. */
     fun advance(transmitter: Transmitter) {
         if (channels == null) return
         for (index in 0 until size) transmitter.advance(channel(index))
@@ -55,7 +55,11 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
         marks[index] = mark
     }
 
-    /** Makes the link, or gives it new values; `true` when it is new. A new one brings what its sender sent last. [hint]: see [indexOf]. */
+    /**
+     * Adds or updates the link from [from]. Returns `true` when it is new; it then takes the sender's last message.
+     *
+     * @param hint see [indexOf].
+     */
     fun put(from: Node, length: Float, attenuation: Float, tick: Long, hint: Int, transmitter: Transmitter): Boolean {
         val found = indexOf(from.id, hint)
         val index = if (found >= 0) found else -found - 1

@@ -2,11 +2,11 @@ package org.collektive.engine
 
 import java.nio.ByteBuffer
 
-/** Ints without boxes; keeps its memory when cleared. */
+/** A growable list of unboxed ints. [clear] keeps the memory. */
 public class IntList {
     private var items = IntArray(16)
 
-    /** How many there are. */
+    /** The number of elements. */
     public var size: Int = 0
         private set
 
@@ -19,14 +19,14 @@ public class IntList {
         items[size++] = value
     }
 
-    /** Appends the [count] little-endian ints that lie in [source] from [position] on. */
+    /** Appends [count] ints from [source], starting at byte [position], in the buffer's byte order. */
     public fun addAll(source: ByteBuffer, position: Int, count: Int) {
         if (items.size - size < count) items = items.copyOf(maxOf(size + count, 2 * items.size))
         for (index in 0 until count) items[size + index] = source.getInt(position + index * Int.SIZE_BYTES)
         size += count
     }
 
-    /** Forgets all elements. */
+    /** Removes all elements. */
     public fun clear() {
         size = 0
     }

@@ -1,20 +1,20 @@
 package org.collektive.engine
 
-/** Links with their values, read in place. */
+/** A list of directed links with their values. */
 public interface Links {
     /** Number of links. */
     public val size: Int
 
-    /** The sender of link [index]. */
+    /** Id of the sender of link [index]. */
     public fun from(index: Int): Int
 
-    /** The receiver of link [index]. */
+    /** Id of the receiver of link [index]. */
     public fun to(index: Int): Int
 
-    /** Metres, 0 or greater. */
+    /** Length of link [index] in metres, 0 or greater. */
     public fun length(index: Int): Float
 
-    /** 0 (clear) or greater. */
+    /** Attenuation of link [index], 0 (clear) or greater. */
     public fun attenuation(index: Int): Float
 }
 
@@ -30,7 +30,7 @@ internal object NoLinks : Links {
     override fun attenuation(index: Int) = throw IndexOutOfBoundsException(index)
 }
 
-/** A list of links that grows. */
+/** A growable list of links. */
 public class LinkList : Links {
     private var from = IntArray(16)
     private var to = IntArray(16)
@@ -40,7 +40,7 @@ public class LinkList : Links {
     override var size: Int = 0
         private set
 
-    /** Appends the link by which [to] receives what [from] sends: [length] in metres, [attenuation] 0 (clear) or greater. */
+    /** Appends a link on which [to] receives what [from] sends: [length] in metres, [attenuation] 0 (clear) or greater. */
     public fun add(from: Int, to: Int, length: Float, attenuation: Float) {
         if (size == this.from.size) {
             this.from = this.from.copyOf(2 * size)
@@ -63,7 +63,7 @@ public class LinkList : Links {
 
     override fun attenuation(index: Int): Float = attenuations[index]
 
-    /** Forgets all links. */
+    /** Removes all links. */
     public fun clear() {
         size = 0
     }

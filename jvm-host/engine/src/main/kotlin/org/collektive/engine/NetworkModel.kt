@@ -1,18 +1,19 @@
 package org.collektive.engine
 
 /**
- * What happens to messages between sending and receiving; times in simulated seconds. The default is ideal: nothing is lost, and a
- * message can be read until the next one replaces it.
+ * Models loss, delay and expiry of messages. Times are in simulated seconds. The default is an ideal network: no message is lost, and
+ * each stays readable until the next one replaces it.
  *
- * A message is lost with the probability `loss + lossPerMetre * length + lossPerAttenuation * attenuation` of its link, at most 1. It
- * arrives [delay] seconds after its tick and up to [jitter] more; one that arrives after a later one is of no use.
+ * A message is lost with probability `loss + lossPerMetre * length + lossPerAttenuation * attenuation` of its link, at most 1. It arrives
+ * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a more recent one is ignored.
  *
- * @property loss 0..1.
- * @property lossPerMetre 0 or greater.
- * @property lossPerAttenuation 0 or greater.
- * @property delay 0 or greater.
- * @property jitter 0 or greater; evenly spread.
- * @property retention how long a link holds a message that arrived, greater than 0.
+ * @property loss base probability of loss, 0..1.
+ * @property lossPerMetre additional probability per metre of the link, 0 or greater.
+ * @property lossPerAttenuation additional probability per unit of attenuation, 0 or greater.
+ * @property delay least delay in seconds, 0 or greater.
+ * @property jitter greatest additional delay in seconds, 0 or greater; uniformly distributed.
+ * @property retention seconds for which a received message stays readable, greater than 0.
+ * @throws IllegalArgumentException when a value is out of range.
  */
 public class NetworkModel(
     public val loss: Double = 0.0,
@@ -31,7 +32,7 @@ public class NetworkModel(
         require(retention > 0.0) { "the network's retention must be greater than 0, but is $retention" }
     }
 
-    /** Whether every message arrives at once and stays. */
+    /** Whether every message arrives immediately and stays readable. */
     public val isIdeal: Boolean =
         loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 && retention.isInfinite()
 
@@ -40,21 +41,21 @@ public class NetworkModel(
     }
 }
 
-/** What the network did in one tick. */
+/** Counts of the network's events in one tick. */
 public class NetworkCounts {
-    /** Messages that were put on links, one for each link. */
+    /** Messages sent: one per link and export. */
     public var sent: Long = 0
         internal set
 
-    /** Those of [sent] that were lost. */
+    /** Messages of [sent] that were lost. */
     public var dropped: Long = 0
         internal set
 
-    /** Those of [sent] that arrive later than they would in an ideal network. */
+    /** Messages of [sent] that arrive later than in an ideal network. */
     public var delayed: Long = 0
         internal set
 
-    /** Messages that links held and whose retention ended. */
+    /** Received messages that expired. */
     public var expired: Long = 0
         internal set
 

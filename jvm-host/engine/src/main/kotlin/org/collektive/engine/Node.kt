@@ -5,7 +5,7 @@ import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.RoundProgram
 import kotlin.random.Random
 
-/** One node of a session: its links, its device, and its program, ready to run. */
+/** One node of a session: its links, its device and its program. */
 internal class Node(
     override val id: Int,
     val program: NodeProgram,
@@ -17,16 +17,16 @@ internal class Node(
 ) : Outbox(),
     RoundDevice,
     RoundProgram {
-    /** The one object that stands for [id] wherever ids are objects. */
+    /** [id], boxed once. */
     val boxedId: Any = id
     val incoming = IncomingLinks(id, isIdeal, clock)
     val outgoing = Peers()
 
-    /** Tick at which this node was last put in order, and its index among the due ones: see BreadthFirst. */
+    /** Tick at which this node was last put in order, and its index among the due nodes. Used by [BreadthFirst]. */
     var arrangedAt = 0L
     var dueIndex = -1
 
-    /** Last validation that removes this node: see TickValidator. */
+    /** Number of the last validation that removes this node. Used by [TickValidator]. */
     var mark = 0L
 
     override val random: Random = Philox(seed, id, purpose = 0)
@@ -39,13 +39,13 @@ internal class Node(
     override fun run(aggregate: Any, sensors: Any?): Any? = program.round(aggregate, sensors, this)
 }
 
-/** What all nodes of a session see alike; changes between rounds only. */
+/** State that all nodes of a session share. Changes only between rounds. */
 internal class Clock {
     var tick = 0L
     var time = 0.0
     var deltaTime = 0.0
     var globals: Any? = null
 
-    /** Rounds read what was sent before this tick: in sequence they see what others sent in their own. */
+    /** Rounds read exports from before this tick; under the sequential schedule it is the next tick, so that they see the current one's. */
     var readsBefore = 0L
 }

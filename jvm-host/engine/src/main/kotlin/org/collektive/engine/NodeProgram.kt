@@ -2,20 +2,24 @@ package org.collektive.engine
 
 import org.collektive.api.Device
 
-/** A program as the engine calls it. Threads: many at once. */
+/** A program that the engine runs. Called on many threads at once. */
 public interface NodeProgram {
-    /** Its name in errors. */
+    /** The program's name in errors. */
     public val name: String
 
-    /** Runs one round of [device] and returns its answer, never `null`; [aggregate] is the receiver that the device's runtime gives its programs. */
+    /**
+     * Runs one round of [device] and returns its answer; the engine counts `null` as a failure.
+     *
+     * @param aggregate the runtime's `Aggregate`, the receiver of the program.
+     */
     public fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any?
 
-    /** Text of the error [failure], which ended a round: what happened, then where; [place] when the runtime knows it. */
+    /** Describes [failure], which ended a round: what happened, then where. [place] is `null` when the runtime does not know it. */
     public fun describe(failure: Throwable, place: String?): String
 }
 
 /** A device during its round. */
 public interface RoundDevice : Device {
-    /** Number of values that the program has sent so far in this round. Walks all of them: not for every round. */
+    /** Number of values that the program has sent so far in this round. Walks all paths; avoid it in every round. */
     public val exports: Int
 }

@@ -3,32 +3,33 @@ package org.collektive.engine
 import org.collektive.spi.Export
 
 /**
- * What a node sent in its last two rounds that gave an answer.
+ * The exports of a node's last two successful rounds.
  *
- * Rounds of a tick read what was sent before the tick, even beside or after the sender's own round: they read one slot while that
- * round writes the other. So there is no second pass that publishes exports.
+ * Rounds of a tick read the export from before the tick, even while the sender's own round runs or after it: they read one slot, and that
+ * round writes the other. This saves a second pass that publishes exports.
  *
- * Threads: [send] by one at a time, [readable] by any at the same time; [last], [sentAt] and [sentTime] while no round runs.
+ * Threads: one thread at a time calls [send]; any thread may call [readable] meanwhile. Read [last], [sentAt] and [sentTime] only while
+ * no round runs.
  */
 internal abstract class Outbox {
-    // A superclass's fields come first in the object, side by side: neighbours read nothing else of a node.
+    // Neighbours read only these fields of a node. In a superclass, they are adjacent and share a cache line.
     private var even: Export? = null
     private var odd: Export? = null
 
     // Lowest bit: slot of the last export; other bits: its tick.
     private var stamp = 0L
 
-    /** Simulated seconds of the round that sent [last]; 0 before the first. */
+    /** Simulated time of the round that sent [last], in seconds; 0 before the first. */
     var sentTime = 0.0
         private set
 
-    /** What the last round that gave an answer sent; `null` before the first. */
+    /** The export of the last successful round; `null` before the first. */
     val last: Export? get() = at(stamp)
 
-    /** Tick of that round; 0 before the first. */
+    /** Tick of [last]; 0 before the first. */
     val sentAt: Long get() = stamp shr 1
 
-    /** Makes [export], sent in [tick], the last one. */
+    /** Makes [export] the [last] one; [time] is in simulated seconds. */
     fun send(export: Export, tick: Long, time: Double) {
         export.tick = tick
         sentTime = time
@@ -36,10 +37,10 @@ internal abstract class Outbox {
         stamp = 2 * tick + (stamp.inv() and 1)
     }
 
-    /** The last export from before [tick], which is the present tick or the next. */
+    /** The last export from before [tick], which must be the current tick or the next. */
     fun readable(tick: Long): Export? {
         val stamp = stamp
-        // Branchless: whether a neighbour has run already is unpredictable.
+        // Branchless, because a branch predictor cannot guess whether a neighbour has run.
         val isLater = 2 * tick - 1 - stamp ushr 63
         return at(stamp xor isLater)
     }

@@ -1,6 +1,6 @@
 package org.collektive.engine
 
-/** Nodes ascending by id. */
+/** A list of nodes in ascending order of their ids. */
 internal open class Peers {
     var keys = IntArray(INITIAL)
         private set
@@ -9,17 +9,17 @@ internal open class Peers {
     var size = 0
         private set
 
-    /** Index of the node [id], or `-(index where it would go) - 1`. */
+    /** Index of the node [id], or `-(insertion index) - 1` if there is none. */
     fun indexOf(id: Int): Int {
-        // Ids often come in order, and then belong at the end.
+        // Nodes are often added in ascending order.
         if (size == 0 || keys[size - 1] < id) return -size - 1
-        // Ids are often dense, and then each stands as far from the first as it is greater.
+        // Ids are often consecutive; then the index is the difference from the first id.
         val guess = id - keys[0]
         if (guess in 0 until size && keys[guess] == id) return guess
         return keys.binarySearch(id, 0, size)
     }
 
-    /** The same as [indexOf], found at once where [hint], the answer of a while ago, still holds. */
+    /** Same as [indexOf], in constant time while [hint], an earlier result, is still correct. */
     fun indexOf(id: Int, hint: Int): Int {
         val at = if (hint < 0) -hint - 1 else hint
         val holds = if (hint < 0) {
@@ -37,10 +37,10 @@ internal open class Peers {
         return if (index < 0) null else nodes[index]
     }
 
-    /** Enters [node], which is not there yet. */
+    /** Inserts [node], which must not be in the list. */
     fun insert(node: Node) = insertAt(-indexOf(node.id) - 1, node)
 
-    /** Enters [node] where it belongs. */
+    /** Inserts [node] at [index], which must keep the order. */
     protected fun insertAt(index: Int, node: Node) {
         reserve(size + 1)
         keys.copyInto(keys, index + 1, index, size)
@@ -58,7 +58,7 @@ internal open class Peers {
 
     fun remove(node: Node) = removeAt(indexOf(node.id))
 
-    /** Enters all of [sorted] (ascending, none of them there yet) in one go. */
+    /** Inserts all of [sorted] in one pass; they must be ascending and not in the list. */
     fun insertAll(sorted: List<Node>) {
         reserve(size + sorted.size)
         var old = size - 1

@@ -3,12 +3,12 @@ package org.collektive.engine
 import kotlin.random.Random
 
 /**
- * A stream of random numbers from Philox4x32-10 (Salmon et al., SC'11), the same in C#.
+ * A random stream of Philox4x32-10 (Salmon et al., SC'11). The C# side implements the same one.
  *
- * The key is [seed]; the counter counts blocks of four words, beside [node] and [purpose], so that streams never overlap. Words are
- * used in order. Not for several threads at once.
+ * The key is [seed]. The counter consists of the number of the block of four words, [node] and [purpose], so streams never overlap. Words
+ * are used in order. Not thread-safe.
  *
- * @param purpose 0 for [org.collektive.api.Device.random]; see `docs/determinism.md`.
+ * @param purpose the stream's purpose, 0 for [org.collektive.api.Device.random]; `docs/determinism.md` lists them.
  */
 public class Philox(private val seed: Long, private val node: Int, private val purpose: Int) : Random() {
     private var nextBlock = 0L
@@ -31,10 +31,10 @@ public class Philox(private val seed: Long, private val node: Int, private val p
 
     override fun nextBits(bitCount: Int): Int = if (bitCount == 0) 0 else nextInt() ushr (32 - bitCount)
 
-    /** Two words, the first one high. */
+    /** The next two words; the first is the high half. */
     override fun nextLong(): Long = nextInt().toLong() shl 32 or (nextInt().toLong() and WORD)
 
-    /** 0 (included) to 1 (excluded): the upper 53 bits of [nextLong]. */
+    /** Uniform in [0, 1): the upper 53 bits of [nextLong]. */
     override fun nextDouble(): Double = (nextLong() ushr 11) * TWO_TO_MINUS_53
 
     public companion object {
@@ -46,7 +46,7 @@ public class Philox(private val seed: Long, private val node: Int, private val p
         private const val WEYL_0 = -0x61c88647
         private const val WEYL_1 = -0x4498517b
 
-        /** Turns the four words of [counter] into random ones, in place. */
+        /** Replaces the four words of [counter] by random ones. */
         public fun block(counter: IntArray, key0: Int, key1: Int) {
             var c0 = counter[0]
             var c1 = counter[1]

@@ -1,14 +1,14 @@
 package org.collektive.engine
 
-/** What flows into and out of the rounds of a tick; opaque to the engine. [worker] is 0 until [EngineSettings.threads]. */
+/** Input and output of the rounds of a tick, opaque to the engine. `worker` is a thread's index, 0 until [EngineSettings.threads]. */
 public interface RoundData {
-    /** The sensors of the node `due[index]`, for use on the thread [worker] until its next call. */
+    /** The sensors of the node `due[index]`. Valid on the thread [worker] until that thread's next call. */
     public fun sensors(worker: Int, index: Int): Any?
 
     /**
      * Packs the [answer] of the node `due[index]` on the thread [worker].
      *
-     * @return why it cannot be packed, which makes the round a failed one; `null` when it was.
+     * @return `null` on success, otherwise the reason, which fails the round.
      */
     public fun pack(worker: Int, index: Int, answer: Any): String?
 }

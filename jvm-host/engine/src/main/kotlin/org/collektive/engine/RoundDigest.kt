@@ -5,10 +5,12 @@ import java.nio.ByteOrder
 import java.security.MessageDigest
 
 /**
- * The chained proof of what a session computed: `d[0]` = 32 zero bytes; `d[k]` = SHA-256 of `d[k-1]`, the tick (u64), then for each due
- * node in id order its id (i32), the length of its answer (i32; -1 without one) and the answer's bytes. Little-endian.
+ * The chained digest of a session's answers: equal digests mean identical answers.
  *
- * Called [begin], then [answer] or [failure] for each node, or [answers] for several, then [end]. Allocates nothing.
+ * `d[0]` is 32 zero bytes. `d[k]` is the SHA-256 of `d[k-1]` and the tick (u64), then for each due node in id order its id (i32), the
+ * length of its answer in bytes (i32; -1 if the round failed) and the answer. All integers are little-endian.
+ *
+ * Call [begin], then [answer] or [failure] for each node, or [answers] for several, then [end]. Allocates nothing. Not thread-safe.
  */
 public class RoundDigest {
     private val sha256 = MessageDigest.getInstance("SHA-256")
@@ -25,7 +27,7 @@ public class RoundDigest {
         staging.put(chain).putLong(tick)
     }
 
-    /** Adds the answer of [node]: the bytes [offset] until [offset] + [length] of [buffer]. */
+    /** Adds the answer of [node]: [length] bytes of [buffer] from [offset] on. */
     public fun answer(node: Int, buffer: ByteBuffer, offset: Int, length: Int) {
         header(node, length)
         var done = 0
@@ -38,13 +40,13 @@ public class RoundDigest {
         }
     }
 
-    /** Adds answers that lie in [entries] from [begin] until [end] as the digest takes them: each after its [putHeader]. */
+    /** Adds the answers in the bytes [begin] until [end] of [entries], each preceded by its [putHeader]. */
     public fun answers(entries: ByteArray, begin: Int, end: Int) {
         flush()
         sha256.update(entries, begin, end - begin)
     }
 
-    /** Notes that [node] gave no answer. */
+    /** Adds [node] without an answer: its round failed. */
     public fun failure(node: Int) {
         header(node, -1)
     }
@@ -67,12 +69,12 @@ public class RoundDigest {
     }
 
     public companion object {
-        /** Before the bytes of each answer. */
+        /** Size of the header that precedes each answer. */
         public const val HEADER_BYTES: Int = 2 * Int.SIZE_BYTES
         private const val LENGTH = 32
         private const val STAGING_BYTES = 8192
 
-        /** Writes what comes before the [length] bytes of the answer of [node] to [entries], little-endian, at [offset]. */
+        /** Writes the header of the answer of [node], which has [length] bytes, to [entries] at [offset]; [entries] is little-endian. */
         public fun putHeader(entries: ByteBuffer, offset: Int, node: Int, length: Int) {
             entries.putInt(offset, node).putInt(offset + Int.SIZE_BYTES, length)
         }

@@ -5,13 +5,13 @@ import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
 
 /**
- * The threads of one session. One thread at a time calls [run], which allocates nothing.
+ * The threads of one session. Call [run] from one thread at a time; it allocates nothing.
  *
- * Threads take work in ranges of indices. Which thread takes which depends on timing, so the results of a task must not depend on
- * the order.
+ * Threads take work in ranges of indices. Which thread takes which range depends on timing, so a task's results must not depend on the
+ * order.
  */
 internal class RoundPool(private val size: Int) {
-    /** What the threads do with [input]: all of `begin until end`, on the thread [worker]. */
+    /** Processes the indices `begin until end` of [input] on the thread [worker]. */
     fun interface Task<in T> {
         fun run(input: T, thread: RoundThread, worker: Int, begin: Int, end: Int)
     }
@@ -27,14 +27,14 @@ internal class RoundPool(private val size: Int) {
     private var range = 1
     private var needed = 0
 
-    // What a task threw: a defect of the engine, since the rounds' own exceptions are caught inside.
+    // What a task threw. This is a defect of the engine, because tasks catch the exceptions of programs.
     @Volatile
     private var failure: Throwable? = null
 
     @Volatile
     private var caller: Thread? = null
 
-    // Idle threads spin until then; in terms of System.nanoTime().
+    // Idle threads spin until this time of System.nanoTime().
     @Volatile
     private var awakeUntil = System.nanoTime()
 
@@ -46,20 +46,20 @@ internal class RoundPool(private val size: Int) {
         for (worker in workers) worker.thread.start()
     }
 
-    /** Wakes the threads that the last work needed; they spin until the next comes. */
+    /** Wakes the threads that the last [run] needed; they spin for up to [WATCH_NANOS] until the next one. */
     fun wake() {
         awakeUntil = System.nanoTime() + WATCH_NANOS
         for (index in 0 until needed) LockSupport.unpark(workers[index].thread)
     }
 
     /**
-     * Runs [task] on [input] over `0 until count` in ranges of [range], and waits for the end.
+     * Runs [task] on [input] over `0 until count` in ranges of [range] indices, and waits for the end.
      *
-     * @return `false` when `System.nanoTime()` passed [deadline] first; then the pool must be abandoned.
+     * @return `false` when `System.nanoTime()` passed [deadline] first; the caller must then [abandon] the pool.
      */
     fun <T> run(task: Task<T>, input: T, count: Int, range: Int, deadline: Long): Boolean {
         if (count == 0) return true
-        @Suppress("UNCHECKED_CAST") // It only ever gets this input.
+        @Suppress("UNCHECKED_CAST") // The task gets no other input.
         this.task = task as Task<Any?>
         this.input = input
         this.count = count
@@ -80,7 +80,7 @@ internal class RoundPool(private val size: Int) {
         return true
     }
 
-    /** Ends idle threads now, and interrupts busy ones, which end after their round. */
+    /** Ends idle threads, and interrupts busy ones, which end after their round. */
     fun abandon() {
         isClosed = true
         for (worker in workers) worker.thread.interrupt()
@@ -97,7 +97,7 @@ internal class RoundPool(private val size: Int) {
         }
     }
 
-    /** Works on the thread's own share, then on the others'. For one count the shares stay the same, so a thread's nodes stay in its caches. */
+    /** Works on the thread's own share, then on the others'. Shares depend on the count alone, so a thread's nodes stay in its cache. */
     private fun work(worker: Worker) {
         for (turn in 0 until needed) {
             val share = (worker.index + turn) % needed
@@ -143,7 +143,7 @@ internal class RoundPool(private val size: Int) {
     }
 
     private companion object {
-        // Padding against false sharing: in ints.
+        // Padding against false sharing, in ints.
         const val APART = 16
         const val WATCH_NANOS = 500_000L
     }

@@ -2,7 +2,7 @@ package org.collektive.engine
 
 import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 
-/** A thread that runs users' rounds. It has a stack of its own: endless recursion ends in an error and harms nothing else. */
+/** A thread that runs users' rounds. Unbounded recursion in a program overflows this thread's stack and fails that round only. */
 public class RoundThread internal constructor(name: String, task: Runnable) : Thread(null, task, name, STACK_BYTES) {
     init {
         isDaemon = true
@@ -11,28 +11,28 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
     @Volatile
     private var running = -1
 
-    /** Id of the node whose round runs here, or -1. Other threads may see it late: a round does not pay for a full fence. */
+    /** Id of the node whose round runs on this thread, or -1. Other threads may read a stale value, since no fence is paid per round. */
     public val node: Int get() = running
 
     /** Number of rounds begun on this thread. */
     public var rounds: Long = 0
         private set
 
-    /** Name of the program of that round; on this thread only. */
+    /** Name of the program whose round runs or ran last. Read it on this thread only. */
     public var program: String = ""
         private set
 
-    /** Sum of what [BreadthFirst.touch] read, kept so that the JIT does not drop the reads. */
+    /** Sum of the results of [BreadthFirst.touch], stored so that the JIT does not remove the reads. */
     internal var touched = 0
 
-    /** The round of [next] begins here. */
+    /** Marks the begin of the round of [next]. */
     internal fun begin(next: Node) {
         program = next.program.name
         RUNNING.lazySet(this, next.id)
         rounds++
     }
 
-    /** The round is over. */
+    /** Marks the end of the round. */
     internal fun end() = RUNNING.lazySet(this, -1)
 
     override fun run() {
@@ -44,7 +44,7 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
         private const val STACK_BYTES = 4L shl 20
         private val RUNNING = AtomicIntegerFieldUpdater.newUpdater(RoundThread::class.java, "running")
 
-        /** Whose code runs on the calling thread, for the log: a round's, or that of a thread which a round made; else `null`. */
+        /** The round, for the log, to which the calling thread belongs: it runs it, or a round started it. `null` for other threads. */
         public fun origin(): String? {
             val thread = Thread.currentThread()
             if (thread is RoundThread) return if (thread.node < 0) null else "node ${thread.node}, program ${thread.program}"
@@ -52,7 +52,7 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
         }
     }
 
-    /** Passed on from thread to thread: the round in which the first of them was made. */
+    /** The round that started a thread, directly or through other threads. */
     private object MakerOfThread : InheritableThreadLocal<String?>() {
         override fun childValue(parentValue: String?): String? = if (Thread.currentThread() is RoundThread) origin() else parentValue
     }

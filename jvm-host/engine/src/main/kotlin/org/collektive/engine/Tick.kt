@@ -3,39 +3,39 @@ package org.collektive.engine
 import org.collektive.api.Parameters
 
 /**
- * What one tick asks of the engine; filled, used by [Engine.step], and cleared for the next one.
+ * The input of one tick. Fill it, pass it to [Engine.step], then [clear] and reuse it.
  *
- * Changes apply in the order of the properties, before any round; removing a node removes its links.
+ * The engine applies the changes in the order of the properties, before any round. Removing a node removes its links.
  */
 public class Tick {
-    /** 1 for a session's first tick, then one more each time. */
+    /** The tick's number: 1 for a session's first tick, then consecutive. */
     public var number: Long = 0
 
-    /** Simulated seconds at this tick. */
+    /** Simulated time of this tick, in seconds. */
     public var time: Double = 0.0
 
-    /** Simulated seconds since the tick before. */
+    /** Simulated seconds since the previous tick, 0 or greater. */
     public var deltaTime: Double = 0.0
 
-    /** Ids of nodes that leave. */
+    /** Ids of the nodes to remove. */
     public val nodesRemoved: IntList = IntList()
 
-    /** Nodes that come. */
+    /** Nodes to add. */
     public val nodesAdded: MutableList<NewNode> = ArrayList()
 
-    /** Links that end: sender, receiver, sender, receiver... */
+    /** Links to remove, as pairs of ids: sender, receiver. */
     public val linksRemoved: IntList = IntList()
 
-    /** Links that begin or get new values; must stay as they are until the tick is over. */
+    /** Links to add or update. Must not change until [Engine.step] returns. */
     public var links: Links = NoLinks
 
-    /** Nodes that run a round, ascending. */
+    /** Ids of the nodes that run a round, ascending. */
     public val due: IntList = IntList()
 
-    /** The scene's global data from this tick on; `null`: as before. */
+    /** The scene's global data from this tick on; `null` leaves them unchanged. */
     public var globals: Any? = null
 
-    /** Forgets everything, and keeps the memory. */
+    /** Resets everything except [number], [time] and [deltaTime]; keeps the memory. */
     public fun clear() {
         nodesRemoved.clear()
         nodesAdded.clear()
@@ -46,8 +46,8 @@ public class Tick {
     }
 }
 
-/** A node that comes: [id] 0 or greater and free, with the program that it runs. */
+/** A node to add; [id] must be unused and 0 or greater. */
 public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
 
-/** A tick that breaks a rule and was refused before it changed anything; [message] names the tick, the id and the value. */
+/** A tick breaks a rule. Nothing has changed; [message] names the tick, the id and the value. */
 public class TickRefused(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

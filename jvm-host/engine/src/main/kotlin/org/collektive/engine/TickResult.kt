@@ -1,24 +1,24 @@
 package org.collektive.engine
 
-/** What the rounds of one tick gave; belongs to the engine and changes with the next tick. */
+/** The outcome of one tick. The engine owns it and reuses it for the next tick. */
 public class TickResult internal constructor() {
     private var nodes = arrayOfNulls<Node>(0)
     private var answers = arrayOfNulls<Any?>(0)
     private var failures = arrayOfNulls<String>(0)
 
-    /** How many nodes were due. */
+    /** Number of due nodes. */
     public var size: Int = 0
         private set
 
-    /** Nanoseconds that the rounds took. */
+    /** Duration of all rounds and of message delivery, in nanoseconds. */
     public var roundNanos: Long = 0
         internal set
 
-    /** How many rounds failed. */
+    /** Number of rounds that failed. */
     public var failureCount: Int = 0
         private set
 
-    /** What the network did. */
+    /** Counts of the network's events. */
     public val network: NetworkCounts = NetworkCounts()
 
     /** Id of the due node [index]. */
@@ -27,10 +27,10 @@ public class TickResult internal constructor() {
     /** Program of the due node [index]. */
     public fun program(index: Int): NodeProgram = node(index).program
 
-    /** What the round of the due node [index] returned; `null` when it failed. */
+    /** The result of the round of the due node [index]; `null` when it failed. */
     public fun answer(index: Int): Any? = answers[index]
 
-    /** Why the round of the due node [index] failed; `null` when it did not. */
+    /** The reason why the round of the due node [index] failed; `null` on success. */
     public fun failure(index: Int): String? = failures[index]
 
     internal fun node(index: Int): Node = nodes[index] ?: error("no due node $index of $size")

@@ -1,9 +1,9 @@
 package org.collektive.engine
 
 /**
- * Checks a whole tick against the nodes and links as they are, and changes neither.
+ * Checks a whole tick against the current nodes and links, without changing them.
  *
- * What a tick takes away is marked with the number of this validation, so that marks of a refused tick mean nothing to the next.
+ * Removed and updated objects are marked with the number of the validation, so the marks of a refused tick do not affect the next.
  */
 internal class TickValidator(private val nodes: Peers) {
     private var validation = 0L
@@ -16,10 +16,10 @@ internal class TickValidator(private val nodes: Peers) {
     private var newLinkCount = 0
     private var places = IntArray(0)
 
-    /** Where link [index] of the tick that was last checked stood, or would go, among those into its receiver: a hint for [Peers.indexOf]. */
+    /** Index of link [index] of the last tick checked among its receiver's incoming links: a hint for [Peers.indexOf]. */
     fun place(index: Int): Int = places[index]
 
-    /** @throws TickRefused at the first rule broken. */
+    /** Checks [tick]. @throws TickRefused at the first rule that it breaks. */
     fun check(tick: Tick, expectedNumber: Long) {
         validation++
         checkTime(tick, expectedNumber)
@@ -30,7 +30,7 @@ internal class TickValidator(private val nodes: Peers) {
         checkDue(tick)
     }
 
-    /** Whether the tick that was last checked removes [node]. */
+    /** Whether the last tick checked removes [node]. */
     fun removes(node: Node): Boolean = node.mark == removed
 
     private fun checkTime(tick: Tick, expectedNumber: Long) {
@@ -127,7 +127,7 @@ internal class TickValidator(private val nodes: Peers) {
             val id = tick.due[index]
             if (id <= last) refuse(tick, "due node $id comes after $last; due ids must ascend without repetition")
             last = id
-            // Both ascend, so one walk finds all, and without a look at the nodes themselves.
+            // Both lists ascend, so one walk over the keys finds all, without a cache miss per node.
             while (at < nodes.size && nodes.keys[at] < id) at++
             val isStaying = at < nodes.size && nodes.keys[at] == id && !(anyRemoved && removes(nodes.node(at)))
             if (!isStaying && !isAdded(id)) refuse(tick, "due node $id: there is no such node")

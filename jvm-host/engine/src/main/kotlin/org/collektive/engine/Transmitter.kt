@@ -2,18 +2,18 @@ package org.collektive.engine
 
 
 /**
- * One thread's share of the network: draws, and counts what happens.
+ * Decides loss and delay of messages on one thread, and counts them.
  *
- * What is drawn for a message depends on the seed, the tick of its sending, and the ids of its sender and receiver alone.
+ * The decision depends only on the seed, the tick of sending, and the ids of sender and receiver.
  */
 internal class Transmitter(private val model: NetworkModel, private val seed: Long, private val clock: Clock) {
     val counts = NetworkCounts()
     private val words = IntArray(4)
 
-    /** Times that differ by less are the same: sums of ticks are not exact. */
+    /** Seconds by which times may differ and still count as equal, because sums of tick lengths are inexact. */
     private val tolerance get() = clock.deltaTime * TOLERANCE
 
-    /** Puts what [from] sent last on the [channel] of its link to the node [to]. */
+    /** Sends the last message of [from] on the [channel] of its link to the node [to]. */
     fun send(from: Node, to: Int, length: Float, attenuation: Float, channel: Channel) {
         val export = from.last ?: return
         counts.sent++
@@ -32,7 +32,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         channel.send(export, from.sentAt, from.sentTime + delay)
     }
 
-    /** Lets arrive on [channel] what is due, and forgets what is too old. */
+    /** Receives the messages due on [channel], and drops an expired one. */
     fun advance(channel: Channel) {
         channel.arrive(clock.time + tolerance, model.retention)
         if (channel.expire(clock.time - tolerance)) counts.expired++
@@ -42,7 +42,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         ((high.toLong() shl 32 or (low.toLong() and 0xFFFF_FFFFL)) ushr 11) * (1.0 / (1L shl 53))
 
     private companion object {
-        /** Of the random numbers: see `docs/determinism.md`. */
+        /** Purpose of the random numbers, see `docs/determinism.md`. */
         const val PURPOSE = 4
         const val TOLERANCE = 1e-3
     }
