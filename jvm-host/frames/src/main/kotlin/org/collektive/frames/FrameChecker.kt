@@ -3,33 +3,33 @@ package org.collektive.frames
 import java.nio.ByteBuffer
 
 /**
- * Checks that a table, and all that it leads to, can be read: every vtable, field, vector and string lies inside the frame,
- * strings are UTF-8, required fields are there. Reading what passed never throws.
+ * Verifies a table and everything that it references: every vtable, field, vector and string lies inside the frame, strings are
+ * UTF-8, required fields are present. Reading a verified table never throws.
  *
- * Offsets must point forward, and no byte may belong to two objects (strings excepted, where the [policy] says so), so the work is
- * bounded by the frame's size. One thread at a time; allocates only the message of an error.
+ * Offsets must point forward, and no byte may belong to two objects, except to shared strings where the [policy] allows them. The work is
+ * therefore bounded by the frame's size. Confined to one thread at a time; allocates only the message of an error.
  */
 public class FrameChecker(private val policy: FramePolicy) {
     private var frame: ByteBuffer = ByteBuffer.allocate(0)
     private var start = 0L
     private var end = 0L
 
-    /** Bytes that no object has claimed so far. */
+    /** Bytes that belong to no object so far. Negative if objects overlap. */
     private var unclaimed = 0L
 
-    // Tables known by their vtables; one that falls on another's place takes it.
+    // Verified vtables: a direct-mapped cache.
     private val knownTables = Array(KNOWN) { KnownTable() }
 
-    // The way from the outermost table to the field being checked, for messages; an index of -1 is none.
+    // The path from the outermost table to the field being checked, for messages. An index of -1: the field is no vector.
     private val fields = arrayOfNulls<FieldLayout>(MAX_DEPTH)
     private val indices = IntArray(MAX_DEPTH)
     private var depth = 0
 
     /**
-     * Checks [frame], what lies between the buffer's position and limit, whose root has [layout].
+     * Verifies the frame between position and limit of [frame]; its root table has [layout].
      *
-     * @return the position of the root table.
-     * @throws MalformedFrameException naming the field that is wrong.
+     * @return the position of the root table, in bytes from the start of the buffer.
+     * @throws MalformedFrameException when it is malformed; the message names the field.
      */
     public fun checkRoot(frame: ByteBuffer, layout: TableLayout): Int {
         begin(frame)
@@ -38,7 +38,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         return root.toInt()
     }
 
-    /** Like [checkRoot], for the table at [position]. */
+    /** Like [checkRoot], for the table at [position], in bytes from the start of the buffer. */
     public fun check(frame: ByteBuffer, position: Int, layout: TableLayout) {
         begin(frame)
         table(position.toLong(), layout)
@@ -66,7 +66,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         }
     }
 
-    /** What is left to check of a table that shares its vtable with one that passed: where its strings and vectors are. */
+    /** Checks the strings and vectors of a table whose vtable is verified. */
     private fun references(position: Long, known: KnownTable) {
         if (known.count == 0) return
         depth++
@@ -122,7 +122,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         }
     }
 
-    /** Where the offset at [place] leads. */
+    /** The position to which the offset at [place] leads. */
     private fun target(place: Long): Long {
         inside(place, OFFSET_BYTES.toLong())
         val offset = frame.getInt(place.toInt())
@@ -130,7 +130,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         return place + offset
     }
 
-    /** Checks a vector of elements that need no look of their own; the number of its elements. */
+    /** Checks a vector without its elements. Returns the number of elements. */
     private fun vector(position: Long, elementBytes: Int): Int {
         val count = count(position)
         claim(position, OFFSET_BYTES + count.toLong() * elementBytes)
@@ -173,7 +173,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         return true
     }
 
-    /** Refuses overlong forms, surrogates and what lies beyond U+10FFFF. */
+    /** Rejects overlong forms, surrogates and code points beyond U+10FFFF. */
     private fun isShortestForm(first: Int, second: Int): Boolean = when (first) {
         0xE0 -> second >= 0xA0
         0xED -> second < 0xA0
@@ -202,7 +202,7 @@ public class FrameChecker(private val policy: FramePolicy) {
     private companion object {
         const val MAX_DEPTH = 64
 
-        /** A power of two. */
+        /** Must be a power of two. */
         const val KNOWN = 8
         const val VTABLE_HEADER_BYTES = 4L
         const val TABLE_SIZE_ENTRY = 2

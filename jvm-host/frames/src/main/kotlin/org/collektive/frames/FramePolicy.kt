@@ -1,14 +1,14 @@
 package org.collektive.frames
 
 /**
- * Rules of [FrameChecker] in which frames and the user data in them differ.
+ * The rules of [FrameChecker] that differ between frames and the user data inside them.
  *
- * @property sharesStrings whether several offsets may lead to one string; else no byte belongs to two objects.
- * @property maxStringBytes longest string, in bytes of UTF-8.
- * @property checksTableSize whether the table size in a vtable must hold all fields of its table. Reading does not depend on it.
+ * @property sharesStrings whether several offsets may lead to the same string.
+ * @property maxStringBytes greatest length of a string, in bytes of UTF-8.
+ * @property checksTableSize whether the table size in a vtable must cover all fields of its table. Readers do not use that size.
  */
 public enum class FramePolicy(internal val sharesStrings: Boolean, internal val maxStringBytes: Int, internal val checksTableSize: Boolean) {
-    /** Frames of `frame.fbs`: names of programs and parameters repeat, and are short. */
+    /** Frames of `frame.fbs`. Names of programs and parameters are repeated and short. */
     FRAME(sharesStrings = true, maxStringBytes = 0xFFFF, checksTableSize = true),
 
     /** The tables `Sensors`, `Actuators` and `GlobalData` of a user's schema. */

@@ -4,9 +4,9 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
 /**
- * The frame in the bytes [offset] until [offset] + [length] of [slot]: makes them the slot's position and limit, little-endian.
+ * Sets position and limit of [slot] to the frame of [length] bytes at [offset], and its order to little-endian. Returns [slot].
  *
- * @throws MalformedFrameException when they do not lie inside the slot.
+ * @throws MalformedFrameException when the frame does not lie inside the slot.
  */
 public fun frameIn(slot: ByteBuffer, offset: Int, length: Int): ByteBuffer {
     if (offset < 0 || length < OFFSET_BYTES || offset.toLong() + length > slot.capacity()) {
@@ -16,8 +16,8 @@ public fun frameIn(slot: ByteBuffer, offset: Int, length: Int): ByteBuffer {
 }
 
 /**
- * Where the table or vector lies to which the field at [entry] (bytes into the vtable) of [table] leads; 0 when the field is absent.
- * For tables of [frame] that passed a check.
+ * Position of the table or vector that a field of [table] references; 0 when the field is absent. [entry] is the field's place in the
+ * vtable, in bytes. The table must have been verified by [FrameChecker].
  */
 public fun target(frame: ByteBuffer, table: Int, entry: Int): Int {
     val vtable = table - frame.getInt(table)

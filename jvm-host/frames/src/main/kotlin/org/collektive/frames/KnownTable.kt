@@ -3,8 +3,8 @@ package org.collektive.frames
 import java.nio.ByteBuffer
 
 /**
- * What the vtable of a table that passed a check says. The tables of a tick share a few vtables, so that little is left to check of the next
- * one. For flat layouts only, whose check never comes back to here.
+ * A verified vtable. The tables of a tick share a few vtables, so most tables need only their strings and vectors checked. For flat
+ * layouts only: checking one never re-enters this cache.
  */
 internal class KnownTable {
     private var layout: TableLayout? = null
@@ -16,7 +16,7 @@ internal class KnownTable {
     var reach = 0L
         private set
 
-    /** Fields that lead somewhere. */
+    /** Number of fields that are offsets. */
     var count = 0
         private set
 
@@ -24,10 +24,10 @@ internal class KnownTable {
 
     fun field(index: Int): FieldLayout = fields[index] ?: error("no field $index of $count")
 
-    /** Where the field [index] stands in such a table. */
+    /** Offset of the field [index] from the start of a table, in bytes. */
     fun place(index: Int): Int = places[index]
 
-    /** Nothing is known of another frame. */
+    /** Invalidates this entry. Call it for each new frame. */
     fun forget() {
         layout = null
     }

@@ -1,4 +1,4 @@
 package org.collektive.frames
 
-/** A frame, or user data in one, that cannot be read; [message] names the field. Nothing of it was used. */
+/** A frame, or the user data in one, is malformed; [message] names the field. Nothing of the frame was used. */
 public class MalformedFrameException(message: String) : RuntimeException(message)

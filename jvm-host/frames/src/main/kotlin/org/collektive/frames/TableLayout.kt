@@ -1,37 +1,37 @@
 package org.collektive.frames
 
 /**
- * Where the fields of one table lie, for [FrameChecker]. Made by generated code: each function adds a field and returns this
- * layout; `entry` is the field's place in the vtable, in bytes. Immutable once made.
+ * The fields of one table, for [FrameChecker]. Generated code builds it: each function adds a field and returns this layout. `entry` is
+ * the field's place in the vtable, in bytes. Do not change it once it is in use.
  */
 public class TableLayout {
     internal val fields: MutableList<FieldLayout> = ArrayList()
 
-    /** Whether it leads to no further tables. */
+    /** Whether no field references a table. */
     internal var isFlat: Boolean = true
         private set
 
-    /** A scalar, an enum or a struct of [bytes] bytes. */
+    /** Adds a scalar, an enum or a struct of [bytes] bytes. */
     public fun inline(name: String, entry: Int, bytes: Int, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.INLINE, bytes, null, required))
 
-    /** A string. */
+    /** Adds a string. */
     public fun string(name: String, entry: Int, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.STRING, OFFSET_BYTES, null, required))
 
-    /** A table. */
+    /** Adds a table. */
     public fun table(name: String, entry: Int, layout: TableLayout, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.TABLE, OFFSET_BYTES, layout, required))
 
-    /** A vector of scalars, enums or structs of [bytes] bytes each. */
+    /** Adds a vector of scalars, enums or structs of [bytes] bytes each. */
     public fun vector(name: String, entry: Int, bytes: Int, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.VECTOR, bytes, null, required))
 
-    /** A vector of strings. */
+    /** Adds a vector of strings. */
     public fun strings(name: String, entry: Int, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.STRINGS, OFFSET_BYTES, null, required))
 
-    /** A vector of tables. */
+    /** Adds a vector of tables. */
     public fun tables(name: String, entry: Int, layout: TableLayout, required: Boolean): TableLayout =
         add(FieldLayout(name, entry, FieldKind.TABLES, OFFSET_BYTES, layout, required))
 
@@ -44,7 +44,7 @@ public class TableLayout {
 
 internal enum class FieldKind { INLINE, STRING, TABLE, VECTOR, STRINGS, TABLES }
 
-/** [bytes]: of the value itself, or of one element of a vector. [layout]: of the table or tables it leads to. */
+/** A field: [bytes] is the size of its value or of one vector element, [layout] that of the table or tables it references. */
 internal class FieldLayout(
     val name: String,
     val entry: Int,
@@ -53,9 +53,9 @@ internal class FieldLayout(
     val layout: TableLayout?,
     val required: Boolean,
 ) {
-    /** Of what stands in the table itself. */
+    /** Size of the part that is stored in the table itself. */
     val bytesInTable: Int get() = if (kind == FieldKind.INLINE) bytes else OFFSET_BYTES
 }
 
-/** Size of an offset, and of the length of a vector. */
+/** Size in bytes of an offset, and of the length of a vector. */
 public const val OFFSET_BYTES: Int = 4

@@ -6,7 +6,7 @@ import org.collektive.frames.OFFSET_BYTES
 import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
-/** Reads the table `Sensors` or `Actuators` of any user schema; made by generated code. */
+/** Reads the table `Sensors` or `Actuators` of any schema. Generated code makes it. */
 public class ElementReader private constructor(
     private val element: TableLayout?,
     private val bytes: Int,
@@ -62,7 +62,7 @@ public class ElementReader private constructor(
     }
 
     private companion object {
-        /** Of the only field of either table, in its vtable. */
+        /** Vtable entry of the only field of either table. */
         const val DATA_ENTRY = 4
     }
 }

@@ -4,17 +4,17 @@ import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.frames.OFFSET_BYTES
 import java.nio.ByteBuffer
 
-/** Writes the table `Actuators` of any user schema; made by generated code. */
+/** Writes the table `Actuators` of any schema. Generated code makes it. */
 public abstract class ElementWriter private constructor(private val type: Class<*>, private val rule: Rule) : ActuatorWriter {
-    /** Writes one result and returns its offset; `pack` of generated code. */
+    /** Writes one result; implemented by `pack` of generated code. */
     public fun interface Packer {
-        /** Writes [result], children first. */
+        /** Writes [result], children first, and returns its offset in [builder]. */
         public fun pack(builder: FlatBufferBuilder, result: Any): Int
     }
 
-    /** Says what makes a result of the right class unwritable. */
+    /** Finds faults of results that have the right class. */
     public fun interface Rule {
-        /** The fault of [result], or `null`. */
+        /** The reason why [result] cannot be written; `null` when it can. */
         public fun fault(result: Any): String?
     }
 
@@ -45,7 +45,7 @@ public abstract class ElementWriter private constructor(private val type: Class<
         private val packer: Packer,
         rule: Rule,
     ) : ElementWriter(type, rule) {
-        // Where one struct is built before it goes to its place. Builders ask for an alignment more than they use.
+        // One struct is built here, then copied to its place. A builder reserves up to one alignment more than it uses.
         private val workplace = ByteBuffer.allocate(structBytes + alignment)
         private val single = FlatBufferBuilder(workplace)
 
@@ -57,7 +57,7 @@ public abstract class ElementWriter private constructor(private val type: Class<
 
         override fun writePacked(builder: FlatBufferBuilder, packed: ByteBuffer, count: Int): Int {
             builder.startVector(structBytes, count, alignment)
-            // The builder takes blocks for vectors of bytes only.
+            // FlatBufferBuilder copies blocks only into vectors of bytes, so copy words.
             var at = count * structBytes
             while (at >= Long.SIZE_BYTES) {
                 at -= Long.SIZE_BYTES
@@ -103,15 +103,15 @@ public abstract class ElementWriter private constructor(private val type: Class<
     }
 
     public companion object {
-        /** Of the only field of `Actuators`. */
+        /** Slot of the only field of `Actuators`. */
         private const val DATA_SLOT = 0
 
-        /** For an `ActuatorData` that is a struct; [type] is its object class. */
+        /** Makes a writer for an `ActuatorData` that is a struct of [bytes] bytes; [type] is its object class. */
         @JvmStatic
         public fun structs(type: Class<*>, bytes: Int, alignment: Int, packer: Packer, rule: Rule): ActuatorWriter =
             Structs(type, bytes, alignment, packer, rule)
 
-        /** For an `ActuatorData` that is a table; [type] is its object class. */
+        /** Makes a writer for an `ActuatorData` that is a table; [type] is its object class. */
         @JvmStatic
         public fun tables(type: Class<*>, packer: Packer, rule: Rule): ActuatorWriter = Tables(type, packer, rule)
     }

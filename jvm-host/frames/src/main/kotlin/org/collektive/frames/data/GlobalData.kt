@@ -4,18 +4,18 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
 /**
- * Keeps the last `GlobalData` readable after its frame is gone.
+ * Copies the last `GlobalData`, so that it outlives its frame.
  *
- * Two copies take turns, so that a frame that is refused later leaves the one in use alone.
+ * It is double-buffered, so that a tick refused after [read] does not change the copy in use.
  */
 internal class GlobalData(newReader: () -> GlobalReader) {
     private val copies = Array(2) { Copy(newReader()) }
     private var inUse = 0
 
-    /** Checks and copies the `GlobalData` at [position] of [frame] and returns its view; in use after [accept]. */
+    /** Checks and copies the `GlobalData` at [position] of [frame], and returns a view of the copy. [accept] puts it in use. */
     fun read(frame: ByteBuffer, position: Int): Any = copies[1 - inUse].read(frame, position)
 
-    /** The tick with the data last read was accepted. */
+    /** Puts the data last read in use. Call it once its tick is accepted. */
     fun accept() {
         inUse = 1 - inUse
     }

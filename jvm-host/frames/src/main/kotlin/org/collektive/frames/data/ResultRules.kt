@@ -1,23 +1,23 @@
 package org.collektive.frames.data
 
 /**
- * What flatc's object classes allow and a frame cannot hold: missing parts, empty places in vectors, broken strings. Used by
- * generated code; each function returns the fault with the path of the field, or `null`.
+ * Finds faults that flatc's object classes allow but a frame cannot represent: missing required fields, `null` elements of vectors,
+ * malformed strings. Called by generated code. Each function returns the path of the field and the fault, or `null`.
  */
 public object ResultRules {
-    /** Tables inside each other; an object that holds itself would never end. */
+    /** Greatest depth of nested tables. Detects an object that contains itself. */
     public const val MAX_DEPTH: Int = 64
 
     /** The fault of an object beyond [MAX_DEPTH]. */
     public const val TOO_DEEP: String = "is nested deeper than $MAX_DEPTH tables"
 
-    /** Says what is wrong with one object, its path first. */
+    /** Checks one object. */
     public fun interface Rule<T> {
-        /** The fault of [item], or `null`. */
+        /** The path of the field and the fault of [item], or `null`. */
         public fun fault(item: T): String?
     }
 
-    /** A string field. */
+    /** Checks a string field. */
     @JvmStatic
     public fun string(value: String?, name: String, required: Boolean): String? = when {
         value == null -> if (required) "$name is null" else null
@@ -25,7 +25,7 @@ public object ResultRules {
         else -> "$name holds half a surrogate pair"
     }
 
-    /** A vector of strings. */
+    /** Checks a vector of strings. */
     @JvmStatic
     public fun strings(value: Array<String?>?, name: String, required: Boolean): String? {
         if (value == null) return if (required) "$name is null" else null
@@ -33,14 +33,14 @@ public object ResultRules {
         return null
     }
 
-    /** A struct, a table or a vector of scalars; [rule] looks into it. */
+    /** Checks a struct, a table or a vector of scalars; [rule] checks its content. */
     @JvmStatic
     public fun <T> `object`(value: T?, name: String, required: Boolean, rule: Rule<T>?): String? {
         if (value == null) return if (required) "$name is null" else null
         return rule?.fault(value)?.let { join(name, it) }
     }
 
-    /** A vector of structs or tables. */
+    /** Checks a vector of structs or tables. */
     @JvmStatic
     public fun <T> objects(value: Array<T?>?, name: String, required: Boolean, rule: Rule<T>?): String? {
         if (value == null) return if (required) "$name is null" else null

@@ -5,7 +5,7 @@ import org.collektive.frames.FramePolicy
 import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
-/** Reads the table `GlobalData` of any user schema; made by generated code. */
+/** Reads the table `GlobalData` of any schema. Generated code makes it. */
 public class TableReader(private val layout: TableLayout, private val view: View) : GlobalReader {
     private val checker = FrameChecker(FramePolicy.USER_DATA)
     private var frame: ByteBuffer = ByteBuffer.allocate(0)

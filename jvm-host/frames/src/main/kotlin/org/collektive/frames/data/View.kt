@@ -2,8 +2,8 @@ package org.collektive.frames.data
 
 import java.nio.ByteBuffer
 
-/** Points flatc's reader of one user type at a place of a frame; `__assign` of generated code. */
+/** Positions flatc's accessor of one user type; implemented by `__assign` of generated code. */
 public fun interface View {
-    /** The reader, the same object at every call. */
+    /** Positions the accessor at [position] of [frame] and returns it. Every call returns the same object. */
     public fun at(position: Int, frame: ByteBuffer): Any
 }

@@ -8,7 +8,7 @@ import java.lang.reflect.Field
 import java.lang.reflect.Modifier
 import java.nio.ByteBuffer
 
-/** Keeps views of a tick's pooled memory inside their round, those in pairs, collections and objects of the program too. */
+/** Rejects values that are or contain a view of a frame: frames are pooled memory, so a view must not outlive its round. */
 public object ViewRule : SharingRule {
     override fun refusal(value: Any?): String? {
         val view = viewIn(value, 0) ?: return null
@@ -17,7 +17,7 @@ public object ViewRule : SharingRule {
             "take the values out of it (a number, a data class, an array)"
     }
 
-    /** The first view in [value] or in what it holds. */
+    /** The first view that [value] is or contains. */
     private fun viewIn(value: Any?, depth: Int): Any? {
         if (value == null) return null
         return when (val shape = SHAPES.get(value.javaClass)) {
@@ -27,16 +27,16 @@ public object ViewRule : SharingRule {
         }
     }
 
-    /** How values of one class are looked at, found out once. */
+    /** How to search values of one class; computed once per class. */
     private sealed interface Shape
 
-    /** Can neither be nor hold a view. */
+    /** Neither is nor contains a view. */
     private object Plain : Shape
 
     private object View : Shape
 
     private abstract class Holder : Shape {
-        /** The first view in what [value] holds, [depth] steps inside of what is shared. */
+        /** The first view that [value] contains; [depth] is its nesting level in the shared value. */
         abstract fun find(value: Any, depth: Int): Any?
     }
 
@@ -85,7 +85,7 @@ public object ViewRule : SharingRule {
         type == Pair::class.java -> Two
         Iterable::class.java.isAssignableFrom(type) -> Elements
         Map::class.java.isAssignableFrom(type) -> Entries
-        // The JDK's other classes cannot be looked into.
+        // Reflection cannot read the fields of other JDK classes.
         type.name.startsWith("java.") -> Plain
         else -> {
             val fields = fieldsOf(type).filter { mayHoldView(it.type, open + type) && it.trySetAccessible() }
@@ -93,7 +93,7 @@ public object ViewRule : SharingRule {
         }
     }
 
-    /** Whether a field of [type] can hold a view; those of the classes in [open], which hold themselves, are looked at anyway. */
+    /** Whether a field of [type] may contain a view. True for the classes in [open], which are being examined: they contain themselves. */
     private fun mayHoldView(type: Class<*>, open: Set<Class<*>>): Boolean = when {
         type in open || VIEWS.any { it.isAssignableFrom(type) } -> true
         type.isPrimitive -> false

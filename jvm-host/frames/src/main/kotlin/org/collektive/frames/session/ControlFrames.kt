@@ -10,18 +10,18 @@ import org.collektive.frames.FramePolicy
 import java.nio.ByteBuffer
 
 /**
- * The `ControlRequest` between position and limit of [frame], checked.
+ * Verifies and returns the `ControlRequest` between position and limit of [frame].
  *
- * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ * @throws org.collektive.frames.MalformedFrameException when it is malformed.
  */
 public fun controlRequest(frame: ByteBuffer): ControlRequest =
     ControlRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.CONTROL_REQUEST), frame)
 
 /**
- * The state of the JVM, as a `ControlResponse` tells it; sizes in bytes, times in milliseconds.
+ * The state of the JVM that a `ControlResponse` reports. Sizes are in bytes, times in milliseconds.
  *
- * @property flags values by name.
- * @property recording one of `RecordingState`.
+ * @property flags values of JVM flags by name.
+ * @property recording a value of `RecordingState`.
  */
 public class JvmState(
     public val flags: Map<String, String>,
@@ -39,7 +39,7 @@ public class JvmState(
     public val recordingsWritten: Int,
 )
 
-/** Writes the `ControlResponse` that tells [state] and returns its place, see [AnswerBuffer.finish]. */
+/** Writes a `ControlResponse` with [state]. Returns its place, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeControlResponse(state: JvmState): Long {
     val flags = state.flags.map { (name, value) -> Flag.createFlag(builder, builder.createString(name), builder.createString(value)) }
     val vector = ControlResponse.createFlagsVector(builder, flags.toIntArray())

@@ -12,18 +12,18 @@ import org.collektive.frames.FramePolicy
 import java.nio.ByteBuffer
 
 /**
- * The `OpenRequest` between position and limit of [frame], checked.
+ * Verifies and returns the `OpenRequest` between position and limit of [frame].
  *
- * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ * @throws org.collektive.frames.MalformedFrameException when it is malformed.
  */
 public fun openRequest(frame: ByteBuffer): OpenRequest =
     OpenRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.OPEN_REQUEST), frame)
 
-/** The fingerprints of the user's types. */
+/** The fingerprints of the user's types, by name. */
 public val OpenRequest.types: Map<String, Long>
     get() = (0 until typesLength()).associate { index -> types(index).let { it.name() to it.hash() } }
 
-/** Writes the `OpenResponse` of a session with [programs] and returns its place, see [AnswerBuffer.finish]. */
+/** Writes an `OpenResponse` that lists [programs]. Returns its place, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
     val infos = programs.map { program ->
         val parameters = program.parameters.map {

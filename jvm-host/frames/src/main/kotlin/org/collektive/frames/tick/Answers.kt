@@ -8,16 +8,16 @@ import org.collektive.frames.data.DataSchema
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
-/** The answers of a tick, from the rounds into the frame and the digest. */
+/** Collects the answers of a tick's rounds for the frame and the digest. */
 internal abstract class Answers protected constructor(schema: DataSchema, threads: Int) {
-    /** One for each thread that runs rounds. */
+    /** One writer for each thread that runs rounds. */
     protected val writers = Array(threads) { schema.actuatorWriter() }
 
     /** Ids of the tick's due nodes. */
     protected var due: IntList = IntList()
         private set
 
-    /** Makes room for the answers of [due], which stay as they are until the next tick. */
+    /** Reserves memory for the answers of [due]. [due] must not change until the next tick. */
     open fun begin(due: IntList) {
         this.due = due
     }
@@ -25,7 +25,7 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
     /** See [org.collektive.engine.RoundData.pack]. */
     open fun pack(worker: Int, index: Int, answer: Any): String? = writers[worker].findFault(answer)
 
-    /** Adds the answers of all due nodes to [digest] and writes those that there are; the offset of the table `Actuators`. */
+    /** Writes the answers and adds them to [digest], failed rounds included. Returns the offset of the table `Actuators`. */
     abstract fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
 
     companion object {
@@ -37,13 +37,13 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
 }
 
 /**
- * Structs: each thread packs those of its own rounds at once, while they are in its cache, side by side for the frame and again with
- * their headers for the digest. Frame and digest then take blocks.
+ * Answers that are structs. Each thread packs the answers of its own rounds while they are in its cache: contiguously for the frame, and
+ * a second time with headers for the digest. Frame and digest then copy whole blocks.
  */
 private class StructAnswers(schema: DataSchema, threads: Int, private val bytes: Int) : Answers(schema, threads) {
     private val entryBytes = RoundDigest.HEADER_BYTES + bytes
 
-    // Element i of both is that of the due node i.
+    // Element i of both belongs to the due node i.
     private var packed = ByteBuffer.allocate(0)
     private var entries = ByteBuffer.allocate(0)
 
@@ -86,9 +86,9 @@ private class StructAnswers(schema: DataSchema, threads: Int, private val bytes:
     }
 }
 
-/** Tables: they vary in length, so they are written one after the other when all rounds are over. */
+/** Answers that are tables. Their size varies, so they are written one by one after all rounds. */
 private class TableAnswers(schema: DataSchema, threads: Int) : Answers(schema, threads) {
-    // What the writer takes: the answers without gaps, and where their bytes went.
+    // Arguments of ActuatorWriter.write: the answers without failed rounds, and the ranges of their bytes.
     private var answers = arrayOfNulls<Any?>(0)
     private var ranges = IntArray(0)
 
@@ -107,7 +107,7 @@ private class TableAnswers(schema: DataSchema, threads: Int) : Answers(schema, t
         return table
     }
 
-    /** Puts the answers side by side and returns how many there are. */
+    /** Copies the answers without gaps and returns their number. */
     private fun gather(result: TickResult): Int {
         if (answers.size < result.size) {
             answers = arrayOfNulls(maxOf(result.size, answers.size + (answers.size shr 1)))

@@ -17,11 +17,11 @@ import java.nio.ByteBuffer
 
 /** Makes the nodes that a frame adds. */
 public fun interface NewNodes {
-    /** The node [id] with the program named [program] (empty: the session's) and the [parameters] that it sets. */
+    /** Makes the node [id]. An empty [program] means the session's default; [parameters] are those that the node overrides. */
     public fun node(id: Int, program: String, parameters: Map<String, String>): NewNode
 }
 
-/** Reads `StepRequest`s in place; allocates only for nodes that come. One thread at a time. */
+/** Reads `StepRequest`s in place. Allocates only for new nodes. Confined to one thread at a time. */
 public class StepRequestReader(private val newNodes: NewNodes) {
     private val checker = FrameChecker(FramePolicy.FRAME)
     private val request = StepRequest()
@@ -31,7 +31,7 @@ public class StepRequestReader(private val newNodes: NewNodes) {
     private var frame = ByteBuffer.allocate(0)
     private var root = 0
 
-    /** What the frame asks of the engine, without the user's data; valid until the next [read], and as long as the frame is. */
+    /** The content of the frame without the user's data. Valid until the next [read], and while the frame is. */
     public val tick: Tick = Tick()
 
     /** Position of the table `Sensors`, 0 when absent. */
@@ -41,9 +41,9 @@ public class StepRequestReader(private val newNodes: NewNodes) {
     internal val globals: Int get() = target(frame, root, FrameLayouts.STEP_REQUEST_GLOBALS)
 
     /**
-     * Checks [frame] and reads all of it but the user's data.
+     * Verifies [frame] and reads it, except for the user's data.
      *
-     * @throws MalformedFrameException when it cannot be read, or a node sets a parameter twice.
+     * @throws MalformedFrameException when the frame is malformed, or a node sets a parameter twice.
      */
     public fun read(frame: ByteBuffer) {
         root = checker.checkRoot(frame, FrameLayouts.STEP_REQUEST)
@@ -99,7 +99,7 @@ public class StepRequestReader(private val newNodes: NewNodes) {
 
         override fun attenuation(index: Int) = frame.getFloat(first + index * BYTES + ATTENUATION)
 
-        /** The places in the struct `Link`. */
+        /** Byte offsets in the struct `Link`, and its size. */
         private companion object {
             const val TO = 4
             const val LENGTH = 8

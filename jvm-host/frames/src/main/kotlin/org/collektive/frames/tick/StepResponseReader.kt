@@ -8,12 +8,12 @@ import org.collektive.frames.target
 import java.nio.ByteBuffer
 
 /**
- * The `StepResponse` between position and limit of [frame], checked.
+ * Verifies and reads the `StepResponse` between position and limit of [frame].
  *
- * @throws org.collektive.frames.MalformedFrameException when it cannot be read.
+ * @throws org.collektive.frames.MalformedFrameException when it is malformed.
  */
 public class StepResponseReader(public val frame: ByteBuffer) {
-    /** The answer; its actuator data is unchecked. */
+    /** The response; its actuator data is unverified. */
     public val response: StepResponse
 
     /** Position of the table `Actuators`; 0 when absent. */

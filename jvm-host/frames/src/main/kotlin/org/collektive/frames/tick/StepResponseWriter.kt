@@ -8,16 +8,16 @@ import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
 import org.collektive.frames.AnswerBuffer
 
-/** Writes the `StepResponse` of one tick after the other, and chains their digests. */
+/** Writes the `StepResponse` of each tick of a session, and chains their digests. */
 public class StepResponseWriter(private val data: UserData, private val buffer: AnswerBuffer) {
     private val digest = RoundDigest()
 
     /**
-     * Writes what the last tick of [engine], [result], gave.
+     * Writes [result], the outcome of the last tick of [engine].
      *
-     * @param due the ids of its due nodes.
-     * @param begin when the call came, in terms of `System.nanoTime()`.
-     * @return the place of the answer, see [AnswerBuffer.finish].
+     * @param due the ids of the tick's due nodes.
+     * @param begin start of the host call, on the clock of `System.nanoTime()`.
+     * @return the place of the response, see [AnswerBuffer.finish].
      */
     public fun write(engine: Engine, result: TickResult, due: IntList, begin: Long): Long {
         val builder = buffer.builder
@@ -26,7 +26,7 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
         digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
         StepResponse.startNodesVector(builder, result.size - result.failureCount)
-        // putInt neither grows nor aligns: the vector's start did both.
+        // putInt neither grows nor aligns the buffer: startNodesVector did both.
         for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
         val nodes = builder.endVector()
         StepResponse.startStepResponse(builder)

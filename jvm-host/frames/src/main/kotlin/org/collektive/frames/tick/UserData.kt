@@ -6,16 +6,16 @@ import org.collektive.frames.data.DataSchema
 import org.collektive.frames.data.GlobalData
 import java.nio.ByteBuffer
 
-/** The user's data of one tick after the other, on its way into the rounds and out of them. Each thread has a reader of its own. */
+/** The user's data of each tick: sensors and global data for the rounds, and their answers. Each thread has its own reader. */
 public class UserData(private val schema: DataSchema, threads: Int) : RoundData {
     private val readers = Array(threads) { schema.sensorReader() }
     private val globals = schema.globalReader()?.let { GlobalData { checkNotNull(schema.globalReader()) } }
     internal val answers = Answers.of(schema, threads)
 
     /**
-     * Checks the data of [request], which was read from [frame], once for all threads, and gives its tick the global data.
+     * Verifies the user's data of [request], read from [frame], once for all threads. Sets the global data of its tick.
      *
-     * @throws MalformedFrameException when they cannot be read, or do not fit the due nodes.
+     * @throws MalformedFrameException when the data is malformed, or does not match the due nodes.
      */
     public fun read(frame: ByteBuffer, request: StepRequestReader) {
         val due = request.tick.due
@@ -26,7 +26,7 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
         request.tick.globals = holder.read(frame, request.globals)
     }
 
-    /** The tick last read was accepted: its global data, if it had any, is in use from now on. */
+    /** Puts the global data of [request] in use, if it has any. Call it once the tick is accepted. */
     public fun accept(request: StepRequestReader) {
         if (request.globals != 0) globals?.accept()
     }
