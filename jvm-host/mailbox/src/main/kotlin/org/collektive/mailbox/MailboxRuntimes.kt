@@ -20,8 +20,8 @@ import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
 /**
- * Runs devices by the public API of Collektive alone ([Collektive], [Mailbox]), and so on any implementation of it that is on the class
- * path. The results are those of the project's own runtime; a round costs many times as much, since messages are copied for each receiver.
+ * Runs devices through Collektive's public API alone ([Collektive], [Mailbox]), so with any implementation of it on the class path.
+ * Results equal those of the project's own runtime. A round costs many times as much, because messages are copied for each receiver.
  */
 public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
     override fun device(id: Int): DeviceRuntime = MailboxRuntime(id, rule)
@@ -61,7 +61,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     override fun deliverableReceived(message: Message<Int, *>) = error("messages come with the links")
 
-    /** Writes the messages now: an envelope need not bear several readers at once. */
+    /** Makes all messages here, because an envelope need not support concurrent readers. */
     override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {
         val default = outboundMessage.prepareMessageFor(NOBODY)
         val each = inbound.neighbors.associateWith { outboundMessage.prepareMessageFor(it) }
@@ -75,7 +75,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         throw IllegalArgumentException(withPlace("$refusal; it cannot be shared, kept or a pivot", ProgramPlace(id, tokens)))
     }
 
-    /** What one round sends: to [each] neighbour that it knew, and to others. */
+    /** The messages of one round: one for [each] neighbour of that round, and the [default] one for all others. */
     private class Messages(private val each: Map<Int, Message<Int, *>>, private val default: Message<Int, *>?) : Export() {
         fun message(receiver: Int): Message<Int, *>? = each[receiver] ?: default
     }
@@ -89,7 +89,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     }
 
     private companion object {
-        /** No device: who was unknown when a message was sent. */
+        /** The id of no device; stands for a receiver that was no neighbour when the message was sent. */
         const val NOBODY = -1
     }
 }
