@@ -12,9 +12,9 @@ import it.unibo.collektive.state.State
 import org.collektive.runtime.MailboxRound
 
 /**
- * One device that runs [computeFunction] round by round, and reaches others through a [Mailbox]. One thread at a time.
+ * One device that runs [computeFunction] round by round and reaches others through a [Mailbox]. Confined to one thread at a time.
  *
- * Runs the same primitives as simulations do, which are faster: they read messages in place.
+ * The primitives behave as in simulations. A simulation is faster, because its devices read each other's messages in place.
  *
  * @property localId the device's id.
  */
@@ -24,14 +24,14 @@ public class Collektive<ID : Any, R>(
     private val pathFactory: PathFactory = pathsFor(network.inMemory),
     private val computeFunction: Aggregate<ID>.() -> R,
 ) {
-    /** What the last round kept. */
+    /** The state after the last round. */
     public var state: State = emptyMap()
         private set
 
-    /** Runs one round and sends its messages. When the program throws, state and messages stay as they were. */
+    /** Runs one round, sends its messages and returns its result. When the program throws, state and messages do not change. */
     public fun cycle(): R = nextRound().result
 
-    /** Runs rounds until [condition] fails on one; at least one. Returns the last result. */
+    /** Runs rounds, at least one, as long as [condition] holds for the outcome of each. Returns the last result. */
     public fun cycleWhile(condition: (AggregateResult<ID, R>) -> Boolean): R {
         var round = nextRound()
         while (condition(round)) round = nextRound()
@@ -45,9 +45,9 @@ public class Collektive<ID : Any, R>(
         /**
          * Runs one round of [compute] without a network.
          *
-         * @param previousState what the former round kept.
+         * @param previousState the state after the previous round.
          * @param inbound the neighbours' messages.
-         * @param inMemory whether values stay in the process.
+         * @param inMemory whether values stay in the process and need no serializer.
          */
         public fun <ID : Any, R> aggregate(
             localId: ID,
@@ -58,7 +58,7 @@ public class Collektive<ID : Any, R>(
             compute: Aggregate<ID>.() -> R,
         ): AggregateResult<ID, R> = MailboxRound(localId, inMemory, pathFactory, previousState, inbound).run(compute)
 
-        /** Runs one round of [compute] with what [network] holds, and gives it the new messages. */
+        /** Runs one round of [compute] on the inbound messages of [network], and sends the round's messages through it. */
         public fun <ID : Any, R> aggregate(
             localId: ID,
             network: Mailbox<ID>,

@@ -15,9 +15,9 @@ import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
 /**
- * One device: the records of the last valid round and of the running one, and those that neighbours still hold.
+ * One device: the records of its current state and of the running round, and older records that neighbours still hold.
  *
- * Generic in [ID] so that ids stay the one boxed object they were made as.
+ * Generic in [ID], so that an id is boxed only once.
  */
 internal class AggregateDevice<ID : Any>(
     override val localId: ID,
@@ -33,7 +33,7 @@ internal class AggregateDevice<ID : Any>(
     private val older = ArrayList<RoundRecord>(0)
     private var inbox: Inbox? = null
 
-    // Of the thread that runs the round; null outside of rounds.
+    // The stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
     private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside its round")
     override val depth get() = stack.depth
@@ -64,7 +64,7 @@ internal class AggregateDevice<ID : Any>(
         return valid
     }
 
-    /** A record for the next round, while [held] stays as it is. */
+    /** Returns a free record for the next round and stores [held] among the older ones. */
     private fun replacementOf(held: RoundRecord): RoundRecord {
         for (index in older.indices) {
             val record = older[index]
@@ -76,7 +76,7 @@ internal class AggregateDevice<ID : Any>(
         return RoundRecord()
     }
 
-    /** Paths that a neighbour can still see, or the next round of this device. */
+    /** Runs [action] on the paths that neighbours or this device's next round can still read. */
     fun forEachPath(action: (PathNode) -> Unit) {
         valid.forEachPath(action)
         for (record in older) if (record.isHeld) record.forEachPath(action)
@@ -94,7 +94,7 @@ internal class AggregateDevice<ID : Any>(
         return path
     }
 
-    /** Makes the new path of [pivot] below [parent], unless it cannot be one. */
+    /** Makes the path of [pivot] below [parent]; throws when [pivot] cannot be a pivot. */
     fun enter(parent: PathNode, pivot: Any?): PathNode {
         val fault = pivotFault(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
         throw IllegalArgumentException(withPlace(fault, ProgramPlace(localId, stack.resolvedTokens())))
@@ -134,7 +134,7 @@ internal class AggregateDevice<ID : Any>(
         }
     }
 
-    /** What link [index] brings to this device at [path], or nothing. */
+    /** The value on link [index] for this device at [path], or [RoundRecord.Nothing]. */
     private fun received(inbox: Inbox, index: Int, path: PathNode): Any? {
         val export = inbox.export(index) as RoundRecord? ?: return RoundRecord.Nothing
         val value = export.sentAt(path)
@@ -155,7 +155,7 @@ internal class AggregateDevice<ID : Any>(
                 allow(value)
             }
         }
-        // Receivers of a constant need not look for their value.
+        // A constant saves each receiver the search for its value.
         running.send(path, if (isConstant) default else values)
     }
 
@@ -172,7 +172,7 @@ internal class AggregateDevice<ID : Any>(
         val keptIds = arrayOfNulls<Any>(field.neighborCount)
         val keptValues = arrayOfNulls<Any?>(field.neighborCount)
         var kept = 0
-        // The field's neighbours are some of the links, in the same order; a field kept from a former round may have others.
+        // The field's neighbours are a subsequence of the links, except in a field stored in an earlier round.
         var from = 0
         for (index in 0 until field.neighborCount) {
             val id: Any = field.neighborId(index)

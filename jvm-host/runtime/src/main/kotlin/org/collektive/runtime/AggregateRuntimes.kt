@@ -4,7 +4,7 @@ import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.SharingRule
 
-/** The project's own implementation: devices of one process that read each other's messages in place. */
+/** The project's own runtime: devices of one process that read each other's messages in place. */
 public class AggregateRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
     private val paths = PathTree()
     private val stacks = ThreadLocal.withInitial { PathStack(paths) }

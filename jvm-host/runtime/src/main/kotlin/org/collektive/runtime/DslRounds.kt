@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.Inbox
 
-/** [DeviceRuntime.round] of a [program] written with the DSL, without sensors: for tests and small networks. */
+/** Runs a [DeviceRuntime.round] of a DSL [program] without sensors, for tests and small networks. */
 @Suppress("UNCHECKED_CAST")
 public fun <R> DeviceRuntime.round(inbox: Inbox, program: Aggregate<Int>.() -> R): R =
     round(inbox, { aggregate, _ -> (aggregate as Aggregate<Int>).program() }, null) as R

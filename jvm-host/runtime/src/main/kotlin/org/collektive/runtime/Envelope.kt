@@ -8,7 +8,7 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.networking.PayloadRepresentation
 import it.unibo.collektive.path.Path
 
-/** What [senderId] sends after one round. */
+/** Everything that [senderId] sends after one round. */
 internal class Envelope<ID : Any>(private val senderId: ID) : OutboundEnvelope<ID> {
     private val data = LinkedHashMap<Path, Entry<ID, *>>()
 
@@ -22,7 +22,7 @@ internal class Envelope<ID : Any>(private val senderId: ID) : OutboundEnvelope<I
         factory(senderId, data.mapValues { it.value.representationFor(receiverId) })
 
     private class Entry<ID : Any, V>(private val shared: SharedData<ID, V>, private val sharing: DataSharingMethod<V>) {
-        // The method fits the payload: both were added together.
+        // Safe: addData received the method and the payload with the same type.
         @Suppress("UNCHECKED_CAST")
         fun representationFor(receiverId: ID): PayloadRepresentation<Any?> =
             PayloadRepresentation(shared[receiverId], sharing as DataSharingMethod<Any?>)

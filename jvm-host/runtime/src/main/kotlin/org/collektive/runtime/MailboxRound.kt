@@ -104,7 +104,7 @@ internal class MailboxRound<ID : Any>(
     }
 
     private companion object {
-        /** In their natural order, as fields want it of numbers; in the given one when they have none. */
+        /** Sorts [ids] if they are comparable, as fields require of numbers; otherwise keeps their order. */
         fun <ID : Any> ascending(ids: Set<ID>): List<ID> {
             val type = ids.firstOrNull()?.javaClass
             if (ids.any { it !is Comparable<*> || it.javaClass != type }) return ids.toList()

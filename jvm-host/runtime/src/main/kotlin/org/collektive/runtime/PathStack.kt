@@ -1,12 +1,12 @@
 package org.collektive.runtime
 
 /**
- * The alignment stack of the round that runs on a thread, one for all rounds of the thread: it stays in the processor's nearest cache,
- * which thousands of devices' own would not.
+ * The alignment stack of a thread, reused by all rounds that run on it. One stack stays in the core's L1 cache; one per device would
+ * not.
  */
 internal class PathStack(private val tree: PathTree) {
-    // tokens[0 until depth] is the stack; nodes[0..resolved] are the paths of its prefixes found so far, so that pivots around no
-    // primitive cost no look-up.
+    // tokens[0 until depth] is the stack. nodes[0..resolved] are the paths of its first prefixes. Paths are looked up only when a
+    // primitive runs, so a pivot without primitives costs no look-up.
     private var tokens = arrayOfNulls<Any?>(INITIAL_DEPTH)
     private var nodes = arrayOfNulls<PathNode>(INITIAL_DEPTH + 1).also { it[0] = tree.root }
     var depth = 0
@@ -29,10 +29,10 @@ internal class PathStack(private val tree: PathTree) {
     /** A copy of the tokens on the stack. */
     fun tokens(): List<Any?> = tokens.copyOf(depth).asList()
 
-    /** Those of them whose path has been found. */
+    /** The tokens whose paths have been looked up. */
     fun resolvedTokens(): List<Any?> = tokens().subList(0, resolved)
 
-    /** The path that all tokens on the stack make; [device] makes it when it is new. */
+    /** The path of the whole stack; [device] makes it when it is new. */
     fun path(device: AggregateDevice<*>): PathNode {
         var node = checkNotNull(nodes[resolved])
         while (resolved < depth) {

@@ -1,11 +1,11 @@
 package org.collektive.runtime
 
 /**
- * All paths of a session, so that equal paths of any two devices are one object.
+ * All paths of a session. Equal paths are the same object on all devices.
  *
- * Look-ups take no lock. A new node is put into its parent's table in place, or into a larger copy, under the tree's lock; a reader that
- * misses it looks again under the lock. The write into the table is a data race, and safe: the constructor of a node writes final
- * fields only, which whoever reads the node sees as they were written (Java Language Specification, 17.5).
+ * Look-ups take no lock. A new node is added under the tree's lock, to its parent's table in place or to a larger copy; a reader that
+ * misses it looks again under the lock. The write into the table is a benign data race: a reader finds the node with its final fields
+ * initialised (Java Language Specification, 17.5).
  */
 internal class PathTree {
     val root = PathNode(null, null)
@@ -14,10 +14,10 @@ internal class PathTree {
     private var sizeToTidy = FIRST_TIDY
     private var sweep = 0
 
-    /** The node for [token] below [parent]; `null` when it is new, or was a moment ago. Threads: any. */
+    /** The node for [token] below [parent]; `null` when there is none, or when another thread has just added it. Safe on any thread. */
     fun find(parent: PathNode, token: Any?): PathNode? = parent.children?.find(token)
 
-    /** Like [find], but makes the node when it is new. Threads: any. */
+    /** The node for [token] below [parent], made if there is none. Safe on any thread. */
     @Synchronized
     fun enter(parent: PathNode, token: Any?): PathNode {
         val children = parent.children ?: PathTable.of(0)
@@ -28,10 +28,10 @@ internal class PathTree {
         return node
     }
 
-    /** Whether enough paths were made since the last [keepOnly] to make another worth its time. */
+    /** Whether the tree has grown enough since the last [keepOnly] for another to pay off. */
     val isCrowded: Boolean get() = size > sizeToTidy
 
-    /** Drops all paths but those for which [visit] calls its argument, and their ancestors. No round may run meanwhile. */
+    /** Removes all paths except those that [visit] passes to its argument, and their ancestors. Call it only while no round runs. */
     fun keepOnly(visit: ((PathNode) -> Unit) -> Unit) {
         sweep++
         visit(::mark)
@@ -58,7 +58,7 @@ internal class PathTree {
     }
 
     private companion object {
-        /** Paths worth a sweep; a program without pivots from data never comes near. */
+        /** Fewer paths are not worth a sweep; a program whose pivots are all constants stays far below. */
         const val FIRST_TIDY = 4096
     }
 }
@@ -67,14 +67,14 @@ internal class PathTree {
 internal class PathNode(val parent: PathNode?, val token: Any?) {
     private val tokenHash = token.hashCode()
 
-    /** Spread well, since tables use its low bits. */
+    /** Mixed well, because tables use its low bits. */
     val hash: Int = ((parent?.hash ?: 0) * 31 + tokenHash).let { it * -0x61c88647 xor (it ushr 15) }
 
-    /** `null`: none yet, which is also what a racing reader of this node may see. Written under the tree's lock. */
+    /** `null` when there are none; a racing reader may see `null` too. Written under the tree's lock. */
     @Volatile
     var children: PathTable? = null
 
-    /** Number of the last sweep that found this node in use; only used while no round runs. */
+    /** Number of the last sweep that marked this node. Accessed only while no round runs. */
     var sweep = 0
 
     fun matches(other: Any?, hash: Int) = token === other || tokenHash == hash && token == other
@@ -86,7 +86,7 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     }
 }
 
-/** Children of a node by token: open addressing, at most half full. */
+/** The children of a node by token: a hash table with open addressing, at most half full. */
 internal class PathTable private constructor(private val slots: Array<PathNode?>, private var count: Int) {
     fun find(token: Any?): PathNode? {
         val hash = token.hashCode()
@@ -99,14 +99,14 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
         }
     }
 
-    /** A table that has [node] too: this one when there is room. */
+    /** Adds [node]; returns this table, or a larger copy when this one is full. */
     fun with(node: PathNode): PathTable {
         val table = if (2 * (count + 1) <= slots.size) this else resized(count + 1)
         table.put(node)
         return table
     }
 
-    /** A table of those nodes that [keep] wants; `null` when there are none. */
+    /** A table of the nodes for which [keep] returns `true`; `null` when there are none. */
     inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
         var kept = 0
         forEach { if (keep(it)) kept++ }

@@ -13,35 +13,35 @@ import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
 
-/** What primitives mean, for every way in which devices reach each other; [Path] is how that way names places of the program. */
+/** The semantics of the primitives, independent of how devices reach each other. [Path] is how a subclass represents paths. */
 internal abstract class Primitives<ID : Any, Path : Any> :
     Aggregate<ID>,
     AlignmentStack {
-    /** How many tokens are on the alignment stack. */
+    /** The number of tokens on the alignment stack. */
     protected abstract val depth: Int
 
-    /** A copy of those tokens, outermost first. */
+    /** A copy of the tokens, outermost first. */
     protected abstract fun tokens(): List<Any?>
 
     /** Pushes [token]. */
     protected abstract fun push(token: Any?)
 
-    /** Takes the current path for a primitive, or throws [AlignmentClashException]. */
+    /** Reserves the current path for a primitive and returns it; throws [AlignmentClashException] when it is taken. */
     protected abstract fun claimPath(): Path
 
-    /** What the last round kept at [path], else [initial]. */
+    /** The value that the last round stored at [path], or [initial] if there is none. */
     protected abstract fun <T> keptAt(path: Path, initial: T): T
 
-    /** Keeps [value] for the next round. */
+    /** Stores [value] for the next round. */
     protected abstract fun keep(path: Path, value: Any?)
 
     /** The field of what aligned neighbours sent to this device at [path]. */
     protected abstract fun <T> receive(path: Path, local: T, sharing: DataSharingMethod<T>): Field<ID, T>
 
-    /** Sends each neighbour its value of [values], and the local one to others. */
+    /** Sends each neighbour its value in [values], and all other receivers the local value. */
     protected abstract fun <T> send(path: Path, values: Field<ID, T>, sharing: DataSharingMethod<T>)
 
-    /** Sends [value] to all. */
+    /** Sends [value] to all receivers. */
     protected abstract fun <T> sendToAll(path: Path, value: T, sharing: DataSharingMethod<T>)
 
     private var failure: Throwable? = null
@@ -55,7 +55,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         this.failure = failure
     }
 
-    /** Where the program was when [failure], which ended the round, was thrown. */
+    /** The place where [failure], which ended the round, was thrown. */
     fun failurePlace(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
 
     /** Forgets the failure of the last round. */
@@ -63,7 +63,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         failure = null
     }
 
-    /** Why [pivot] is of no use where devices shall meet; `null` when nothing is wrong. */
+    /** The reason why [pivot] cannot align devices; `null` when it can. */
     protected fun pivotFault(pivot: Any?): String? = when {
         pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: each device has another one"
         pivot is Function<*> || pivot != null && pivot.javaClass.isArray ->

@@ -3,10 +3,10 @@ package org.collektive.runtime
 import it.unibo.collektive.aggregate.Field
 import org.collektive.spi.Export
 
-/** What one round of a device left behind: per path the value kept and the value sent. */
+/** The outcome of one round of a device: at each path the value stored and the value sent. */
 internal class RoundRecord : Export() {
-    // The first two paths, which are all for many programs, stand in the record itself: neighbours who read it in a random place of the
-    // memory need one cache line instead of two.
+    // The first two paths are fields of the record; many programs have no more. Neighbours read records at random addresses, and fields
+    // save them a second cache miss.
     private var path0: PathNode? = null
     private var kept0: Any? = null
     private var sent0: Any? = null
@@ -14,11 +14,11 @@ internal class RoundRecord : Export() {
     private var kept1: Any? = null
     private var sent1: Any? = null
 
-    // The others: a hash table by identity, at most half full, a path beside its values.
+    // All other paths: a hash table by identity, at most half full. A path and its values are adjacent.
     private var slots = NONE
     private var count = 0
 
-    // To ask for the type of a value is to read the value.
+    // The type check loads the value's header.
     override fun touch(): Int = if (sent0 is Field<*, *> || sent1 is Field<*, *>) 1 else 0
 
     fun clear() {
@@ -32,7 +32,7 @@ internal class RoundRecord : Export() {
         count = 0
     }
 
-    /** Takes [path] for a primitive; `false` when another one has it already. */
+    /** Reserves [path] for a primitive; `false` when it is taken. */
     fun claim(path: PathNode): Boolean {
         if (path === path0 || path === path1) return false
         if (count == 0) {
@@ -70,7 +70,7 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** A `Field` stands for one value per receiver. */
+    /** Sends [value]; a `Field` is one value per receiver. */
     fun send(path: PathNode, value: Any?) {
         if (path === path0) {
             sent0 = value
@@ -81,17 +81,17 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** At how many paths a value was sent. */
+    /** The number of paths at which a value was sent. */
     fun countSent(): Int {
         var sent = 0
         forEachPath { if (sentAt(it) !== Nothing) sent++ }
         return sent
     }
 
-    /** The value kept at [path], or [Nothing]. */
+    /** The value stored at [path], or [Nothing]. */
     fun keptAt(path: PathNode): Any? = if (path === path0) kept0 else if (path === path1) kept1 else at(path, KEPT)
 
-    /** The value sent at [path], or [Nothing]; a `Field` of an exchange stands for one value per receiver. */
+    /** The value sent at [path], or [Nothing]. */
     fun sentAt(path: PathNode): Any? = if (path === path0) sent0 else if (path === path1) sent1 else at(path, SENT)
 
     fun forEachPath(action: (PathNode) -> Unit) {
@@ -112,7 +112,7 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** Where [path] is, or the free slot where it would go. */
+    /** The slot of [path], or the free slot where it belongs. */
     private fun slotOf(path: PathNode): Int {
         val slots = slots
         var slot = firstSlot(path, slots)
@@ -133,11 +133,11 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** Absence: `null` is a value. */
+    /** Marks an absent value, since `null` is a value. */
     object Nothing
 
     private companion object {
-        // A path and its values, and one place unused: powers of two need no division.
+        // A path, its two values and one unused element: a power of two, so that a mask replaces the division.
         const val WIDTH = 4
         const val KEPT = 1
         const val SENT = 2
