@@ -17,14 +17,14 @@ import java.lang.management.ManagementFactory
 import java.lang.management.MemoryType
 import java.nio.ByteBuffer
 
-/** Tells about the JVM itself, and starts and stops its recording. */
+/** Answers `ControlRequest`s: reports the state of the JVM, and starts and stops its flight recording. */
 internal class Control(shim: ShimCalls) {
     private var request = ControlRequest()
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val recorder = Recorder(shim)
     private val diagnostics by lazy { ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean::class.java) }
 
-    /** Does what [frame] asks for, and writes the `ControlResponse`. */
+    /** Executes the `ControlRequest` in [frame] and writes the `ControlResponse`. Returns its place, `offset << 32 | length`. */
     fun answer(frame: ByteBuffer, slot: Long, answer: ByteBuffer): Long {
         request = reading({ "the frame" }) { controlRequest(frame) }
         record()
@@ -33,7 +33,7 @@ internal class Control(shim: ShimCalls) {
         return buffer.writeControlResponse(state())
     }
 
-    /** Ends a running recording in order; waits for its file at most [limitMillis]. */
+    /** Stops a running recording, and waits for its file for at most [limitMillis] milliseconds. */
     fun close(limitMillis: Int) = recorder.close(limitMillis)
 
     private fun record() {
@@ -47,7 +47,7 @@ internal class Control(shim: ShimCalls) {
         }
     }
 
-    /** Reads the recorder's state first: who reads that an action has ended gets what came of it. */
+    /** Reads the recorder's state before its other properties: if the state says that an action is over, they show its outcome. */
     private fun state(): JvmState {
         val recording = recorder.state
         val heap = ManagementFactory.getMemoryMXBean().heapMemoryUsage
@@ -70,7 +70,7 @@ internal class Control(shim: ShimCalls) {
         )
     }
 
-    /** The values of the flags that the request names and this JVM knows. */
+    /** The values of the requested flags, without those that this JVM does not have. */
     private fun flags(): Map<String, String> {
         val values = LinkedHashMap<String, String>()
         for (index in 0 until request.flagsLength()) {
@@ -78,7 +78,7 @@ internal class Control(shim: ShimCalls) {
             try {
                 values[name] = diagnostics.getVMOption(name).value
             } catch (_: IllegalArgumentException) {
-                continue // another JVM's flag
+                continue // this JVM has no such flag
             }
         }
         return values

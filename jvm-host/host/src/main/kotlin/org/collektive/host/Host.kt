@@ -14,21 +14,26 @@ import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
 
 /**
- * What the shim calls, always on its engine thread.
+ * The entry points that the shim calls, always on its engine thread. Times are in milliseconds.
  *
- * [open] and [step] return `offset << 32 | length` of the answer in the slot, or a negative code of `CLK_ERRORS` after
- * [org.collektive.host.shim.Shim.error]. Times are milliseconds.
+ * [open], [step] and [control] read a request from the bytes `offset until offset + length` of `request`, and write their answer to the
+ * buffer `answer` of `slot`. They return the answer's place in bytes, `offset << 32 | length`. On failure they pass the message to
+ * [org.collektive.host.shim.Shim.error] and return a negative code of `CLK_ERRORS`; they never throw. The shim owns all buffers.
  */
 public object Host {
-    /** What stands behind the host: the native library, unless another is set before [start]. */
+    /** The shim that the host calls: the native library, unless replaced before [start]. */
     public var shim: ShimCalls = NativeShim
 
-    // Found and removed without allocating, or loading a class: that must work with the heap exhausted.
+    // Look-up and removal neither allocate nor load classes, so they work with an exhausted heap.
     private val sessions = ArrayList<OpenSession>()
     private val control by lazy { Control(shim) }
     private var log: HostLog? = null
 
-    /** Takes over standard output, `java.util.logging` and uncaught exceptions. Once; returns one line about this host and its JVM. */
+    /**
+     * Redirects standard output, `java.util.logging` and uncaught exceptions to the shim's log. Call it once, first.
+     *
+     * @return one line about this host and its JVM.
+     */
     @JvmStatic
     public fun start(): String {
         log = HostLog(shim).also(HostLog::install)
@@ -77,7 +82,7 @@ public object Host {
         sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
     }
 
-    /** Answers the `ControlRequest` in [request]; it belongs to no session, so [session] is 0. */
+    /** Answers the `ControlRequest` in [request]. It concerns the JVM, not a session: [session] must be 0. */
     @JvmStatic
     public fun control(
         session: Long,
@@ -93,18 +98,18 @@ public object Host {
         control.answer(frame(request, offset, length), slot, answer)
     }
 
-    /** Closes [session]; an unknown one is ignored. */
+    /** Closes [session]; does nothing if there is none with this id. */
     @JvmStatic
     public fun close(session: Long) {
         val index = indexOf(session)
         if (index >= 0) sessions.removeAt(index).session.close()
-        log?.tellCounts()
+        log?.logCounts()
     }
 
     /**
-     * Closes all sessions and asks the programs' own threads to end, since the JVM would wait for them.
+     * Closes all sessions and interrupts the threads that programs started, because the JVM waits for them on exit.
      *
-     * @return whether none is left after [limitMillis].
+     * @return whether all of them ended within [limitMillis].
      */
     @JvmStatic
     public fun stop(limitMillis: Int): Boolean {
@@ -143,7 +148,7 @@ public object Host {
         } catch (e: HostException) {
             e
         } catch (e: Throwable) {
-            // The last line of defence: whatever it is, the shim gets a code and a text.
+            // No exception may reach the shim: it gets a code and a message instead.
             HostException(HostError.JAVA, "unexpected: ${describeSafely(e)}", e)
         }
         shim.error(failure.message.orEmpty())

@@ -83,9 +83,9 @@ internal class HostLogTest {
         assertEquals(LogLevel.ERROR, first[0].first)
         assertContains(first[0].second, "an uncaught exception ended the thread: java.lang.IllegalStateException: number 0")
         assertContains(first[1].second, "10 times so far")
-        log.tellCounts()
+        log.logCounts()
         assertContains(logs().last().second, "25 times so far")
-        log.tellCounts()
+        log.logCounts()
         assertEquals(3, logs().size)
     }
 

@@ -9,7 +9,7 @@ import jdk.jfr.Name
 import jdk.jfr.StackTrace
 import jdk.jfr.Timespan
 
-/** One tick, from the call that brings its frame to the answer; made once per session and used again. */
+/** One tick, from the host call to its answer. Each session reuses one object. */
 @Name("collektive.Tick")
 @Label("Tick")
 @Category("Collektive")
@@ -65,7 +65,7 @@ internal class TickEvent : Event() {
     var write = 0L
 }
 
-/** Messages of one tick; made once per session and used again. */
+/** The messages of one tick. Each session reuses one object. */
 @Name("collektive.NetworkStats")
 @Label("Network Stats")
 @Category("Collektive")
@@ -95,7 +95,7 @@ internal class NetworkStatsEvent : Event() {
     var expired = 0L
 }
 
-/** The program's part of a round; see [ProgramRounds] for which rounds. */
+/** The run of a program in a sampled round, see [ProgramRounds]. */
 @Name("collektive.ProgramRound")
 @Label("Program Round")
 @Description("One in ${ProgramRounds.EVERY} rounds of each thread")
@@ -121,7 +121,7 @@ internal class ProgramRoundEvent : Event() {
     var exports = 0
 }
 
-/** A session was opened; the duration is that of the opening. */
+/** A session was opened; the event lasts as long as the opening. */
 @Name("collektive.SessionStart")
 @Label("Session Start")
 @Category("Collektive")
@@ -164,7 +164,7 @@ internal class SessionEndEvent : Event() {
     var failure: String? = null
 }
 
-/** A round that failed. */
+/** A round failed. */
 @Name("collektive.ProgramError")
 @Label("Program Error")
 @Category("Collektive")

@@ -3,18 +3,18 @@ package org.collektive.host.jfr
 import org.collektive.engine.RoundDevice
 import org.collektive.engine.RoundThread
 
-/** Which rounds become events: one in [EVERY] of each thread. All of them would cost more than many a round. */
+/** Samples the rounds that become events: one in [EVERY] per thread. An event for every round would cost more than a short round. */
 public object ProgramRounds {
-    /** Prime, so that the nodes take turns whatever their number. */
+    /** A prime, so that each tick samples other nodes, whatever their number. */
     public const val EVERY: Int = 17
 
-    /** Asked only whether such events are wanted; made at its first use. */
+    /** Only answers whether such events are enabled. Its class loads on first use. */
     private object Sample {
         @JvmField
         val event = ProgramRoundEvent()
     }
 
-    /** A begun event for the round that begins on this thread, or `null`: the usual case, and a few nanoseconds. */
+    /** Begins an event for the round that begins on this thread; `null` if it is not sampled. Without a recording it takes nanoseconds. */
     internal fun begin(): ProgramRoundEvent? {
         if (!SessionEvents.wanted || !Sample.event.isEnabled) return null
         val thread = Thread.currentThread() as? RoundThread ?: return null

@@ -15,10 +15,10 @@ import java.util.concurrent.Executors
 import java.util.concurrent.TimeUnit
 
 /**
- * The one flight recording of this JVM.
+ * The flight recording of this JVM; there is at most one.
  *
- * All that takes long (the first start some hundred milliseconds, writing a file) goes on in a thread of its own, one action after the
- * other: whoever asks only learns later what came of it, in [state], [error] and the log. Called by one thread.
+ * Actions run one after the other on a separate thread, because they are slow: the first start takes some hundred milliseconds. A caller
+ * finds their outcome later in [state], [error] and the log. Call the functions from one thread.
  */
 internal class Recorder(private val shim: ShimCalls) {
     enum class State { OFF, STARTING, ON, DUMPING, STOPPING }
@@ -26,35 +26,35 @@ internal class Recorder(private val shim: ShimCalls) {
     private var worker: ExecutorService? = null
     private var recording: Recording? = null
 
-    /** Those that are not done yet; guarded by this. */
+    /** Number of actions that are not done; guarded by this. */
     private var orders = 0
 
-    /** What was ordered last, until the worker has done all that was ordered; then what is left. */
+    /** The action requested last, until all actions are done; then [State.ON] or [State.OFF]. */
     @Volatile
     var state = State.OFF
         private set
 
-    /** File of the recording that runs, or of the last one. */
+    /** File of the current recording, or of the last one; `null` before the first. */
     @Volatile
     var path: String? = null
         private set
 
-    /** Why the last action failed. */
+    /** Error message of the last action; `null` when it succeeded. */
     @Volatile
     var error: String? = null
         private set
 
-    /** How long the last action took. */
+    /** Duration of the last action in milliseconds. */
     @Volatile
     var millis = 0
         private set
 
-    /** Recordings and dumps written so far. */
+    /** Number of recordings and dumps written. */
     @Volatile
     var written = 0
         private set
 
-    /** Starts a recording with the [settings] "default", "profile" or those of a `.jfc` file; [file] is written at its stop. */
+    /** Starts a recording; [stop] writes it to [file]. [settings] are "default", "profile" or the path of a `.jfc` file. */
     fun start(settings: String, file: String) = act(State.STARTING) {
         check(recording == null) { "a recording runs already, to $path; stop it first" }
         val target = target(file)
@@ -72,13 +72,13 @@ internal class Recorder(private val shim: ShimCalls) {
         recording = started
     }
 
-    /** Writes what there is so far to [file]. */
+    /** Writes the recording so far to [file], and continues it. */
     fun dump(file: String) = act(State.DUMPING) { write(running(), target(file)) }
 
-    /** Ends the recording and writes its file. */
+    /** Stops the recording and writes its file. */
     fun stop() = act(State.STOPPING) { finish(running()) }
 
-    /** Stops a recording that runs, and waits for its file at most [limitMillis]. */
+    /** Stops a running recording, and waits for its file for at most [limitMillis] milliseconds. */
     fun close(limitMillis: Int) {
         val worker = worker ?: return
         if (state != State.OFF) act(State.STOPPING) { recording?.let(::finish) }
@@ -107,7 +107,7 @@ internal class Recorder(private val shim: ShimCalls) {
             }
             millis = TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - begin).toInt()
             synchronized(this) {
-                // Another order may have come meanwhile.
+                // Another action may have been requested meanwhile.
                 if (--orders == 0) state = if (recording == null) State.OFF else State.ON
             }
         }
@@ -151,7 +151,7 @@ internal class Recorder(private val shim: ShimCalls) {
         }
     }
 
-    /** A file is there as a whole or not at all. */
+    /** Writes atomically: [target] exists completely or not at all. */
     private fun write(source: Recording, target: Path) {
         val part = target.resolveSibling("${target.fileName}.part")
         try {
@@ -167,7 +167,7 @@ internal class Recorder(private val shim: ShimCalls) {
     private companion object {
         const val KIB = 1024
 
-        /** What is older than this many bytes of events is dropped: a recording that nobody stops does not fill the disk. */
+        /** Limit of a recording: JFR then drops the oldest events, so that a forgotten recording does not fill the disk. */
         const val MAX_BYTES = 512L shl 20
     }
 }

@@ -3,9 +3,9 @@ package org.collektive.host.jfr
 import jdk.jfr.FlightRecorder
 
 /**
- * The events of one session: those of its ticks are used again, and that of its end is made early, as there may be no memory then.
+ * The event objects of one session. The tick's events are reused; the end's is made early, because memory may be exhausted by then.
  *
- * Events are made only once this JVM has a flight recorder: the first one takes some 80 ms, for which no first tick should wait.
+ * Make them only once this JVM has a flight recorder: the first event takes some 80 ms, which would delay the first tick.
  */
 internal class SessionEvents private constructor() {
     val tick = TickEvent()
@@ -13,10 +13,10 @@ internal class SessionEvents private constructor() {
     val end = SessionEndEvent()
 
     companion object {
-        /** Whether anybody records, or has recorded: a plain read, cheap enough for each round. */
+        /** Whether this JVM records or has recorded. A plain read, cheap enough for each round. */
         val wanted: Boolean get() = FlightRecorder.isInitialized()
 
-        /** `null` while nobody wants them. */
+        /** The events of a session; `null` while they are not [wanted]. */
         fun ofRecorder(): SessionEvents? = if (wanted) SessionEvents() else null
 
         /** Preloads JFR's event classes, so that no tick waits for them when a recording starts. */

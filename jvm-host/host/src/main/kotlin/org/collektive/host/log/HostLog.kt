@@ -13,9 +13,9 @@ import java.util.logging.LogManager
 import java.util.logging.LogRecord
 
 /**
- * Leads what programs print or log to the shim, with the node and the program whose code it came from.
+ * Sends what programs print and log to the shim, prefixed with the node and the program.
  *
- * slf4j is here too: its binding to `java.util.logging` is on the host's class path.
+ * This includes slf4j: its binding to `java.util.logging` is on the host's class path.
  */
 internal class HostLog(private val shim: ShimCalls) {
     private val out = ShimStream(LogLevel.INFO)
@@ -23,7 +23,7 @@ internal class HostLog(private val shim: ShimCalls) {
     private val handler = ShimHandler()
     private val failures = ThreadFailures(shim)
 
-    /** Takes over standard output, `java.util.logging` and uncaught exceptions; again, should a program have taken them away. */
+    /** Redirects standard output, `java.util.logging` and uncaught exceptions. Call it again to undo a program's own redirection. */
     fun install() {
         System.setOut(out)
         System.setErr(err)
@@ -34,17 +34,17 @@ internal class HostLog(private val shim: ShimCalls) {
         Thread.setDefaultUncaughtExceptionHandler(failures)
     }
 
-    /** Tells how often exceptions came again. */
-    fun tellCounts() {
-        failures.tellCounts()
+    /** Logs how often uncaught exceptions were repeated. */
+    fun logCounts() {
+        failures.logCounts()
     }
 
-    /** A program that closes it must not close it for others. */
+    /** Ignores `close`, because all programs share the stream. */
     private inner class ShimStream(level: LogLevel) : PrintStream(LineStream(level), false, Charsets.UTF_8) {
         override fun close() = flush()
     }
 
-    /** Each thread fills a line of its own, so that lines of parallel rounds do not mix. */
+    /** Buffers a line per thread, so that the lines of parallel rounds do not mix. */
     private inner class LineStream(private val level: LogLevel) : OutputStream() {
         private val lines = ThreadLocal.withInitial { ByteArrayOutputStream() }
 
@@ -115,7 +115,7 @@ internal class HostLog(private val shim: ShimCalls) {
     companion object {
         private const val MAX_LINE = 4096
 
-        /** [text] with the node and the program whose code runs on this thread. */
+        /** [text], prefixed with the node and the program if their code runs on this thread. */
         fun attributed(text: String): String = RoundThread.origin()?.let { "[$it] $text" } ?: text
     }
 }

@@ -8,7 +8,7 @@ import java.nio.file.InvalidPathException
 import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 
-/** The bytes of a jar, and the path they come from. */
+/** The bytes of a jar, and the path from which they were read. */
 public class JarBytes(public val path: String, public val bytes: ByteArray) {
     public companion object {
         /**

@@ -12,13 +12,13 @@ import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
 /**
- * A program of a user's jar, ready to be called.
+ * A program of a user's jar, ready to run.
  *
- * The [function] has exactly the type [TYPE], so that a call allocates nothing. A generated lambda would be a little cheaper, but the JDK
- * makes none for a class of another loader: the lookup lacks the right of its module.
+ * [function] has exactly the type [TYPE], so `invokeExact` works and allocates nothing. A generated lambda would be slightly faster, but
+ * `LambdaMetafactory` refuses classes of another class loader.
  *
- * @property info its annotation.
- * @property place class and method, for profiles.
+ * @property info the program's annotation.
+ * @property place the program's class and method, for profiles.
  */
 internal class LoadedProgram(val info: Program, private val function: MethodHandle, private val place: String) : NodeProgram {
     override val name: String get() = info.name
@@ -37,7 +37,7 @@ internal class LoadedProgram(val info: Program, private val function: MethodHand
 
     override fun describe(failure: Throwable, place: String?): String = RoundFailure.describe(failure, place)
 
-    /** The parameters of a node that sets [values]. */
+    /** The parameters of [node], which overrides [values]. */
     fun parameters(node: Int, values: Map<String, String>): Parameters {
         if (values.isEmpty()) return defaults
         val all = info.parameters.associateTo(LinkedHashMap()) { it.name to it.default }

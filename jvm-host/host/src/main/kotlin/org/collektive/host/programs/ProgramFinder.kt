@@ -12,8 +12,8 @@ import java.lang.reflect.Modifier
 import java.lang.reflect.ParameterizedType
 
 /**
- * Finds the functions annotated with [Program] in [jars], and loads no class without one. Those that are made for another of the jars'
- * schemas, [all] of them, are passed over.
+ * Finds the functions annotated with [Program] in [jars]. It loads only classes that have some, and skips functions that are written
+ * for another schema of [all].
  */
 internal class ProgramFinder(
     private val jars: List<ProgramJar>,
@@ -23,7 +23,7 @@ internal class ProgramFinder(
 ) {
     private val otherSensors = all.map(DataSchema::sensorType) - schema.sensorType
 
-    /** All programs by name, in the order of the names. */
+    /** All programs by name, sorted by name. */
     fun find(): Map<String, LoadedProgram> {
         val programs = sortedMapOf<String, LoadedProgram>()
         val places = HashMap<String, String>()
@@ -89,7 +89,7 @@ internal class ProgramFinder(
     private companion object {
         const val CLASS = ".class"
 
-        /** By name: the DSL belongs to the programs, not to the host. */
+        /** A name instead of a class, because the host does not depend on the DSL. */
         const val AGGREGATE = "it.unibo.collektive.aggregate.api.Aggregate"
         val ANNOTATION = Program::class.java.descriptorString().encodeToByteArray()
 

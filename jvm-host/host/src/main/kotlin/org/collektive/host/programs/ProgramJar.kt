@@ -7,10 +7,10 @@ import java.io.IOException
 import java.util.zip.ZipInputStream
 
 /**
- * A jar of the user's, unpacked in memory: its file can be replaced while its programs run.
+ * A user's jar, unpacked in memory, so that its file can be replaced while its programs run.
  *
- * @property path where it came from.
- * @property entries contents by name.
+ * @property path the path from which it was read.
+ * @property entries contents of the entries by name.
  */
 public class ProgramJar private constructor(public val path: String, internal val entries: Map<String, ByteArray>) {
     public companion object {
@@ -20,7 +20,7 @@ public class ProgramJar private constructor(public val path: String, internal va
         /**
          * Unpacks [jar].
          *
-         * @throws HostException when it is damaged.
+         * @throws HostException when the jar is damaged.
          */
         public fun open(jar: JarBytes): ProgramJar {
             val path = jar.path
@@ -48,7 +48,7 @@ public class ProgramJar private constructor(public val path: String, internal va
             return entries
         }
 
-        /** A ZIP file ends with a record that a truncated one lacks; streams do not look at it. */
+        /** Detects a truncated file: ZIP files end with a record, which [ZipInputStream] does not check. */
         private fun hasEndRecord(bytes: ByteArray): Boolean {
             val last = bytes.size - END_RECORD_BYTES
             return (last downTo maxOf(0, last - 0xFFFF)).any { at ->

@@ -8,7 +8,7 @@ import java.net.URLStreamHandler
 import java.util.Collections
 import java.util.Enumeration
 
-/** The class loader of one session: the host's classes first, then those of [jars], in their order. */
+/** The class loader of one session. Searches the host's classes first, then [jars] in order. */
 public class ProgramLoader(private val jars: List<ProgramJar>) : ClassLoader(NAME, ProgramLoader::class.java.classLoader) {
     override fun findClass(name: String): Class<*> {
         val bytes = find(name.replace('.', '/') + ".class") ?: throw ClassNotFoundException(name)
@@ -37,7 +37,7 @@ public class ProgramLoader(private val jars: List<ProgramJar>) : ClassLoader(NAM
     }
 
     public companion object {
-        /** Marks the lines of a stack trace that are users'. */
+        /** The loader's name; it marks the users' frames in stack traces. */
         internal const val NAME = "programs"
 
         init {

@@ -6,9 +6,9 @@ import org.collektive.frames.tick.NewNodes
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 
-/** The programs of a session by name; nodes that name none run [default]. */
+/** The programs of a session by name. Nodes without a program name run [default]. */
 internal class Programs(private val byName: Map<String, LoadedProgram>, default: String) : NewNodes {
-    /** Of all programs, in the order of their names. */
+    /** The annotations of all programs, sorted by name. */
     val infos: List<Program> = byName.values.map(LoadedProgram::info)
 
     private val default = if (default.isEmpty()) null else find(default) { "the session" }

@@ -2,7 +2,7 @@ package org.collektive.host.programs
 
 import org.collektive.engine.UnusableAnswer
 
-/** Why a round failed, for its author: one line, then the stack in the user's code. */
+/** Describes the failure of a round to the program's author: one line, then the stack frames in the user's code. */
 internal object RoundFailure {
     private const val MAX_MESSAGE = 2000
     private const val MAX_FRAMES = 20
@@ -21,7 +21,7 @@ internal object RoundFailure {
 
     private fun lineWithPlace(failure: Throwable, place: String?): String {
         val line = line(failure)
-        // An answer is packed when the program is over, and errors of the runtime hold their place already.
+        // An answer is packed after the program has returned, and errors of the runtime already contain their place.
         return if (place == null || failure is UnusableAnswer || place in line) line else "$line [$place]"
     }
 

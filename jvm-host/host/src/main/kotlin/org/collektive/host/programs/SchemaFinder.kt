@@ -6,10 +6,10 @@ import org.collektive.host.shim.HostException
 import java.util.ServiceConfigurationError
 import java.util.ServiceLoader
 
-/** Finds the generated code of the schema that the other side was generated from. */
+/** Finds the generated code of the schema that the C# side uses. */
 public object SchemaFinder {
     /**
-     * All schemas of [loader], which loads [jars].
+     * All schemas in [jars], loaded by [loader].
      *
      * @throws HostException when their generated code cannot be loaded.
      */
@@ -22,9 +22,9 @@ public object SchemaFinder {
     }
 
     /**
-     * The schema [name] of [all], whose types have the fingerprints [types].
+     * The schema [name] of [all]. Its types must have the fingerprints [types].
      *
-     * @throws HostException when there is none, naming the type that differs.
+     * @throws HostException when there is none, or when fingerprints differ; the message names the type.
      */
     public fun find(name: String, types: Map<String, Long>, all: List<DataSchema>, jars: List<ProgramJar>): DataSchema {
         val schema = all.find { it.name == name } ?: throw HostException(

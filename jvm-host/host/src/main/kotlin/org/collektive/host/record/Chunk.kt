@@ -4,14 +4,23 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.zip.CRC32
 
-/** One piece of a record: what it holds, where in the file it begins, its bytes. docs/record-format.md is the format. */
+/**
+ * One chunk of a record; see `docs/record-format.md`.
+ *
+ * @property kind one of the companion's kinds.
+ * @property offset where the chunk begins in the file, in bytes.
+ * @property payload the content, between position and limit.
+ */
 public class Chunk(public val kind: Int, public val offset: Long, public val payload: ByteBuffer) {
-    /** Its kind as text. */
+    /** The [kind] as text. */
     public val name: String get() = name(kind)
 
-    /** Kinds of chunks, and what all of them begin with: kind, length of the payload, CRC-32 of both and of the payload. */
+    /** The kinds of chunks, and the header of all of them. */
     public companion object {
+        /** Size of the header: kind, length of the payload, CRC-32 of both and of the payload. */
         public const val HEADER_BYTES: Int = 12
+
+        /** Offset of the CRC-32 in the header, in bytes. */
         public const val CHECKSUM_AT: Int = 8
 
         public val HEAD: Int = kind("HEAD")
@@ -25,7 +34,7 @@ public class Chunk(public val kind: Int, public val offset: Long, public val pay
         /** [kind] as text. */
         public fun name(kind: Int): String = String(bytes(kind), Charsets.ISO_8859_1).trim().filter { it in ' '..'~' }
 
-        /** The CRC-32 of what lies in [header] before the checksum, and of [payload]; moves neither. */
+        /** The CRC-32 of the bytes of [header] before the checksum, and of [payload]. Does not move their positions. */
         public fun checksum(crc: CRC32, header: ByteBuffer, payload: ByteBuffer): Int {
             crc.reset()
             for (index in 0 until CHECKSUM_AT) crc.update(header.get(index).toInt())

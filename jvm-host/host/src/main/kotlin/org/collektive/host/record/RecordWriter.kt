@@ -15,33 +15,33 @@ import java.nio.file.StandardOpenOption.WRITE
 import java.util.zip.CRC32
 
 /**
- * Writes a session's frames to a file as they come and go, straight from their memory; allocates nothing per tick.
+ * Writes a session's frames to a file, directly from their memory. Allocates nothing per tick. Confined to one thread at a time.
  *
- * A request is written before its tick runs, so that a tick that never ends is in the record too. Methods throw [IOException] when the file
- * cannot be written.
+ * A request is written before its tick runs, so that the record also contains a tick that never ends. Functions throw [IOException] when
+ * the file cannot be written.
  */
 public class RecordWriter private constructor(private val path: String, private val channel: FileChannel) : AutoCloseable {
     private val header = ByteBuffer.allocateDirect(Chunk.HEADER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
     private val parts = arrayOf(header, header)
     private val crc = CRC32()
 
-    /** The `StepRequest` between position and limit of [frame]. */
+    /** Writes the `StepRequest` between position and limit of [frame]. */
     public fun step(frame: ByteBuffer): Unit = write(Chunk.STEP, frame)
 
-    /** The `StepResponse` between position and limit of [frame]. */
+    /** Writes the `StepResponse` between position and limit of [frame]. */
     public fun done(frame: ByteBuffer): Unit = write(Chunk.DONE, frame)
 
-    /** The step written last failed. */
+    /** Writes that the last step failed, and the reason. */
     public fun failed(why: String): Unit = write(Chunk.FAIL, text(why))
 
-    /** The session ended in order. */
+    /** Writes that the session was closed normally. */
     public fun end(): Unit = write(Chunk.END, NOTHING)
 
     override fun close() {
         channel.close()
     }
 
-    /** What to tell the user when writing failed. */
+    /** The message for the user when writing failed with [cause]. */
     public fun failure(cause: IOException): String =
         "the record $path cannot be written ($cause): make room or name another place, then start again"
 
@@ -75,12 +75,18 @@ public class RecordWriter private constructor(private val path: String, private 
         /** Name of the format. */
         public const val MAGIC_TEXT: String = "CLKREC"
 
-        /** What a record begins with: a name and the version of the format. */
+        /** The first bytes of a record: name and version of the format. */
         public val MAGIC: ByteArray get() = MAGIC_TEXT.encodeToByteArray() + byteArrayOf(VERSION.toByte(), 0)
 
         private val NOTHING = ByteBuffer.allocate(0)
 
-        /** Begins the record [path] of a session that [open] opened with [jars]; what was there is overwritten. */
+        /**
+         * Creates the record [path] of a session, and overwrites an existing file.
+         *
+         * @param open the session's `OpenRequest`, between position and limit.
+         * @param jars the session's programs.
+         * @throws HostException when the file cannot be written.
+         */
         public fun create(path: String, open: ByteBuffer, jars: List<JarBytes>): RecordWriter {
             try {
                 val writer = RecordWriter(path, FileChannel.open(Path.of(path), CREATE, WRITE, TRUNCATE_EXISTING))

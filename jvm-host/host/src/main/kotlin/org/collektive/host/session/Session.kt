@@ -24,9 +24,9 @@ import java.io.IOException
 import java.nio.ByteBuffer
 
 /**
- * One simulation: its programs, its engine, and the way from its frames to its answers. One thread at a time.
+ * One simulation: reads its frames, runs them on its engine and writes the answers. Confined to one thread at a time.
  *
- * @property schema the schema of its user data.
+ * @property schema the schema of the user data.
  */
 public class Session internal constructor(
     public val schema: DataSchema,
@@ -43,19 +43,20 @@ public class Session internal constructor(
     private val events = TickEvents()
     private var failure: String? = null
 
-    /** Writes the `OpenResponse` into [answer], the present buffer of [slot], and returns `offset << 32 | length`. */
+    /** Writes the `OpenResponse` to [answer], the current buffer of [slot]. Returns its place, `offset << 32 | length`. */
     internal fun answerOpen(slot: Long, answer: ByteBuffer): Long {
         buffer.begin(slot, answer)
         return buffer.writeOpenResponse(programs.infos)
     }
 
     /**
-     * Runs the tick of the `StepRequest` between position and limit of [frame], and writes the `StepResponse` into [answer], the present
+     * Runs the tick of the `StepRequest` between position and limit of [frame], and writes the `StepResponse` to [answer], the current
      * buffer of [slot].
      *
-     * @param begin when the call came, [deadline] when its limit passes, both in terms of `System.nanoTime()`.
-     * @return `offset << 32 | length` of the response.
-     * @throws HostException when the frame is refused, which changes nothing, or the session fails, which ends it.
+     * @param begin start of the host call, on the clock of `System.nanoTime()`.
+     * @param deadline end of the time limit, on the same clock.
+     * @return the place of the response, `offset << 32 | length`.
+     * @throws HostException when the frame is refused (nothing has changed), or when the session fails (it can only be closed).
      */
     public fun step(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
@@ -129,7 +130,7 @@ public class Session internal constructor(
         }
     }
 
-    /** Ends the session. Sets [failure] before it builds [text], which may be impossible with the heap exhausted. */
+    /** Marks the session as failed. Sets [failure] before it builds [text], which may throw with an exhausted heap. */
     private inline fun fail(cause: Throwable, text: () -> String): HostException {
         failure = "memory was short in an earlier tick"
         engine.close()
@@ -139,7 +140,7 @@ public class Session internal constructor(
     }
 }
 
-/** Runs [read]; a frame that it cannot read is refused as [what]. */
+/** Runs [read], and converts a [MalformedFrameException] to a [HostException] that names [what]. */
 internal inline fun <T> reading(what: () -> String, read: () -> T): T = try {
     read()
 } catch (e: MalformedFrameException) {

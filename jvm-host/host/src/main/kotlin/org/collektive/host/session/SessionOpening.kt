@@ -22,12 +22,12 @@ import org.collektive.host.shim.HostException
 import org.collektive.host.shim.ShimCalls
 import java.nio.ByteBuffer
 
-/** From an `OpenRequest` to a [Session]. */
+/** Opens a [Session] as an `OpenRequest` describes it. */
 public object SessionOpening {
-    /** Number of the contract in `schema/frame.fbs` and of the host's entries. */
+    /** Version of the protocol: `schema/frame.fbs` and the entry points of [org.collektive.host.Host]. */
     public const val PROTOCOL: Int = 1
 
-    /** Loads what the `OpenRequest` between position and limit of [frame] asks for. */
+    /** Opens the session of the `OpenRequest` between position and limit of [frame], with its record if it names one. */
     internal fun open(frame: ByteBuffer, shim: ShimCalls): Session {
         val request = reading({ "the frame" }) { openRequest(frame) }
         val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
@@ -36,13 +36,13 @@ public object SessionOpening {
     }
 
     /**
-     * Loads what [request], which passed its check, asks for, with the programs of [jars] and without a record.
+     * Opens the session of [request], a verified frame, with the programs of [jars] and without a record.
      *
-     * @throws HostException when that cannot be loaded.
+     * @throws HostException when the programs or their schema cannot be loaded, or a setting is out of range.
      */
     public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls): Session = open(request, jars, shim) { null }
 
-    /** [record] runs when all else is well. */
+    /** [record] runs last, so that a failed opening does not overwrite a record. */
     private fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
         val event = if (SessionEvents.wanted) SessionStartEvent() else null
         event?.begin()

@@ -6,7 +6,7 @@ import org.collektive.host.jfr.SlotGrownEvent
 import org.collektive.host.shim.ShimCalls
 import java.nio.ByteBuffer
 
-/** The answer slots of [shim], with an event for each that grows. */
+/** The answer slots of [shim]. Emits an event when one grows. */
 internal class ShimSlots(private val shim: ShimCalls) : AnswerSlots {
     override fun grow(slot: Long, from: Int, to: Int): ByteBuffer? {
         val grown = shim.grow(slot, to)

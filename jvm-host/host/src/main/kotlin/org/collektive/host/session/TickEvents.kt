@@ -5,26 +5,26 @@ import org.collektive.engine.TickResult
 import org.collektive.host.jfr.ProgramErrorEvent
 import org.collektive.host.jfr.SessionEvents
 
-/** Tells the flight recorder about the ticks of one session, once this JVM has a recorder. Allocates only for failed rounds. */
+/** Emits the events of one session's ticks, once this JVM has a flight recorder. Allocates only for failed rounds. */
 internal class TickEvents {
     private var events = SessionEvents.ofRecorder()
     private var called = 0L
     private var written = 0L
     private var lastEnd = 0L
 
-    /** A tick begins; its call came at [called] in terms of `System.nanoTime()`. */
+    /** Marks the begin of a tick, whose host call began at [called] on the clock of `System.nanoTime()`. */
     fun begin(called: Long) {
         this.called = called
         if (events == null) events = SessionEvents.ofRecorder()
         events?.tick?.begin()
     }
 
-    /** Its rounds are over, and its answer is written from now on. */
+    /** Marks the end of the rounds and the begin of writing the answer. */
     fun write() {
         written = System.nanoTime()
     }
 
-    /** The answer is written; its frames have [bytesIn] and [bytesOut] bytes. */
+    /** Marks the end of the tick; its request has [bytesIn] bytes, its response [bytesOut]. */
     fun end(engine: Engine, result: TickResult, bytesIn: Int, bytesOut: Int) {
         val end = System.nanoTime()
         val events = events
@@ -36,7 +36,7 @@ internal class TickEvents {
         lastEnd = end
     }
 
-    /** The session ends after [ticks] ticks, by [failure] or in order. */
+    /** Marks the end of the session after [ticks] ticks; [failure] is `null` if it ended normally. */
     fun close(ticks: Long, failure: String?) {
         val event = (events ?: SessionEvents.ofRecorder())?.end ?: return
         event.ticks = ticks
@@ -64,7 +64,7 @@ internal class TickEvents {
     private fun network(events: SessionEvents, tick: Long, result: TickResult) {
         val event = events.network
         if (!event.isEnabled) return
-        event.begin() // or it would keep the time of its first use
+        event.begin() // a reused event keeps its first start time otherwise
         event.tick = tick
         event.sent = result.network.sent
         event.dropped = result.network.dropped

@@ -1,9 +1,9 @@
 package org.collektive.host.shim
 
-/** A failure that the caller can act on; [message] says what happened, to what, and what to do next. */
+/** A failure that the user can act on; [message] says what happened, to what, and what to do next. */
 public class HostException(public val error: HostError, message: String, cause: Throwable? = null) : RuntimeException(message, cause)
 
-/** Those of `CLK_ERRORS` (collektive_shim.h) that the host answers with. */
+/** The codes of `CLK_ERRORS` (collektive_shim.h) that the host returns. */
 public enum class HostError(public val code: Int) {
     ARGUMENT(-1),
     HANDLE(-3),

@@ -2,22 +2,25 @@ package org.collektive.host.shim
 
 import java.nio.ByteBuffer
 
-/** What the shim offers the host; the shim registers these natives before it calls the host. */
+/** The shim's native functions. The shim registers them before it calls the host. */
 public object Shim {
-    /** A larger buffer for the answer [slot], or `null` without memory. The old one stays readable until the call returns. */
+    /**
+     * Grows the buffer of [slot] to at least [capacity] bytes and returns it; `null` when memory is exhausted. The shim owns the buffer.
+     * The old one stays readable until the host call returns.
+     */
     @JvmStatic
     public external fun grow(slot: Long, capacity: Int): ByteBuffer?
 
-    /** Text of the error code about to be returned. */
+    /** Sets the message of the error code that the host call is about to return. */
     @JvmStatic
     public external fun error(utf8: ByteArray)
 
-    /** One log line, from any thread; never blocks. */
+    /** Logs one line. [level] is a value of `clk_log_level`. Safe on any thread; never blocks. */
     @JvmStatic
     public external fun log(level: Int, utf8: ByteArray)
 }
 
-/** [Shim] as the host uses it, so that the host also runs without the native library. */
+/** The functions of [Shim], so that the host also runs without the native library. */
 public interface ShimCalls {
     /** See [Shim.grow]. */
     public fun grow(slot: Long, capacity: Int): ByteBuffer?
@@ -37,5 +40,5 @@ internal object NativeShim : ShimCalls {
     override fun log(level: LogLevel, line: String) = Shim.log(level.ordinal, line.encodeToByteArray())
 }
 
-/** `clk_log_level`. */
+/** The values of `clk_log_level`. */
 public enum class LogLevel { DEBUG, INFO, WARNING, ERROR }
