@@ -9,9 +9,9 @@ import java.time.Duration
 import java.util.Locale
 
 /**
- * What a recording tells, as text: the time of ticks, for each program where its time went, what was allocated, and the pauses.
+ * Summarises a flight recording as text: times of ticks, hot methods per program, allocations and pauses for garbage collection.
  *
- * A sample belongs to the program whose function is on its stack; `collektive.ProgramRound` events tell which function is whose.
+ * A sample counts for the program whose function is on its stack; `collektive.ProgramRound` events name the function of each program.
  */
 internal class ProfileReport {
     private val ticks = ArrayList<RecordedEvent>()
@@ -141,7 +141,7 @@ internal class ProfileReport {
 
         private fun List<Double>.middle(): Double = if (isEmpty()) 0.0 else sorted()[size / 2]
 
-        /** "[J" as "long[]". */
+        /** Converts the class name "[J" to "long[]". */
         private fun String.readable(): String {
             val dimensions = takeWhile { it == '[' }.length
             if (dimensions == 0) return this
@@ -156,7 +156,7 @@ internal class ProfileReport {
             'Z' to "boolean", 'B' to "byte", 'C' to "char", 'S' to "short", 'I' to "int", 'J' to "long", 'F' to "float", 'D' to "double",
         )
 
-        /** Prints the report of the recording that is named. */
+        /** Prints the report of the recording whose path is the only argument. */
         @JvmStatic
         fun main(arguments: Array<String>) {
             print(ProfileReport().read(Path.of(arguments.single())).text())

@@ -12,25 +12,26 @@ import org.collektive.frame.OpenRequest
 import org.collektive.frame.StepRequest
 import java.nio.ByteBuffer
 
-/** Where two frames differ: whose data ("node 3", or empty), which field (or empty), and both values. */
+/** One difference of two frames: whose data ("node 3", or empty), which field (or empty), and both values. */
 internal class Difference(private val whose: String, private val field: String, private val left: String, private val right: String) {
-    /** One line; [names] are those of the two sides. */
+    /** The difference in one line; [names] are the names of the two sides. */
     fun line(names: Pair<String, String>): String {
         val place = listOf(whose, field).filter(String::isNotEmpty).joinToString(", ")
         return "$place: $left in ${names.first}, $right in ${names.second}"
     }
 
     companion object {
-        /** What sessions may differ in and still do the same; jars are compared by their bytes. */
+        /** Fields without an effect on results. Paths of jars are among them, because jars are compared by content. */
         private val WITHOUT_EFFECT = setOf("threads", "record", "jars")
 
-        /** What is measured, not computed, and the digest, which says only that something else differs. */
+        /** Measured times, and the digest, which differs only if another field does. */
         private val MEASURED = setOf("digest", "hostMicros", "roundMicros")
 
-        /** The first difference that can change what a session does. */
-        fun ofOpen(left: OpenRequest, right: OpenRequest): Difference? = ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
+        /** The first difference that can change the results of a session. */
+        fun ofOpen(left: OpenRequest, right: OpenRequest): Difference? =
+            ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
 
-        /** The first difference of what went into a tick; the order in which changes are given counts for nothing. */
+        /** The first difference of two inputs of a tick, whatever the order of their changes. */
         fun ofRequests(schema: DataSchema, left: ByteBuffer, right: ByteBuffer): Difference? {
             if (left == right) return null
             val a = Request.read(schema, left)
@@ -41,7 +42,7 @@ internal class Difference(private val whose: String, private val field: String, 
                 ?: ObjectDifference.first(a.globals, b.globals, field = "globals")
         }
 
-        /** The first difference of what came out of a tick. */
+        /** The first difference of two outputs of a tick. */
         fun ofAnswers(schema: DataSchema, left: StepResponseReader, right: StepResponseReader): Difference? =
             ofNodes("actuators", actuators(schema, left), actuators(schema, right))
                 ?: ObjectDifference.first(left.response.unpack(), right.response.unpack(), except = MEASURED)
@@ -67,14 +68,14 @@ internal class Difference(private val whose: String, private val field: String, 
             return (0 until count).associate { node(it) to unpacked(reader[it]) }
         }
 
-        /** The object of a view, whose class flatc made. */
+        /** Converts a view of flatc to an object, by the `unpack` of its class. */
         private fun unpacked(view: Any): Any = view.javaClass.getMethod("unpack").invoke(view)
     }
 
-    /** A `StepRequest` as objects. */
+    /** A `StepRequest`, converted to objects. */
     private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
         companion object {
-            /** `null` when [bytes] are damaged, as a frame can be that the host refused. */
+            /** Reads [bytes]; `null` when they are damaged: a record may contain a frame that the host refused. */
             fun read(schema: DataSchema, bytes: ByteBuffer): Request? = try {
                 val root = FrameChecker(FramePolicy.FRAME).checkRoot(bytes, FrameLayouts.STEP_REQUEST)
                 val request = StepRequest().__assign(root, bytes)

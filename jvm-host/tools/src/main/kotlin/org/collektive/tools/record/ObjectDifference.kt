@@ -2,9 +2,9 @@ package org.collektive.tools.record
 
 import java.lang.reflect.Modifier
 
-/** Compares objects that flatc's object API made, field by field in the order of the schema. */
+/** Compares objects of flatc's object API field by field, in the order of the schema. */
 internal object ObjectDifference {
-    /** The first difference; [except] names fields of the objects themselves that are left out. */
+    /** The first difference of [left] and [right]; ignores the fields of these two objects that [except] names. */
     fun first(left: Any?, right: Any?, whose: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
         left == null && right == null -> null
         left == null || right == null -> Difference(whose, field, text(left), text(right))
@@ -31,7 +31,7 @@ internal object ObjectDifference {
         (0 until minOf(left.size, right.size)).firstNotNullOfOrNull { first(left[it], right[it], whose, "$field[$it]") }
             ?: if (left.size == right.size) null else Difference(whose, field, "${left.size} elements", "${right.size} elements")
 
-    /** What an element of a frame's list speaks of, so that lists can be compared whatever their order. */
+    /** The node or link that an element of a list concerns, so that lists are compared independent of their order. */
     private fun owner(element: Any): Owner? {
         if (isLeaf(element) || element.javaClass.isArray) return null
         val values = fields(element).associate { it.name to it.get(element) }
@@ -69,6 +69,6 @@ internal object ObjectDifference {
     private const val PRESENT = "present"
     private const val ABSENT = "absent"
 
-    /** Fields of frames whose numbers are ids of nodes. */
+    /** Fields of frames that are lists of node ids. */
     private val ID_LISTS = setOf("nodesRemoved", "due", "nodes")
 }

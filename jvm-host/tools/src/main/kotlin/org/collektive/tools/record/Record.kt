@@ -16,26 +16,26 @@ import java.nio.file.Path
 import java.nio.file.StandardOpenOption.READ
 import java.util.zip.CRC32
 
-/** A record being read: what its session was opened with, then its steps in order. */
+/** Reads a record: first how its session was opened, then its steps in order. */
 internal class Record private constructor(private val path: Path, private val channel: FileChannel) : AutoCloseable {
     private val size = channel.size()
     private val crc = CRC32()
     private var offset = 0L
 
-    /** The last tick read as a whole; 0 before the first. */
+    /** The last tick read completely; 0 before the first. */
     var tick = 0L
         private set
 
-    /** What the recording side said of itself, a line each. */
+    /** The properties of the recording side, one per line. */
     val head: String
 
-    /** The `OpenRequest` between position and limit. */
+    /** The session's `OpenRequest`, between position and limit. */
     val open: ByteBuffer
 
-    /** What [open] says. */
+    /** Accessor of [open]. */
     val settings: OpenRequest
 
-    /** The jars with programs, as they were. */
+    /** The session's jars, as they were when recorded. */
     val jars: List<JarBytes>
 
     init {
@@ -50,7 +50,7 @@ internal class Record private constructor(private val path: Path, private val ch
     /**
      * The next step; `null` after the last.
      *
-     * @throws RecordDamaged where the rest cannot be read.
+     * @throws RecordDamaged when the step cannot be read.
      */
     fun next(): RecordedStep? {
         val step = chunk()
@@ -71,7 +71,7 @@ internal class Record private constructor(private val path: Path, private val ch
         }
     }
 
-    /** Bytes read so far, and bytes there are. */
+    /** Bytes read so far, and size of the file in bytes. */
     val progress: Pair<Long, Long> get() = offset to size
 
     override fun close() {
@@ -145,8 +145,8 @@ internal class Record private constructor(private val path: Path, private val ch
         /**
          * Opens the record at [path].
          *
-         * @throws RecordRefused when it is none, or one of another version.
-         * @throws RecordDamaged when it cannot be read up to its first step.
+         * @throws RecordRefused when the file is no record, or a record of another version.
+         * @throws RecordDamaged when the part before the first step is damaged.
          */
         fun open(path: Path): Record {
             val channel = try {
@@ -169,14 +169,14 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 }
 
-/** A step as it was: its `StepRequest`, and either the answer or why there was none. */
+/** A recorded step: its `StepRequest`, and either the answer or the reason why there is none. */
 internal class RecordedStep(val request: ByteBuffer, val answer: StepResponseReader?, val failure: String?)
 
-/** A record that cannot be used, or no further; [message] says why, where, and what to do. */
+/** A record cannot be used, or not to its end; [message] says why, where, and what to do. */
 internal sealed class RecordException(message: String) : RuntimeException(message)
 
-/** A file that is no record, or not one for this. */
+/** A file is no record, or no record for this command. */
 internal class RecordRefused(message: String) : RecordException(message)
 
-/** A record that cannot be read any further. */
+/** A record is damaged from some byte on. */
 internal class RecordDamaged(message: String) : RecordException(message)

@@ -12,7 +12,7 @@ import java.security.MessageDigest
 internal class RecordDiff(private val left: Record, private val right: Record, private val report: Report) {
     private val names = "A" to "B"
 
-    /** Compares to the end of the shorter one; whether they are equal in all that was computed. */
+    /** Compares the records up to the first difference. Returns whether all that was computed is equal. */
     fun run(): Boolean {
         val types = left.settings.types
         for ((name, hash) in types.entries + right.settings.types.entries) {

@@ -14,13 +14,13 @@ private const val DIFFERENT = 1
 private const val TROUBLE = 2
 
 /**
- * `replay FILE [--programs JAR]...` and `diff A B` on a plain JVM, without Unity.
+ * Runs `replay FILE [--programs JAR]...` or `diff A B` on a plain JVM, without Unity.
  *
- * Exit code 0: no difference; 1: a difference; 2: a record or a jar cannot be used, or not to its end.
+ * Exit code 0: no difference; 1: a difference; 2: a record or a jar cannot be used, or a record not to its end.
  */
 public fun main(arguments: Array<String>) {
     val results = System.out
-    // What programs print is no result.
+    // Keeps the output of programs out of the results.
     System.setOut(System.err)
     exitProcess(records(arguments.asList(), results, System.err))
 }

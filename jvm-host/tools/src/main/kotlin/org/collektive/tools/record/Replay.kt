@@ -12,9 +12,9 @@ import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
 
 /**
- * Runs the programs of a record, or others, on the frames of the record, and compares what comes out with what came out then.
+ * Runs the programs of a record, or others, on the recorded requests, and compares the answers with the recorded ones.
  *
- * @property programs jars to use instead of the record's; empty: the record's.
+ * @property programs jars to use instead of the record's; if empty, the record's are used.
  */
 internal class Replay(private val record: Record, private val programs: List<JarBytes>, private val report: Report) : ShimCalls {
     private var answer: ByteBuffer = ByteBuffer.allocate(FIRST_ANSWER_BYTES)
@@ -22,7 +22,7 @@ internal class Replay(private val record: Record, private val programs: List<Jar
     private var failedRounds = 0L
     private var recordedFailedRounds = 0L
 
-    /** Runs to the record's end; whether every tick gave what the record holds. */
+    /** Runs to the record's end. Returns whether every answer equals the recorded one. */
     fun run(): Boolean {
         val session = SessionOpening.open(record.settings, programs.ifEmpty { record.jars }, this)
         return try {
@@ -62,7 +62,7 @@ internal class Replay(private val record: Record, private val programs: List<Jar
         return isEqual
     }
 
-    /** The answer, or why there was none. */
+    /** Runs [step]. Returns the answer as a [StepResponseReader], or the reason of its failure as a [String]. */
     private fun step(session: Session, step: RecordedStep): Any {
         val begin = System.nanoTime()
         return try {
@@ -97,10 +97,10 @@ internal class Replay(private val record: Record, private val programs: List<Jar
     }
 }
 
-/** A digest as manifests show it. */
+/** Formats a digest as manifests do: 16 hexadecimal digits. */
 internal fun hex(digest: Long): String = digest.toULong().toString(16).padStart(16, '0')
 
-/** Where results and progress go. */
+/** Prints results and progress to separate streams. */
 internal class Report(private val results: PrintStream, private val messages: PrintStream) {
     private var shown = 0L
 
@@ -108,7 +108,7 @@ internal class Report(private val results: PrintStream, private val messages: Pr
 
     fun log(text: String) = messages.println(text)
 
-    /** Says how far [record] was read, at most twice a second. */
+    /** Prints how much of [record] has been read, at most twice a second. */
     fun progress(what: String, record: Record) {
         val now = System.nanoTime()
         if (shown == 0L) shown = now
