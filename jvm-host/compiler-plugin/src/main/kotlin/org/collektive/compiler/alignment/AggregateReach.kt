@@ -31,31 +31,31 @@ import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.ir.visitors.acceptVoid
 
 /**
- * Decides which calls can lead to a primitive: those that are given an Aggregate, a Field, or a function that may use one. Only these are
- * aligned; all others (`sqrt`, `listOf`, getters of a field) cannot tell whether they were.
+ * Decides which calls can reach a primitive: those with an argument that is an Aggregate, a Field, or a function that may use one. Only
+ * these are aligned. For all others (`sqrt`, `listOf`, getters of a field) alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {
     private val known = HashMap<IrFunction, Boolean>()
 
-    /** Whether [call], inside an aggregate function, must have a place of its own in the path. */
+    /** Whether [call], inside an aggregate function, needs its own token on the alignment stack. */
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
         val callee = call.symbol.owner
         return when {
             dsl.isManualAlignment(callee) || callee.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR -> false
-            // An object literal is code of this very place.
+            // The code of an object literal is part of the enclosing function.
             callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
-            dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionsGivenTo(call).any()
-            // They know nothing of primitives, but may run a function.
-            dsl.isFieldMember(callee) || isKotlins(callee) -> functionsGivenTo(call).any(::carries)
+            dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionArguments(call).any()
+            // These call no primitives themselves, but may call a function that does.
+            dsl.isFieldMember(callee) || isKotlins(callee) -> functionArguments(call).any(::carries)
             callee.isLocal && leadsToPrimitive(callee) -> true
             else -> call.arguments.any { it != null && carries(it) }
         }
     }
 
-    private fun functionsGivenTo(call: IrFunctionAccessExpression): List<IrExpression> =
+    private fun functionArguments(call: IrFunctionAccessExpression): List<IrExpression> =
         call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
 
-    /** The standard library, and operators such as `==` and `!!`. */
+    /** Whether [callee] is part of Kotlin's standard library, or an operator such as `==` and `!!`. */
     fun isKotlins(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
 
     private fun carries(value: IrExpression): Boolean = when (value) {
@@ -69,12 +69,12 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         else -> mayCarry(value)
     }
 
-    /** What a function does that comes from elsewhere is not known, so it may lead anywhere. */
+    /** A function value whose body is unknown may reach a primitive. */
     private fun mayCarry(value: IrExpression) = isFunction(value.type) || dsl.mentions(value.type)
 
     private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
-    /** The lambda that a `val` was made with. */
+    /** The lambda that initialises the `val` of [read]; `null` if it has none. */
     private fun functionIn(read: IrGetValue): IrFunction? {
         val variable = read.symbol.owner as? IrVariable ?: return null
         if (variable.isVar) return null
@@ -87,7 +87,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
     private fun leadsToPrimitive(function: IrFunction): Boolean {
         known[function]?.let { return it }
-        known[function] = false // for recursion: what else it does decides
+        known[function] = false // ends recursion: the rest of the body decides
         // A constructor runs the initialisers of its class.
         val code = if (function is IrConstructor) function.parentAsClass else function
         val found = Finder().apply { code.acceptChildrenVoid(this) }.found

@@ -63,12 +63,12 @@ import org.jetbrains.kotlin.name.Name
 
 /**
  * Rewrites the aggregate functions of one file:
- * - a call that can lead to a primitive runs between push and pop of its token (its arguments run before);
- * - so does each arm of a branch that has such a call or reads a field;
- * - an arm, and the body of `alignedOn`, sees fields from outside only through `project`.
+ * - A call that can reach a primitive runs between push and pop of its token; its arguments are evaluated before.
+ * - So does each arm of a branch that contains such a call or reads a field.
+ * - Inside an arm or the body of `alignedOn`, each read of a field from outside goes through `project`.
  *
- * Pops are in `finally`, so that no way out of a call (return, break, a caught exception) leaves a token behind; exceptions are noted
- * before, since the path would be gone when the round ends.
+ * Pops are in `finally`, so that no exit from a call (return, break, a caught exception) leaves a token on the stack. A `catch` before it
+ * records the path of the failure, which the pops would destroy.
  */
 internal class AlignmentTransformer(
     private val plugin: IrPluginContext,
@@ -76,23 +76,23 @@ internal class AlignmentTransformer(
     private val reach: AggregateReach,
     private val tokens: Tokens,
 ) : IrElementTransformerVoidWithContext() {
-    /** What gives the running Aggregate; `null` outside aggregate functions. */
+    /** Where the current function gets its Aggregate from; `null` outside aggregate functions. */
     private var source: Source? = null
 
-    /** The parameter [given] itself, or what that object keeps in [property]. */
+    /** The parameter [given], or the [property] of that object. */
     private class Source(val given: IrValueParameter, val property: IrProperty? = null)
 
-    /** Where neighbours are aligned alike: a function's body, an arm, the body of an `alignedOn`. */
+    /** A part of the program in which the aligned neighbours are the same: a function's body, an arm, the body of an `alignedOn`. */
     private class Region(val outer: Region?)
 
     private var region: Region? = null
     private val regionOf = HashMap<IrValueDeclaration, Region?>()
     private val alignedBodies = HashSet<IrFunction>()
 
-    /** Functions that run for what a container holds, such as the one of `map`: their parameters come from outside. */
+    /** Function arguments of the standard library, such as that of `map`: their parameters come from outside the region. */
     private val eachBodies = HashSet<IrFunction>()
 
-    /** Whether the arm being rewritten depends on its path. */
+    /** Whether the current arm contains something aligned or projected, so that it needs a token. */
     private var dependsOnPath = false
 
     override fun visitFileNew(declaration: IrFile): IrFile =
@@ -107,7 +107,7 @@ internal class AlignmentTransformer(
     override fun visitAnonymousInitializerNew(declaration: IrAnonymousInitializer): IrStatement =
         withSourceOfConstructor(declaration) { super.visitAnonymousInitializerNew(declaration) }
 
-    /** Initialisers read the primary constructor's parameters. */
+    /** Initialisers can read the primary constructor's parameters, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
         source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer
@@ -142,7 +142,7 @@ internal class AlignmentTransformer(
         return expression.also(::visitStatements)
     }
 
-    /** The test for null of `?.`: not a branch of the program. */
+    /** The null checks that the compiler generates for `?.`. They are no branches of the program. */
     private val plainBranches = HashSet<IrWhen>()
 
     private fun visitStatements(container: IrStatementContainer) {
@@ -182,7 +182,7 @@ internal class AlignmentTransformer(
         return if (isOutside && dsl.isField(expression.type)) projected(expression, nameOf(expression)) else expression
     }
 
-    /** A variable of another type that is read as a field, after `is` or with `as`. */
+    /** Projects a variable of another type that is read as a field, after `is` or with `as`. */
     override fun visitTypeOperator(expression: IrTypeOperatorCall): IrExpression {
         val read = expression.argument as? IrGetValue
         val becomesField = read != null && dsl.isField(expression.type) && !dsl.isField(read.type)
@@ -190,8 +190,8 @@ internal class AlignmentTransformer(
         return projected(expression, nameOf(read))
     }
 
-    /** Whether [call] gives a field that is not made by it: one from a property, a list, a pair. */
-    private fun handsOut(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
+    /** Whether [call] returns an existing field: from a property, a list, a pair. */
+    private fun returnsExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
         !dsl.isFieldMember(call.symbol.owner) && !reach.mustAlign(call) && call.arguments.none { it != null && dsl.isField(it.type) }
 
     private fun projected(field: IrExpression, name: String): IrExpression {
@@ -212,31 +212,31 @@ internal class AlignmentTransformer(
         val callee = expression.symbol.owner
         if (source == null) return super.visitCall(expression)
         if (isLocalEntry(callee)) {
-            // The own entry is the same in every projection.
+            // Projection does not change this device's entry.
             (expression.dispatchReceiver as? IrGetValue)?.let { return expression }
         }
         if (callee.name == DslNames.alignedOn && dsl.isAggregateMember(callee)) {
-            functionsGivenTo(expression).forEach { alignedBodies += it.function }
+            functionArguments(expression).forEach { alignedBodies += it.function }
         }
         if (dsl.isManualAlignment(callee)) dependsOnPath = true
-        val handsOut = handsOut(expression)
+        val needsProjection = returnsExistingField(expression)
         val result = visitAccess(expression)
-        return if (handsOut) projected(result, callName(expression)) else result
+        return if (needsProjection) projected(result, callName(expression)) else result
     }
 
     override fun visitConstructorCall(expression: IrConstructorCall): IrExpression =
         if (source == null) super.visitConstructorCall(expression) else visitAccess(expression)
 
-    private fun functionsGivenTo(call: IrFunctionAccessExpression) = call.arguments.filterIsInstance<IrFunctionExpression>()
+    private fun functionArguments(call: IrFunctionAccessExpression) = call.arguments.filterIsInstance<IrFunctionExpression>()
 
     private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
         val mustAlign = reach.mustAlign(call)
-        if (reach.isKotlins(call.symbol.owner)) functionsGivenTo(call).forEach { eachBodies += it.function }
+        if (reach.isKotlins(call.symbol.owner)) functionArguments(call).forEach { eachBodies += it.function }
         call.transformChildren(this, null)
         return if (mustAlign) aligned(call) else call
     }
 
-    /** `arguments; push; try { call } catch (failure) { note it; throw it } finally { pop }` */
+    /** Generates `arguments; push; try { call } catch (failure) { note it; throw it } finally { pop }`. */
     private fun aligned(call: IrFunctionAccessExpression): IrExpression {
         dependsOnPath = true
         val callee = call.symbol.owner
@@ -266,11 +266,11 @@ internal class AlignmentTransformer(
             arguments[0] = aggregate()
             arguments[1] = irGet(depth)
         }
-        +irTry(body.type, body, listOf(noting(aggregate)), pop)
+        +irTry(body.type, body, listOf(noteAndRethrow(aggregate)), pop)
     }
 
-    /** `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }` */
-    private fun IrBlockBuilder.noting(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
+    /** Generates `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }`. */
+    private fun IrBlockBuilder.noteAndRethrow(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
         val failure = buildVariable(
             scope.getLocalDeclarationParent(), startOffset, endOffset, IrDeclarationOrigin.CATCH_PARAMETER, Name.identifier("failure"), plugin.irBuiltIns.throwableType,
         )
@@ -284,7 +284,7 @@ internal class AlignmentTransformer(
         })
     }
 
-    /** The Aggregate of the enclosing function. */
+    /** Reads the Aggregate of the enclosing function. */
     private fun IrBlockBuilder.current(): IrExpression {
         val source = checkNotNull(source)
         val given = irGet(source.given)
@@ -299,11 +299,11 @@ internal class AlignmentTransformer(
         }
     }
 
-    /** A lambda here is put into the callee's body by the compiler, so it must stay a literal. */
+    /** Whether the compiler inlines a lambda passed for [parameter]; it must then stay a literal argument. */
     private fun isInlined(callee: IrFunction, parameter: IrValueParameter) =
         callee.isInline && !parameter.isNoinline && parameter.type.isFunctionTypeOrSubtype()
 
-    /** Whether evaluating [argument] later changes nothing. */
+    /** Whether [argument] may be evaluated later: it has no side effects, and its value does not change. */
     private fun isStable(argument: IrExpression): Boolean = when (argument) {
         is IrConst, is IrFunctionExpression, is IrGetObjectValue -> true
         is IrGetValue -> argument.symbol.owner.let { it is IrValueParameter || it is IrVariable && !it.isVar }
@@ -319,7 +319,7 @@ internal class AlignmentTransformer(
         return if (parameter != null) Source(parameter) else self.firstOrNull()?.let { keptBy(it, function.parentAsClass) }
     }
 
-    /** What [self], of [type], or an object around it keeps. */
+    /** The Aggregate that [self], of class [type], or an object around it keeps in a property; `null` if there is none. */
     private fun keptBy(self: IrValueParameter, type: IrClass): Source? {
         dsl.keptAggregate(type)?.let { return Source(self, it) }
         return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { keptBy(it, outer) } } else null
@@ -330,7 +330,7 @@ internal class AlignmentTransformer(
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
 
-    /** Bodies made by the compiler for `by`: they only pass calls on. */
+    /** Whether the compiler generates [function] for `by` or inherits it: it only forwards. */
     private fun isForwarding(function: IrFunction) =
         function.origin == IrDeclarationOrigin.DELEGATED_MEMBER || function is IrSimpleFunction && function.isFakeOverride
 

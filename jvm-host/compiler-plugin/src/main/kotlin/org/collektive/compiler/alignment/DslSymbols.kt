@@ -30,7 +30,7 @@ import org.jetbrains.kotlin.ir.util.properties
 import org.jetbrains.kotlin.ir.util.resolveFakeOverride
 import org.jetbrains.kotlin.name.Name
 
-/** The declarations of the DSL as the module under compilation sees them. */
+/** The declarations of the DSL on the class path of the module under compilation. */
 internal class DslSymbols private constructor(
     val aggregate: IrClassSymbol,
     val field: IrClassSymbol,
@@ -44,18 +44,18 @@ internal class DslSymbols private constructor(
 
     fun isField(type: IrType) = type.isSubtypeOfClass(field)
 
-    /** Whether values of [type] are, or may hold, an Aggregate or a Field. */
+    /** Whether a value of [type] is or may contain an Aggregate or a Field. */
     fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
         type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true } ||
         type.getClass()?.let(::keepsAggregate) == true
 
     private val keepers = HashMap<IrClass, Boolean>()
 
-    /** Whether objects of [type], or others that they keep, keep an Aggregate. */
+    /** Whether an object of [type] keeps an Aggregate in a property, directly or through other objects. */
     private fun keepsAggregate(type: IrClass): Boolean {
         if (PLATFORM.any(type.getPackageFragment().packageFqName::startsWith)) return false
         keepers[type]?.let { return it }
-        keepers[type] = false // for classes that keep each other
+        keepers[type] = false // ends recursion between classes that refer to each other
         val found = keptAggregate(type) != null || type.properties.any { property ->
             property.backingField?.type?.getClass()?.let(::keepsAggregate) == true
         } || type.isInner && keepsAggregate(type.parentAsClass)
@@ -64,8 +64,8 @@ internal class DslSymbols private constructor(
     }
 
     /**
-     * The property in which objects of [type] keep the Aggregate that they were made with. Implementations of Aggregate keep another
-     * one for other reasons.
+     * The property in which an object of [type] keeps the Aggregate of its program; `null` if there is none. Implementations of Aggregate
+     * are excluded: a property of theirs is a delegate.
      */
     fun keptAggregate(type: IrClass): IrProperty? =
         if (type.symbol.isSubtypeOfClass(aggregate)) null else type.properties.firstOrNull(::isKeptAggregate)
@@ -77,7 +77,7 @@ internal class DslSymbols private constructor(
         return isAggregate(kept) && !kept.isNullable()
     }
 
-    /** Whether [getter] can be called for what the class above, or below, keeps. */
+    /** Whether [getter] is a plain, non-private getter that a superclass defines or a subclass must define. */
     private fun isInheritedOrAbstract(getter: IrSimpleFunction): Boolean {
         val real = generateSequence(getter) { it.overriddenSymbols.firstOrNull()?.owner }.firstOrNull { !it.isFakeOverride } ?: return false
         return real.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR && !DescriptorVisibilities.isPrivate(real.visibility) &&
@@ -88,7 +88,7 @@ internal class DslSymbols private constructor(
     fun isAggregateMember(function: IrFunction): Boolean = function.parentClassOrNull?.symbol == aggregate ||
         function is IrSimpleFunction && function.overriddenSymbols.any { isAggregateMember(it.owner) }
 
-    /** Whether [type] passes an Aggregate's alignment on (`by`), instead of implementing it: its members are parts of programs. */
+    /** Whether [type] delegates alignment to another Aggregate (`by`). Its members are then part of the program. */
     fun isAggregateByDelegation(type: IrClass): Boolean {
         if (!type.symbol.isSubtypeOfClass(aggregate)) return false
         val align = type.functions.firstOrNull { it.name == DslNames.align && isAggregateMember(it) }?.resolveFakeOverride()
@@ -97,15 +97,15 @@ internal class DslSymbols private constructor(
 
     fun isFieldMember(function: IrFunction) = function.parentClassOrNull?.symbol == field
 
-    /** `align` or `dealign`: the program moves the stack itself. */
+    /** Whether [function] is `align` or `dealign`. */
     fun isManualAlignment(function: IrFunction) =
         isAggregateMember(function) && (function.name == DslNames.align || function.name == DslNames.dealign)
 
     companion object {
-        /** First names of packages that no program is in. */
+        /** First segments of packages that contain no programs. */
         private val PLATFORM = listOf("kotlin", "kotlinx", "java", "javax").map(Name::identifier)
 
-        /** `null` when the DSL is not on the class path: there is nothing to align. */
+        /** Finds the DSL; `null` when it is not on the class path, so that there is nothing to align. */
         fun find(finder: DeclarationFinder): DslSymbols? {
             val field = finder.findClass(DslNames.field) ?: return null
             return DslSymbols(

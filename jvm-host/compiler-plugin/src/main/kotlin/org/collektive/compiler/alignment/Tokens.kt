@@ -9,11 +9,11 @@ import org.jetbrains.kotlin.ir.util.parents
 import org.jetbrains.kotlin.ir.util.render
 
 /**
- * Makes the tokens of one [file]: `share@Swarm.kt:12#9c1d3a5e7f00b2d4`, what is called or chosen, where, and 64 bits that tell the place
- * from all others (module, file, enclosing declarations with their parameters, and the place's number in them).
+ * Makes the tokens of one [file], such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`: the called function or chosen arm, its location, and a
+ * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number inside these.
  *
- * The whole text is the identity, so that no two places can share one by chance, and errors need no table of names. It depends on the sources
- * alone: all devices that run one jar agree on it.
+ * The whole text is the identity, so error messages need no table of names. It depends on the sources alone, so all devices that run
+ * the same jar agree on it.
  */
 internal class Tokens(private val module: String, private val file: IrFile) {
     private val placesIn = HashMap<String, Int>()

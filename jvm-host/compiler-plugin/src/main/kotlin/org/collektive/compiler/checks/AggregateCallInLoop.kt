@@ -18,7 +18,7 @@ import org.jetbrains.kotlin.fir.references.toResolvedCallableSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** An aggregate call (or getter) in a loop, or in a lambda that a collection runs for each element, with no `alignedOn` between. */
+/** Reports an aggregate call or getter that runs several times at one path: in a loop, or in a lambda that runs for each element. */
 internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirQualifiedAccessExpression) {
@@ -27,7 +27,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
         reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name.asString())
     }
 
-    /** Walks outwards until something says whether [expression] runs once or many times per path. */
+    /** Walks outwards until an element decides whether [expression] runs once or several times per path. */
     context(context: CheckerContext)
     private fun repeats(expression: FirQualifiedAccessExpression): Boolean {
         var lambda: FirAnonymousFunction? = null
@@ -35,7 +35,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
             when (element) {
                 expression -> Unit
                 is FirLoop -> return true
-                // A program of its own, as in a test that runs devices one by one.
+                // A separate program, as in a test that runs one per device.
                 is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
                 is FirFunction, is FirClass -> return false
                 is FirFunctionCall -> {
@@ -62,7 +62,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
 
     private fun isAlignedOn(call: FirFunctionCall) = call.callee?.isDsl(DslNames.alignedOn) == true
 
-    /** A call that is given the Aggregate, other than `align`, `dealign`, `alignedOn` and the properties of Aggregate. */
+    /** Whether [call] gets the Aggregate. Excludes `align`, `dealign`, `alignedOn` and the properties of Aggregate. */
     context(context: CheckerContext)
     private fun isAggregateCall(call: FirQualifiedAccessExpression): Boolean = with(context.session) {
         val given = listOfNotNull(call.extensionReceiver) + call.contextArguments + when (call) {

@@ -5,7 +5,7 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.ExpressionCheckers
 import org.jetbrains.kotlin.fir.analysis.extensions.FirAdditionalCheckersExtension
 import org.jetbrains.kotlin.fir.extensions.FirExtensionRegistrar
 
-/** All checks of aggregate programs. */
+/** Registers all checks of aggregate programs. */
 internal class AggregateChecks : FirExtensionRegistrar() {
     override fun ExtensionRegistrarContext.configurePlugin() {
         +::Checkers

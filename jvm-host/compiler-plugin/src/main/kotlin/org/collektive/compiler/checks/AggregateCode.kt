@@ -14,7 +14,7 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirClassSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirFunctionSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 
-/** Whether the expression being checked lies in an aggregate function, so that the compiler aligns it. */
+/** Whether the expression under check is part of an aggregate function, so that the plugin aligns it. */
 context(context: CheckerContext)
 internal fun isAggregateCode(): Boolean {
     val session = context.session
@@ -25,7 +25,7 @@ internal fun isAggregateCode(): Boolean {
     }
 }
 
-/** Whether objects of [type] keep the Aggregate that they were made with; implementations of Aggregate keep another one for other reasons. */
+/** Whether an object of [type] keeps the Aggregate of its program in a property. Excludes implementations of Aggregate. */
 context(context: CheckerContext)
 private fun keepsAggregate(type: FirClassSymbol<*>): Boolean = with(context.session) {
     type.resolvedSuperTypes.none { it.isAggregate() } && (keptIn(type) || inherited(type).any { keptIn(it, isInherited = true) })

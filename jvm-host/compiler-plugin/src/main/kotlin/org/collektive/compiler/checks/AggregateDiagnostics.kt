@@ -10,7 +10,7 @@ import org.jetbrains.kotlin.diagnostics.warning0
 import org.jetbrains.kotlin.diagnostics.warning1
 import org.jetbrains.kotlin.diagnostics.warning2
 
-/** What the checks report; a name here is also what `@Suppress` takes. */
+/** The diagnostics of the checks. `@Suppress` accepts their names. */
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     val FIELD_FROM_BRANCH by error0<PsiElement>()
     val AGGREGATE_CALL_IN_LOOP by warning1<PsiElement, String>()

@@ -8,7 +8,7 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.arguments
 
-/** `evolve(init) { old -> ... neighboring(old) ... }`: the old value is sent a round later than `share` would. */
+/** Reports `evolve(init) { old -> ... neighboring(old) ... }`: it sends each value one round later than `share` does. */
 internal object EvolveThatShares : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {

@@ -29,7 +29,7 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Fields must not leave `if` and `when`: outside, devices that chose other arms are aligned too. */
+/** Reports fields that leave an `if` or `when`: outside, devices that took other arms are aligned too. */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
@@ -38,7 +38,7 @@ internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppChe
     }
 }
 
-/** The same for `?:`. */
+/** [FieldFromBranch] for `?:`. */
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
@@ -46,7 +46,7 @@ internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppChe
     }
 }
 
-/** The same for a `return` inside an arm, by which the arm's field leaves the function. */
+/** [FieldFromBranch] for a `return` inside an arm. */
 internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirReturnExpression) {
@@ -55,7 +55,7 @@ internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpressi
     }
 }
 
-/** The same for an assignment inside an arm to a variable from outside, or to a property of what is from outside. */
+/** [FieldFromBranch] for an assignment inside an arm to an outer variable, or to a property of an outer object. */
 internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignment>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirVariableAssignment) {
@@ -64,7 +64,7 @@ internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignme
         if (isInArm(expression, isOutside)) reportField(expression.rValue)
     }
 
-    /** Tells the elements in which the variable or object exists that [read] begins with; `null` when it begins with a call. */
+    /** A test for elements in which the variable or object at the start of [read] is declared; `null` when [read] starts with a call. */
     private fun declares(read: FirExpression): ((FirElement) -> Boolean)? {
         val start = read.unwrapSmartcastExpression()
         if (start is FirThisReceiverExpression) {
@@ -81,7 +81,7 @@ internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignme
     }
 }
 
-/** Whether there is an arm around [statement], inside the first element that [isOutside]. */
+/** Whether an arm encloses [statement], inside the innermost element for which [isOutside] holds. */
 context(context: CheckerContext)
 private fun isInArm(statement: FirStatement, isOutside: (FirElement) -> Boolean): Boolean {
     var inner: FirElement = statement
@@ -102,7 +102,7 @@ private fun isInArm(statement: FirStatement, isOutside: (FirElement) -> Boolean)
 context(context: CheckerContext, reporter: DiagnosticReporter)
 private fun reportField(result: FirStatement?) {
     when (result) {
-        // Their own arms are checked.
+        // Their arms are checked separately.
         is FirWhenExpression, is FirElvisExpression -> Unit
         is FirBlock -> reportField(result.statements.lastOrNull())
         is FirTryExpression -> {

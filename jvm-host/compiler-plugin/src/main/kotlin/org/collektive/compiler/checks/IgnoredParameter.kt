@@ -8,7 +8,7 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 
-/** A primitive whose lambda never looks at what it is given: a simpler one does the same. */
+/** Reports a primitive whose lambda ignores its parameter: a simpler primitive does the same. */
 internal object IgnoredParameter : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     private val simpler = mapOf(
         "evolve" to "the plain value",

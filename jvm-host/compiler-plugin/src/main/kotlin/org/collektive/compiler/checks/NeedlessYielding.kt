@@ -9,7 +9,7 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
 
-/** `x.yielding { this }` or `x.yielding { x }`: what is returned is what is kept anyway. */
+/** Reports `x.yielding { this }` and `x.yielding { x }`: they return the value that they store, as the simpler primitive does. */
 internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {

@@ -17,20 +17,20 @@ import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
 import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
 
-/** The lambda that a primitive of the DSL runs, when it is written at the call. */
+/** The lambda literal that is the last argument of a call; `null` if there is none. */
 internal val FirFunctionCall.lambda: FirAnonymousFunction?
     get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
 
-/** The parameter that gets [lambda], if this call is given it. */
+/** The parameter for which this call passes [lambda]; `null` if it does not. */
 internal fun FirFunctionCall.parameterOf(lambda: FirAnonymousFunction): FirValueParameter? = resolvedArgumentMapping?.entries
     ?.firstOrNull { (argument) -> (argument.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction === lambda }?.value
 
-/** The variable or parameter that an expression only reads. */
+/** The variable or parameter that an expression reads; `null` for any other expression. */
 internal val FirExpression.readVariable: FirVariableSymbol<*>?
     get() = (unwrapSmartcastExpression() as? FirPropertyAccessExpression)?.takeIf { it.explicitReceiver == null }
         ?.calleeReference?.toResolvedVariableSymbol()
 
-/** What the lambda returns when its body is a single expression. */
+/** The expression that is the whole body of a lambda; `null` if the body is longer. */
 internal val FirAnonymousFunction.onlyExpression: FirExpression?
     get() = when (val statement = body?.statements?.singleOrNull()) {
         is FirReturnExpression -> statement.result

@@ -24,8 +24,8 @@ import org.jetbrains.kotlin.fir.types.resolvedType
 import org.jetbrains.kotlin.fir.types.type
 
 /**
- * Whether somebody gets the value of [expression], the one being checked or the result of the `return` being checked.
- * The compiler's own mark on `when` knows neither the ends of lambdas nor `?:`.
+ * Whether the value of [expression] is used. [expression] is the one under check, or the result of the `return` under check.
+ * The compiler's own flag `usedAsExpression` of `when` covers neither the last expression of a lambda nor `?:`.
  */
 context(context: CheckerContext)
 internal fun isValueTaken(expression: FirExpression): Boolean {
@@ -49,7 +49,7 @@ internal fun isValueTaken(expression: FirExpression): Boolean {
                 inner = function
                 continue
             }
-            // What ends with a value ends with a `return`, written or not.
+            // A function that ends with a value ends with a `return`, explicit or implicit.
             is FirFunction, is FirAnonymousInitializer -> return false
             is FirArgumentList -> if (inner is FirAnonymousFunction) continue else return true
             is FirFunctionCall -> if (inner !is FirAnonymousFunction || !outer.returnsValueOf(inner)) return true
@@ -60,7 +60,7 @@ internal fun isValueTaken(expression: FirExpression): Boolean {
     return true
 }
 
-/** Whether the value of [lambda] is only what this call returns, as with `run` and `let`. */
+/** Whether this call returns the value of [lambda] and does nothing else with it, as `run` and `let` do. */
 private fun FirFunctionCall.returnsValueOf(lambda: FirAnonymousFunction): Boolean {
     val result = parameterOf(lambda)?.returnTypeRef?.coneType?.typeArguments?.lastOrNull()?.type
     return result is ConeTypeParameterType && result == callee?.resolvedReturnType

@@ -5,7 +5,7 @@ import org.jetbrains.kotlin.name.ClassId
 import org.jetbrains.kotlin.name.FqName
 import org.jetbrains.kotlin.name.Name
 
-/** The names of the DSL that the plugin knows. */
+/** The names of the DSL's declarations to which the plugin refers. */
 internal object DslNames {
     private val aggregatePackage = FqName("it.unibo.collektive.aggregate")
     val apiPackage = FqName("it.unibo.collektive.aggregate.api")
