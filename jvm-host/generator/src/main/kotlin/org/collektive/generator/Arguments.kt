@@ -4,11 +4,13 @@ import java.nio.file.Files
 import java.nio.file.Path
 
 /**
- * The command line.
+ * The generator's command line.
  *
- * @property include folder of `types.fbs`.
- * @property csharp folder that gets the C# code, or `null` for none; the same for [java].
- * @property layouts folder that gets a Java class with the layouts of all tables of a schema that need not be a user's, or `null`.
+ * @property include the folder that contains `types.fbs`.
+ * @property csharp the output folder for C#; `null` generates none.
+ * @property java the output folder for Java; `null` generates none.
+ * @property layouts the output folder for a Java class with the layouts of all tables of any schema, such as `frame.fbs`; `null`
+ *   generates none.
  */
 internal class Arguments(val flatc: Path, val schema: Path, val include: Path, val csharp: Path?, val java: Path?, val layouts: Path? = null) {
     companion object {
@@ -41,5 +43,5 @@ internal class Arguments(val flatc: Path, val schema: Path, val include: Path, v
     }
 }
 
-/** The value types that every user schema may include. Their code is part of the product and never generated here. */
+/** The file of value types that user schemas may include. Their code is part of the product, so it is not generated again. */
 internal const val CORE_TYPES: String = "types.fbs"

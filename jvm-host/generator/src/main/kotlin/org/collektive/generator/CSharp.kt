@@ -1,10 +1,10 @@
 package org.collektive.generator
 
-/** What the C# template shows of a schema. */
+/** Builds the model of the C# template. */
 internal object CSharp {
     /**
-     * flatc's C# depends on symbols that the FlatBuffers assembly was compiled with. Defined in each file, they need no setting
-     * in the projects of users.
+     * Adds the symbols with which the FlatBuffers assembly was compiled to flatc's C#. Defined per file, they need no settings in users'
+     * projects.
      */
     fun defineSymbols(text: String): String {
         val header = "// </auto-generated>\n"
@@ -34,7 +34,7 @@ internal object CSharp {
         "drafts" to schema.tables.map(::draftModel),
     )
 
-    /** What copies a table of actuator data out of a frame: the fields outside of the row, of each table that can be reached; the first is [actuator]. */
+    /** How to copy a table of actuator data out of a frame: the out-of-row fields of each reachable table. The first is [actuator]. */
     private fun shapes(actuator: Composite): List<Map<String, Any?>> {
         val tables = mutableListOf<TableType>()
         fun reach(type: Type) {
@@ -134,7 +134,7 @@ internal object CSharp {
         is StringType, is TableType -> "$member = null;"
     }
 
-    /** A field whose own default is not finite may hold such values. */
+    /** Checks for NaN and infinity; a field whose default is one of them may hold them. */
     private fun finiteCheck(owner: Composite, field: Field): String? {
         val member = member(owner, field)
         val nullable = field.optional || owner is TableType && field.type is StructType && !field.required
@@ -253,7 +253,7 @@ internal object CSharp {
 
     private val taken = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
-    /** The C# name of a field; an underscore is added where a member of that name is there already. */
+    /** The C# name of a field, with an underscore appended if generated code has a member of that name. */
     private fun member(owner: Composite, field: Field): String {
         val name = upperCamel(field.name)
         val type = owner.name.simple + if (owner is StructType) "Value" else "Draft"

@@ -1,9 +1,10 @@
 package org.collektive.generator
 
 /**
- * The canonical text of a type and its hash: equal exactly when the two sides mean the same bytes by the same names. The text
- * holds kind, fields in the order of their ids with offset or id, name, type and default, and nested types in place; a
- * table inside itself is written as the distance to it.
+ * The canonical text of a type, and its hash. Texts are equal exactly if both sides read the same bytes under the same names.
+ *
+ * The text contains the kind, the fields in the order of their ids with offset or id, name, type and default, and nested types inline. A
+ * recursive table is written as the number of levels to its outer occurrence.
  */
 internal object Fingerprint {
     fun of(type: Composite): Long = hash(text(type))
@@ -54,7 +55,7 @@ internal object Fingerprint {
         }
     }
 
-    /** FNV-1a, 64 bits, over the text's UTF-8. */
+    /** The 64-bit FNV-1a hash of the text in UTF-8. */
     fun hash(text: String): Long {
         var hash = -0x340d631b7bdddcdbL
         for (byte in text.encodeToByteArray()) {

@@ -2,19 +2,19 @@ package org.collektive.generator
 
 import java.nio.file.Path
 
-/** Runs `flatc`. Its messages, which name file and line, go to the user as they are. */
+/** Runs `flatc`, and passes on its messages, which name file and line. */
 internal class Flatc(private val executable: Path, private val includes: List<Path>) {
-    /** Writes the binary form of [schema], comments included, into [output]. */
+    /** Writes the binary form of [schema], comments included, to the folder [output]. */
     fun binarySchema(schema: Path, output: Path) {
         run(schema, output, "--binary", "--schema", "--bfbs-comments", "--bfbs-absolute-paths")
     }
 
-    /** Writes the C# readers of the types that [schema] itself defines. */
+    /** Writes C# readers of the types that [schema] itself defines, without included ones. */
     fun csharp(schema: Path, output: Path) {
         run(schema, output, "--csharp", "--no-warnings")
     }
 
-    /** Writes the Java readers and object types of the types that [schema] itself defines. */
+    /** Writes Java readers and object types of the types that [schema] itself defines, without included ones. */
     fun java(schema: Path, output: Path) {
         run(schema, output, "--java", "--gen-object-api", "--no-warnings")
     }

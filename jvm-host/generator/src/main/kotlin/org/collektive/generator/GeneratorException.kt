@@ -1,4 +1,4 @@
 package org.collektive.generator
 
-/** Something the user has to change; the message says what and where. */
+/** The user must change something; the message says what and where. */
 internal class GeneratorException(message: String) : Exception(message)

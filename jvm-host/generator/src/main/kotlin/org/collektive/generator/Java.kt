@@ -1,6 +1,6 @@
 package org.collektive.generator
 
-/** What the Java template shows of a schema. */
+/** Builds the model of the Java template. */
 internal object Java {
     fun model(schema: UserSchema): Map<String, Any?> {
         val fingerprints = listOfNotNull(schema.sensor, schema.actuator, schema.global)
@@ -36,8 +36,8 @@ internal object Java {
     }
 
     /**
-     * Makes flatc's code write optional scalars that are 0: it leaves them out, as if they were absent. [path] is the file's
-     * place in the output.
+     * Changes flatc's code to write optional scalars that are 0; flatc omits them as if they were absent. [path] is the file's path in
+     * the output folder.
      */
     fun keepZeros(schema: UserSchema, path: String, text: String): String {
         val table = schema.tables.find { "${it.name.toString().replace('.', '/')}.java" == path } ?: return text
@@ -80,7 +80,7 @@ internal object Java {
 
     private fun fault(call: String) = "{ String fault = $call; if (fault != null) return fault; }"
 
-    /** Whether an object of this type can break a rule; a scalar cannot. */
+    /** Whether an object of this type can have a fault; one with scalars only cannot. */
     private fun ruled(type: Composite): Boolean = type is TableType || type.fields.any { it.type is StructType }
 
     private fun reachable(roots: List<Composite>): List<Composite> {

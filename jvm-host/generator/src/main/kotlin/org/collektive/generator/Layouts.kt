@@ -1,8 +1,8 @@
 package org.collektive.generator
 
-/** What generated Java says of the places of a table's fields. */
+/** Builds the models of generated table layouts in Java. */
 internal object Layouts {
-    /** What the template of `--layouts` shows of [tables], all of one namespace, which [file] defines. */
+    /** The model of the template of `--layouts` for [tables] of [file], all of one namespace. */
     fun model(file: String, tables: List<TableType>): Map<String, Any?> = mapOf(
         "file" to file,
         "namespace" to tables.first().name.namespace,
@@ -11,10 +11,10 @@ internal object Layouts {
         "filled" to tables.filter { it.fields.isNotEmpty() }.map { layout(it, ::shortConstant) },
     )
 
-    /** The generated class, `FrameLayouts` for `frame.fbs`; its namespace is that of the tables. */
+    /** The name of the generated class, `FrameLayouts` for `frame.fbs`; [namespace] is that of the tables. */
     fun name(file: String, namespace: String = ""): TypeName = TypeName(namespace, upperCamel(file.removeSuffix(".fbs")) + "Layouts")
 
-    /** The layout of [type] as a template shows it; [constant] names that of a table. */
+    /** The model of the layout of [type]; [constant] returns the constant's name for a table. */
     fun layout(type: TableType, constant: (TableType) -> String): Map<String, Any?> = mapOf(
         "constant" to constant(type),
         "fields" to type.fields.map { field(it, constant) },

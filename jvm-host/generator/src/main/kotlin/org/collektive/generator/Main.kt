@@ -7,7 +7,7 @@ import kotlin.io.path.ExperimentalPathApi
 import kotlin.io.path.deleteRecursively
 import kotlin.system.exitProcess
 
-/** Makes the C# and Java of a user's schema; see [Arguments.USAGE]. Exit code 1 and a message when something is wrong. */
+/** Generates C# and Java from a user's schema; see [Arguments.USAGE]. On an error it prints a message and exits with code 1. */
 public fun main(arguments: Array<String>) {
     try {
         generate(Arguments.parse(arguments))

@@ -1,9 +1,9 @@
 package org.collektive.generator
 
-/** A type of a schema, as far as the bridge supports it. */
+/** A type of a schema that the bridge supports. */
 internal sealed interface Type
 
-/** A number or truth value. [bytes] is its size and its alignment. */
+/** A number or truth value. [bytes] is both its size and its alignment. */
 internal enum class Scalar(val text: String, val csharp: String, val bytes: Int) : Type {
     BOOL("bool", "bool", 1),
     BYTE("byte", "sbyte", 1),
@@ -27,22 +27,24 @@ internal object StringType : Type
 
 internal class VectorType(val element: Type) : Type
 
-/** A struct or a table. [fields] are in the order of their ids and set once, after construction: tables may be recursive. */
+/** A struct or a table. [fields] are in the order of their ids; they are set once, after construction, because tables may be recursive. */
 internal sealed class Composite(val name: TypeName, val documentation: String) : Type {
     lateinit var fields: List<Field>
 }
 
-/** [core]: one of `types.fbs`, whose code is not generated. Sizes in bytes. */
+/** A struct; [bytes] and [alignment] are in bytes. [core] marks the structs of `types.fbs`, whose code is not generated. */
 internal class StructType(name: TypeName, documentation: String, val core: Boolean, val bytes: Int, val alignment: Int) :
     Composite(name, documentation)
 
-/** [slots]: fields with the deprecated ones, which are left out of [fields]. */
+/** A table; [slots] is the number of its fields with the deprecated ones, which [fields] omits. */
 internal class TableType(name: TypeName, documentation: String, val slots: Int) : Composite(name, documentation)
 
 /**
- * @property id place in the table or struct.
- * @property offset bytes into a struct, or of the entry in a table's vtable.
- * @property optional a scalar that may be absent (`= null`).
+ * A field of a struct or a table.
+ *
+ * @property id the field's index in the struct or table.
+ * @property offset in bytes: of the field in a struct, or of its entry in a table's vtable.
+ * @property optional whether it is a scalar that may be absent (`= null`).
  */
 internal class Field(
     val name: String,
@@ -55,14 +57,14 @@ internal class Field(
     val documentation: String,
 )
 
-/** A scalar's default: [real] for float and double, [integer] for all else. */
+/** A scalar's default: [real] for float and double, [integer] for all others. */
 internal class Default(val integer: Long, val real: Double)
 
 internal data class TypeName(val namespace: String, val simple: String) {
     override fun toString(): String = "$namespace.$simple"
 }
 
-/** What the bridge needs to know of a user's schema. [structs] and [tables] are all that can be reached, sorted by name. */
+/** A user's schema. [structs] and [tables] are all that are reachable from the root types, sorted by name. */
 internal class UserSchema(
     val file: String,
     val name: TypeName,

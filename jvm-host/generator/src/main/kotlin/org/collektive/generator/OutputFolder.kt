@@ -3,7 +3,7 @@ package org.collektive.generator
 import java.nio.file.Files
 import java.nio.file.Path
 
-/** A folder of generated files. A file whose text is the same keeps its time, so that nothing is built anew for it. */
+/** A folder of generated files. An unchanged file keeps its modification time, so that builds do not redo work. */
 internal class OutputFolder(private val root: Path) {
     fun write(path: String, text: String) {
         val file = root.resolve(path)
@@ -14,14 +14,14 @@ internal class OutputFolder(private val root: Path) {
 
     fun holds(path: String): Boolean = Files.exists(root.resolve(path))
 
-    /** Adds [line] to a file of sorted lines, of which those stay that [isWanted]: other schemas may have written theirs. */
+    /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds: other schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
         val file = root.resolve(path)
         val others = if (Files.exists(file)) Files.readAllLines(file).map(String::trim).filter { it.isNotEmpty() && isWanted(it) } else emptyList()
         write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }
 
-    /** Takes over all files of [folder]; [edit] gets the path and the text of each and gives its new text. */
+    /** Copies all files of [folder]; [edit] maps the path and the text of each to the text to write. */
     fun copy(folder: Path, edit: (String, String) -> String) {
         if (!Files.exists(folder)) return
         val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }

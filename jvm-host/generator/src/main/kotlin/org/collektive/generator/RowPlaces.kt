@@ -1,18 +1,18 @@
 package org.collektive.generator
 
 /**
- * Where the fields of a table lie when there is room for all of them: after the distance of the vtable, the largest alignments first. In bytes.
+ * The layout of a table's row, in which all fields are present: the vtable offset, then the fields by descending alignment. In bytes.
  *
- * C# gives a sequential struct of the same fields the same places.
+ * A sequential C# struct with the same fields has the same layout.
  */
 internal class RowPlaces(type: TableType) {
-    /** Place by field, in the order of the places. */
+    /** Offset of each field, in ascending order. */
     val offsets: Map<Field, Int>
 
-    /** Of the row; never less than that of its vtable's distance. */
+    /** Alignment of the row; at least that of the vtable offset. */
     val alignment: Int = type.fields.maxOfOrNull { alignment(it.type) }?.coerceAtLeast(OFFSET_BYTES) ?: OFFSET_BYTES
 
-    /** Of the row, with the gap that an array of rows needs. */
+    /** Size of the row, with the padding for an array of rows. */
     val bytes: Int
 
     init {

@@ -10,13 +10,13 @@ import com.google.flatbuffers.reflection.Field as BinaryField
 import com.google.flatbuffers.reflection.Object as BinaryObject
 import com.google.flatbuffers.reflection.Type as BinaryType
 
-/** Reads flatc's binary form of a user's schema. [core] is the file of the core types. */
+/** Reads flatc's binary form of the schema [file]. [core] is the path of `types.fbs`. */
 internal class SchemaReader(binary: ByteArray, private val file: Path, private val core: Path) {
     private val schema = Schema.getRootAsSchema(ByteBuffer.wrap(binary))
     private val composites = HashMap<Int, Composite>()
     private val enums = HashMap<Int, EnumType>()
 
-    /** The schema files that make up this one, but for the core types: those whose code is generated. */
+    /** The schema file and those that it includes, without the core types: the files for which code is generated. */
     val files: List<Path> = (0 until schema.fbsFilesLength())
         .map { plain(schema.fbsFiles(it).filename()) }
         .filter { it != core }
@@ -41,14 +41,14 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         return user
     }
 
-    /** All tables that [file] defines, by name. */
+    /** All tables that [file] defines, sorted by name. */
     fun tables(): List<TableType> = objects()
         .filter { (_, type) -> !type.isStruct && plain(type.declarationFile()) == file }
         .map { (index, _) -> composite(index) as TableType }
         .sortedBy { it.name.toString() }
         .ifEmpty { throw error("it defines no tables") }
 
-    /** The binary schema holds numbers as signed 64 bits and turns larger ones into 0 without a word. */
+    /** Rejects numbers that do not fit 64 bits with a sign: flatc's binary schema silently replaces them by 0. */
     private fun checkNumbers(source: Path) {
         for ((index, line) in Files.readAllLines(source).withIndex()) {
             for (match in number.findAll(line.substringBefore("//"))) {
@@ -119,7 +119,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             BaseType.String -> StringType
             BaseType.Obj -> composite(index)
             BaseType.Vector -> VectorType(element(owner, field, type))
-            // The hidden field that says which case a union holds comes first; the error names the union itself.
+            // The hidden type field of a union precedes it; the error names the union.
             BaseType.UType -> throw unsupported(owner, field.name().removeSuffix("_type"), UNION)
             BaseType.Union -> throw unsupported(owner, field.name(), UNION)
             BaseType.Array -> throw unsupported(
@@ -150,7 +150,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         return EnumType(name(source.name()), underlying, values)
     }
 
-    /** The C# mirrors rely on each field lying at the next multiple of its own alignment, as the C# runtime does it. */
+    /** Checks that each field lies at the next multiple of its alignment, as the C# runtime places the fields of the mirrors. */
     private fun checkLayout(type: StructType) {
         var end = 0
         var largest = 1
@@ -171,7 +171,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Generated types stand beside flatc's in one namespace. */
+    /** Generated types share a namespace with flatc's, so their names must differ. */
     private fun checkGeneratedNames(user: UserSchema) {
         val taken = objects().map { it.second.name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
         val made = user.structs.map { "${it.name}Value" } + user.tables.map { "${it.name}Draft" } + user.name.toString()
@@ -195,11 +195,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private fun error(what: String) = GeneratorException("${file.fileName}: $what")
 
     private companion object {
-        /** The bridge keeps which fields are absent in 64 bits. */
+        /** The bridge stores the absence of fields in a 64-bit mask. */
         const val MAX_SLOTS = 64
         const val UNION = "unions are not supported; use one optional table field for each case"
 
-        /** Fields of these names would make flatc's own code fail to compile. */
+        /** Field names with which flatc's code does not compile. */
         val reservedMembers = setOf(
             "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
             "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer",

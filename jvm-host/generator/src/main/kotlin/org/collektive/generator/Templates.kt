@@ -2,7 +2,7 @@ package org.collektive.generator
 
 import com.samskivert.mustache.Mustache
 
-/** The templates of `schema/templates`, packed beside this class. */
+/** Renders the templates of `schema/templates`, which are resources of this package. */
 internal object Templates {
     private val compiler = Mustache.compiler().escapeHTML(false).strictSections(true)
 
