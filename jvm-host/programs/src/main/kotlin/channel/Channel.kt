@@ -10,8 +10,8 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 
 /**
- * Marks the nodes on the shortest way from the source to the target, and those nearly on it. Each node knows its distance to both along
- * links; the target learns the length of the whole way and tells everybody.
+ * Marks the nodes on the shortest path from the source to the target, and those close to it. Each node computes its distance to both,
+ * along links; the target broadcasts the length of the shortest path.
  */
 @Program("channel", parameters = [Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater.")])
 public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorDataT {

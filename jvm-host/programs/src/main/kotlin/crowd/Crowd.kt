@@ -12,8 +12,8 @@ import org.collektive.schema.Vector3T
 import kotlin.math.sqrt
 
 /**
- * Walks to its goal and keeps its distance: to the walkers around, passing them on the right, and to what stands in the way. Where it is too
- * dense a warning spreads a few hops, and those who hear it slow down.
+ * Walks to a goal and keeps its distance from obstacles and from other walkers, whom it passes on the right. Where the crowd is too
+ * dense, a warning spreads a few hops; walkers that receive it walk at half speed.
  */
 @Program(
     "crowd",
@@ -53,12 +53,12 @@ public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDa
     }
 }
 
-/** The sum of a walker's wishes, on the ground. */
+/** The direction in which a walker wants to go: a sum of vectors on the ground. */
 private class Steering {
     private var x = 0.0
     private var z = 0.0
 
-    /** A wish along a vector, no longer than [limit]. */
+    /** Adds a vector, shortened to [limit]. */
     fun add(toX: Double, toZ: Double, limit: Double) {
         val length = sqrt(toX * toX + toZ * toZ)
         val scale = if (length > limit) limit / length else 1.0
@@ -66,7 +66,7 @@ private class Steering {
         z += scale * toZ
     }
 
-    /** Away from what lies along a vector with a [gap] in metres, and a little to the right of it. */
+    /** Pushes away from what lies along a vector, [gap] metres apart, and a little to the right of it. */
     fun avoid(toX: Double, toZ: Double, gap: Double) {
         val length = sqrt(toX * toX + toZ * toZ)
         if (gap > COMFORT || length < TOO_SMALL) return
@@ -85,13 +85,13 @@ private class Steering {
     }
 }
 
-/** Metres: diameter of a body, gap below which another is avoided, radius within which walkers are counted. */
+/** In metres: diameter of a body, gap below which a walker gives way, radius within which walkers are counted. */
 private const val BODY = 0.5
 private const val COMFORT = 1.2
 private const val DENSITY_RADIUS = 2.0
 private const val DENSITY_AREA = Math.PI * DENSITY_RADIUS * DENSITY_RADIUS
 
-/** How hard the nearest are avoided against the wish to arrive, and how much of it to the right. */
+/** Weight of avoidance relative to the goal, and the share of it that points to the right. */
 private const val PUSH = 4.0
 private const val SIDESTEP = 0.5
 private const val TOO_SMALL = 1e-6

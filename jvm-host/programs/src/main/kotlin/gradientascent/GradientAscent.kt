@@ -10,10 +10,10 @@ import org.collektive.schema.Vector3T
 import kotlin.math.sqrt
 
 /**
- * Climbs towards the source: each neighbour pulls along its direction by how much more of the source it senses than this node (and
- * pushes by how much less), and each obstacle nearby pushes away, the nearer the harder.
+ * Climbs towards the source. A neighbour that senses a higher intensity than this node attracts it, one that senses a lower intensity
+ * repels it, in proportion to the difference. An obstacle nearby repels it, more strongly the nearer it is.
  *
- * The answer is a point one step away in that direction, at the same height.
+ * The result is the point one step away in the direction of the sum, at the same height.
  */
 @Program("gradient-ascent", parameters = [Parameter("step", "1.0", "Metres from a node to its target, 0 or greater.")])
 public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): ActuatorDataT {
@@ -48,7 +48,7 @@ public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): A
     }
 }
 
-/** What a node tells its neighbours: where it is, and what it senses there. */
+/** What a node shares with its neighbours: its position, and the intensity that it senses there. */
 private class Sample(val x: Float, val y: Float, val z: Float, val intensity: Float) {
     fun distanceTo(other: Sample): Double =
         length((other.x - x).toDouble(), (other.y - y).toDouble(), (other.z - z).toDouble())
@@ -56,9 +56,9 @@ private class Sample(val x: Float, val y: Float, val z: Float, val intensity: Fl
 
 private fun length(x: Double, y: Double, z: Double): Double = sqrt(x * x + y * y + z * z)
 
-/** Below this a vector has no direction worth following. */
+/** Vectors shorter than this have no usable direction. */
 private const val TOO_SMALL = 1e-6
 
-/** Metres within which an obstacle pushes, and how hard against the pull of neighbours. */
+/** Metres within which an obstacle repels, and its weight relative to neighbours. */
 private const val OBSTACLE_RANGE = 1.0
 private const val OBSTACLE_WEIGHT = 2.0

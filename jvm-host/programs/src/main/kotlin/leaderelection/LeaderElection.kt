@@ -10,8 +10,8 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 
 /**
- * Divides the swarm into regions, each with a leader that is at most the radius away along links: the greatest id leads all around it,
- * the greatest of the others those around that one, and so on. When leaders fail, the regions form anew by themselves.
+ * Divides the swarm into regions, each with a leader at most `radius` metres away along links. The greatest id leads all nodes within the
+ * radius; of the remaining nodes, the greatest id leads those around it, and so on. When a leader fails, its region elects another.
  */
 @Program("leader-election", parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")])
 public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorDataT {
