@@ -12,11 +12,11 @@ import org.openjdk.jmh.annotations.Setup;
 import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.TearDown;
 
-/** One tick of a settled network. In Java, since JMH makes its code with a processor of Java's annotations. */
+/** Measures one tick of a settled network. In Java, because JMH generates code with a Java annotation processor. */
 @BenchmarkMode(Mode.AverageTime)
 @OutputTimeUnit(TimeUnit.MICROSECONDS)
 public class RoundsBenchmark {
-    /** Which network. */
+    /** The network under test. */
     @State(Scope.Benchmark)
     public static class Network {
         @Param("grid8")
@@ -31,7 +31,7 @@ public class RoundsBenchmark {
         EngineRounds engine;
         HandwrittenRounds handwritten;
 
-        /** Ticks of any network here until values are at rest. */
+        /** Number of ticks after which the values of any network here no longer change. */
         private int ticksToSettle() {
             return 50 + 3 * (int) Math.sqrt(nodes);
         }
@@ -47,7 +47,7 @@ public class RoundsBenchmark {
         }
     }
 
-    /** On the engine. */
+    /** Sets up the network on the engine. */
     @State(Scope.Benchmark)
     public static class OnEngine {
         @Setup(Level.Trial)
@@ -61,7 +61,7 @@ public class RoundsBenchmark {
         }
     }
 
-    /** By hand. */
+    /** Sets up the network as hand-written loops. */
     @State(Scope.Benchmark)
     public static class ByHand {
         @Setup(Level.Trial)

@@ -13,7 +13,7 @@ import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
 import org.collektive.runtime.AggregateRuntimes
 
-/** The engine with one program on every device of [topology]; one thread. */
+/** The engine, with one thread and the same program on every device of [topology]. */
 public class EngineRounds(program: String, private val topology: Topology) : AutoCloseable {
     private val engine = Engine(EngineSettings(seed = 0), AggregateRuntimes())
     private val tick = Tick()
@@ -33,7 +33,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
         links.clear()
     }
 
-    /** One round of every device. */
+    /** Runs one round of every device. */
     public fun tick(): TickResult {
         tick.number++
         tick.time += 1.0

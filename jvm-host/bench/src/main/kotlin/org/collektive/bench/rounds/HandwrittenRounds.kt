@@ -2,7 +2,7 @@ package org.collektive.bench.rounds
 
 import kotlin.math.sqrt
 
-/** Programs a and b2 as somebody would write them who has one machine and no devices: loops over arrays, all neighbours in one. */
+/** Programs a and b2 as hand-written loops over arrays, without devices: the links of all devices are in one array. */
 public class HandwrittenRounds(program: String, private val topology: Topology) {
     private val size = topology.size
     private val firstLink = IntArray(size + 1).also { for (id in 0 until size) it[id + 1] = it[id] + topology.neighbors[id].size }
@@ -22,11 +22,11 @@ public class HandwrittenRounds(program: String, private val topology: Topology) 
     internal val headingX = DoubleArray(size)
     internal val headingY = DoubleArray(size)
 
-    /** In b2, the distances after the last tick, and of the tick before. */
+    /** The distances of b2 after the last tick; `former` has those of the tick before. */
     internal var distances = DoubleArray(size) { Double.POSITIVE_INFINITY }
     private var former = DoubleArray(size)
 
-    /** One round of every device. */
+    /** Runs one round of every device. */
     public fun tick(): Unit = step()
 
     private fun gradientAscent() {

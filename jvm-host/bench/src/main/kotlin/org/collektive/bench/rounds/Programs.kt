@@ -10,7 +10,7 @@ import it.unibo.collektive.stdlib.spreading.gradientCast
 import it.unibo.collektive.stdlib.util.euclideanDistance2D
 import kotlin.math.sqrt
 
-/** Program a, the case study: towards the neighbours that sense more of the source, away from obstacles. */
+/** Program a, the case study: heads for neighbours that sense a higher intensity, and away from obstacles. */
 internal fun Aggregate<Int>.gradientAscent(senses: Senses): Heading {
     val here = senses.position
     var x = 0.0
@@ -33,11 +33,11 @@ internal fun Aggregate<Int>.gradientAscent(senses: Senses): Heading {
     return Heading(x, y)
 }
 
-/** Program b: the distance from the source, by the self-stabilising gradient cast. */
+/** Program b: the distance from the source, by the self-stabilising `distanceTo`. */
 internal fun Aggregate<Int>.distanceFromSource(senses: Senses): Double =
     distanceTo(senses.isSource, euclideanDistance2D(senses.position))
 
-/** Program b2: the same by Bellman and Ford's algorithm. */
+/** Program b2: the distance from the source, by `bellmanFordGradientCast`. */
 internal fun Aggregate<Int>.bellmanFordFromSource(senses: Senses): Double = bellmanFordGradientCast(
     source = senses.isSource,
     local = if (senses.isSource) 0.0 else Double.POSITIVE_INFINITY,
@@ -45,7 +45,7 @@ internal fun Aggregate<Int>.bellmanFordFromSource(senses: Senses): Double = bell
     metric = euclideanDistance2D(senses.position),
 )
 
-/** Program c: leaders within 5 metres, how far they are, how many follow each, and word of that to all. */
+/** Program c: elects leaders within 5 metres, counts the followers of each, and broadcasts the count to them. */
 internal fun Aggregate<Int>.followers(senses: Senses): Region {
     val metric = euclideanDistance2D(senses.position)
     val isLeader = boundedElection(bound = 5.0, metric = metric) == localId

@@ -22,7 +22,7 @@ public fun main(arguments: Array<String>) {
     rows.forEach { println(it.line) }
 }
 
-/** What one round costs; the ratio is to the hand-written loops' in the same run, where there are any. */
+/** The cost of one round: time, allocated bytes, and the ratio to hand-written loops in the same run; `null` if there are none. */
 private class RoundsRow(
     private val program: String,
     private val topology: String,
@@ -68,7 +68,7 @@ private class Measurement(private val isQuick: Boolean) {
         .forks(1).threads(1)
         .warmupIterations(if (isQuick) 3 else 5).warmupTime(TimeValue.milliseconds(if (isQuick) 500 else 1000))
         .measurementIterations(5).measurementTime(TimeValue.milliseconds(if (isQuick) 300 else 1000))
-        // Huge pages where the system has them: with small ones a large network measures the processor's page tables.
+        // Huge pages if available: with small ones, TLB misses dominate large networks.
         .jvmArgsAppend("-XX:+UseSerialGC", "-Xms2g", "-Xmx2g", "-XX:+AlwaysPreTouch", "-XX:+UseTransparentHugePages")
         .addProfiler(GCProfiler::class.java)
         .shouldFailOnError(true)

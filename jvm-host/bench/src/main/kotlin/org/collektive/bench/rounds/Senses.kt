@@ -2,16 +2,16 @@ package org.collektive.bench.rounds
 
 import it.unibo.collektive.stdlib.util.Point2D
 
-/** What a device of the benchmarks senses; obstacles are relative to it. */
+/** The sensor data of a device; the positions of obstacles are relative to it. */
 internal class Senses(val position: Point2D, val intensity: Double, val obstacles: List<Point2D>, val isSource: Boolean)
 
-/** What it answers in program a: where to go. */
+/** The result of program a: the direction to go. */
 internal data class Heading(val x: Double, val y: Double)
 
-/** What it answers in program c: whether it leads, and how many devices its leader counted. */
+/** The result of program c: whether the device leads, and how many devices its leader counted. */
 internal data class Region(val isLeader: Boolean, val devices: Int)
 
-/** Every fourth device has an obstacle beside it; the source is in a corner, and intensity falls with the distance from it. */
+/** Sensor data of all devices: every fourth has an obstacle beside it; the source is in a corner, and intensity falls with distance. */
 internal fun senses(topology: Topology): List<Senses> {
     val source = (0 until topology.size).minBy { topology.x[it] + topology.y[it] }
     return List(topology.size) {

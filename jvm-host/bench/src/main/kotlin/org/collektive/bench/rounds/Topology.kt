@@ -4,7 +4,7 @@ import kotlin.math.ceil
 import kotlin.math.sqrt
 import kotlin.random.Random
 
-/** Devices in the plane with symmetric links; ids are 0 until [size], neighbours ascend. */
+/** Devices in the plane with symmetric links. Ids are 0 until [size]; neighbours are in ascending order. */
 public class Topology internal constructor(internal val x: DoubleArray, internal val y: DoubleArray, internal val neighbors: Array<IntArray>) {
     internal val size: Int get() = x.size
 
@@ -17,20 +17,20 @@ public class Topology internal constructor(internal val x: DoubleArray, internal
     public companion object {
         private const val SEED = 42
 
-        /** The topology that tables call [name]. */
+        /** Makes the topology `grid8` or `rgg10`. */
         public fun named(name: String, size: Int): Topology = when (name) {
             "grid8" -> grid(size)
             "rgg10" -> randomGeometric(size, meanDegree = 10.0)
             else -> throw IllegalArgumentException("no topology '$name', only grid8 and rgg10")
         }
 
-        /** Rows of a square grid, 1 apart, linked to the 8 around; ids row by row. */
+        /** A square grid with spacing 1, ids row by row; each device is linked to the 8 around it. */
         private fun grid(size: Int): Topology {
             val width = ceil(sqrt(size.toDouble())).toInt()
             return linked(DoubleArray(size) { (it % width).toDouble() }, DoubleArray(size) { (it / width).toDouble() }, reach = 1.5)
         }
 
-        /** Points anywhere in a square, so that ids say nothing about places; linked within the reach that gives [meanDegree]. */
+        /** Random points in a square, with ids independent of positions, linked within the radius that gives [meanDegree]. */
         private fun randomGeometric(size: Int, meanDegree: Double): Topology {
             val random = Random(SEED)
             val side = sqrt(size.toDouble())

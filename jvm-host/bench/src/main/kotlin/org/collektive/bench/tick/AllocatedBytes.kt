@@ -8,7 +8,7 @@ import org.collektive.api.Program
 import org.collektive.schema.Vector3T
 import java.lang.management.ManagementFactory
 
-/** Prints how many bytes this JVM has allocated so far, for the benchmark's C# side, which reads its log. */
+/** Prints the bytes that this JVM has allocated. The benchmark's C# side reads them from the log. */
 @Program("allocated-bytes")
 public fun Aggregate<Int>.printAllocatedBytes(@Suppress("UNUSED_PARAMETER") sensors: SensorData): ActuatorDataT {
     println("allocated-bytes ${allocatedBytes()}")
@@ -17,5 +17,5 @@ public fun Aggregate<Int>.printAllocatedBytes(@Suppress("UNUSED_PARAMETER") sens
 
 private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
 
-/** Bytes that all living threads have allocated. */
+/** Bytes that all live threads have allocated. */
 internal fun allocatedBytes(): Long = threads.getThreadAllocatedBytes(threads.allThreadIds).sumOf { maxOf(it, 0) }

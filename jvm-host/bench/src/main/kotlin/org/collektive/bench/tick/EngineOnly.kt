@@ -18,7 +18,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.schema.Vector3
 import java.nio.ByteBuffer
 
-/** The rounds of the case study without C#, frames and answers: the sensors lie ready in memory. */
+/** The rounds of the case study alone, without C#, frames and answers; the sensor data is prepared in memory. */
 internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, RoundData {
     private val engine = Engine(EngineSettings(SEED, threads), AggregateRuntimes())
     private val schema = GradientAscentSchema()
@@ -49,7 +49,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
 
     override fun close() = engine.close()
 
-    /** A frame whose root is the table `Sensors` of tick [tick]. */
+    /** Makes a frame whose root is the table `Sensors` of [tick]. */
     private fun sensors(tick: Long): ByteBuffer {
         val builder = FlatBufferBuilder(1 shl 16)
         val elements = IntArray(grid.size) { node ->
@@ -85,7 +85,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
         const val DELTA_TIME = 0.05
         const val LIMIT_NANOS = 60_000_000_000
 
-        /** Inputs that take turns. */
+        /** Number of prepared inputs, used in turn. */
         const val FRAMES = 4
         val PARAMETERS = Parameters(mapOf("step" to "1.0"))
     }

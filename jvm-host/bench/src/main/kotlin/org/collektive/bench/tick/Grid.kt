@@ -4,7 +4,7 @@ import kotlin.math.ceil
 import kotlin.math.sqrt
 
 /**
- * The benchmark's world: nodes a metre apart on a grid that is as square as it can be, each linked with its (up to) eight neighbours. The C# side
+ * The benchmark's world: nodes on a grid with 1 m spacing, as square as possible, each linked to its (up to) eight neighbours. The C# side
  * builds the same one.
  */
 internal class Grid(val size: Int) {
@@ -14,7 +14,7 @@ internal class Grid(val size: Int) {
 
     fun z(node: Int): Float = (node / width).toFloat()
 
-    /** What node [node] senses in tick [tick]. */
+    /** The intensity that [node] senses in [tick]. */
     fun intensity(node: Int, tick: Long): Float = (node * 37 + tick % 64).toFloat() % 101
 
     /** Calls [link] for each directed link. */
@@ -28,7 +28,7 @@ internal class Grid(val size: Int) {
         }
     }
 
-    /** Calls [visit] for the neighbours of [node], ascending. */
+    /** Calls [visit] for the neighbours of [node], in ascending order. */
     inline fun forEachNeighbor(node: Int, visit: (Int) -> Unit) {
         for (dz in -1..1) {
             for (dx in -1..1) {
@@ -40,7 +40,7 @@ internal class Grid(val size: Int) {
     }
 
     companion object {
-        /** Every fourth node senses one obstacle, there. */
+        /** Every fourth node senses one obstacle, at this offset from it in metres. */
         const val OBSTACLE_EVERY = 4
         const val OBSTACLE_X = 0.4f
         const val OBSTACLE_Z = 0.3f

@@ -2,7 +2,7 @@ package org.collektive.bench.tick
 
 import kotlin.math.sqrt
 
-/** The case study's round as plain loops over arrays: the limit. */
+/** The case study's round as plain loops over arrays: the lower bound. */
 internal class Loops(private val grid: Grid) : Workload {
     private val size = grid.size
     private val x = FloatArray(size, grid::x)
@@ -10,7 +10,7 @@ internal class Loops(private val grid: Grid) : Workload {
     private val targetX = FloatArray(size)
     private val targetZ = FloatArray(size)
     private var intensity = FloatArray(size)
-    private var heard = FloatArray(size)
+    private var received = FloatArray(size)
     private val first = IntArray(size + 1)
     private val neighbors: IntArray
     private var tick = 0L
@@ -26,10 +26,10 @@ internal class Loops(private val grid: Grid) : Workload {
 
     override fun tick() {
         tick++
-        // What neighbours know of each other is what was sent in the tick before.
-        val sent = heard
-        heard = intensity
-        intensity = sent
+        // Nodes receive what their neighbours sent in the tick before. The two arrays take turns.
+        val spare = received
+        received = intensity
+        intensity = spare
         for (node in 0 until size) intensity[node] = grid.intensity(node, tick)
         for (node in 0 until size) round(node)
     }
@@ -42,7 +42,7 @@ internal class Loops(private val grid: Grid) : Workload {
             val dx = (x[other] - x[node]).toDouble()
             val dz = (z[other] - z[node]).toDouble()
             val distance = sqrt(dx * dx + dz * dz)
-            val pull = (heard[other] - intensity[node]) / distance
+            val pull = (received[other] - intensity[node]) / distance
             towardsX += pull * dx
             towardsZ += pull * dz
         }

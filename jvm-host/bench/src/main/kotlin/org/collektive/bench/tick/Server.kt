@@ -11,16 +11,16 @@ import java.nio.ByteOrder
 import java.nio.channels.ServerSocketChannel
 import java.nio.channels.SocketChannel
 
-/** Something that ticks on this JVM alone. */
+/** A benchmark of ticks that runs on this JVM alone. */
 internal interface Workload : AutoCloseable {
     fun tick()
 }
 
 /**
- * A second process for the benchmark, over TCP on loopback: a host behind a socket, and workloads without one.
+ * The benchmark's second process: serves the host over TCP on loopback, and runs workloads without C#.
  *
- * Prints its port, serves one client, and ends with it. A request is kind, id, length (i32 each) and payload, an answer is status (i32, 0: good), length
- * and payload; little-endian.
+ * Prints its port, serves one client, and exits when the client disconnects. A request is kind, id, length (i32 each) and payload; an answer is
+ * status (i32, 0 for success), length (i32) and payload. All numbers are little-endian.
  */
 public fun main() {
     ServerSocketChannel.open().use { listener ->
@@ -66,14 +66,14 @@ private class Server(private val client: SocketChannel) : ShimCalls {
 
     private fun number(index: Int): Int = request.getInt(REQUEST_HEADER + index * Int.SIZE_BYTES)
 
-    /** Reads until [bytes] of the request are there; `false` when the client is gone. */
+    /** Reads until the request has [bytes] bytes; returns `false` when the client has disconnected. */
     private fun read(bytes: Int): Boolean {
         if (request.capacity() < bytes) request = buffer(2 * bytes).put(request.flip())
         while (request.position() < bytes) if (client.read(request) < 0) return false
         return true
     }
 
-    /** The host's answer with a header before it, in its place where there is room. */
+    /** The host's answer with a header before it; copies the answer only if there is no room for the header. */
     private fun framed(written: Long): ByteBuffer {
         if (written < 0) return numbers(status = written.toInt())
         val offset = (written ushr Int.SIZE_BITS).toInt()

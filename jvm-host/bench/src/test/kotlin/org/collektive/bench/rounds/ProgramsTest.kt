@@ -6,10 +6,10 @@ import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 import org.collektive.engine.TickResult
 
-/** What is measured is right: a benchmark of wrong results would be worthless. */
+/** Checks that the benchmarked programs compute correct results. */
 class ProgramsTest {
     @Test
-    fun `a - the engine heads where the loops head`() = settled("a") { network, result ->
+    fun `a - engine and loops compute the same headings`() = settled("a") { network, result ->
         val byHand = HandwrittenRounds("a", network)
         repeat(2) { byHand.tick() }
         for (id in 0 until network.size) {
@@ -20,13 +20,13 @@ class ProgramsTest {
     }
 
     @Test
-    fun `b - distances are those of the shortest paths`() = settled("b") { network, result ->
+    fun `b - the distances are shortest paths`() = settled("b") { network, result ->
         val expected = shortestPaths(network)
         for (id in 0 until network.size) assertEquals(expected[id], result.answer(id) as Double, 1e-9, "node $id")
     }
 
     @Test
-    fun `b2 - distances are those of the shortest paths and of the loops`() = settled("b2") { network, result ->
+    fun `b2 - the distances are shortest paths, in the engine and in the loops`() = settled("b2") { network, result ->
         val expected = shortestPaths(network)
         val byHand = HandwrittenRounds("b2", network)
         repeat(TICKS) { byHand.tick() }
@@ -37,7 +37,7 @@ class ProgramsTest {
     }
 
     @Test
-    fun `c - leaders count all devices once, and each device hears what a leader counted`() = settled("c") { network, result ->
+    fun `c - leaders count every device once, and each device receives its leader's count`() = settled("c") { network, result ->
         val regions = List(network.size) { result.answer(it) as Region }
         val counts = regions.filter { it.isLeader }.map { it.devices }
         assertEquals(network.size, counts.sum())
