@@ -20,7 +20,7 @@ public interface AlignmentStack {
     public fun popTo(depth: Int)
 
     /**
-     * Returns [field] restricted to the neighbours that reached the current path in their last round, and tells neighbours that this
+     * Returns [field] restricted to the neighbours that reached the current path in their last round, and announces to neighbours that this
      * device reached it. Unlike a primitive, it may run any number of times at one path.
      */
     public fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T>
