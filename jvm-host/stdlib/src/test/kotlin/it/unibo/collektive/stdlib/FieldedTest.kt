@@ -16,7 +16,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
-/** Every lifted operator, called on random fields and compared entry by entry with the plain one. */
+/** Calls every lifted operator on random fields, and compares each entry with the plain operator. */
 class FieldedTest {
     private val random = Random(3)
     private val types = listOf("Int", "Long", "Float", "Double")
@@ -94,7 +94,7 @@ class FieldedTest {
     }
 
     @Test
-    fun `every operator on numbers is the plain one, entry by entry`() {
+    fun `every operator on numbers applies the plain one to each entry`() {
         val objects = mapOf("Int" to FieldedInts, "Long" to FieldedLongs, "Float" to FieldedFloats, "Double" to FieldedDoubles)
         val swarm = Swarm(3).line(1.0, 1.0)
         swarm.round { mapNeighborhood { it } }
@@ -129,7 +129,7 @@ class FieldedTest {
     }
 
     @Test
-    fun `every operator on truth values is the plain one, entry by entry`() {
+    fun `every operator on truth values applies the plain one to each entry`() {
         val swarm = Swarm(4)
         for (id in 0..2) swarm.link(id, 3)
         swarm.round { mapNeighborhood { it } }

@@ -92,23 +92,23 @@ class SerializedDeliveryTest {
     }
 
     @Test
-    fun `the library gives the same by JSON messages as in memory`() {
+    fun `the library returns the same with JSON messages as in memory`() {
         val swarm = Swarm(5).line(1.5, 1.5, 1.5, 1.5)
         val row = Row(5) { everything() }
         repeat(15) {
-            // Rows read at the start of a round what was sent before it, as the swarm does.
+            // All devices of a row receive before any of them sends, as in the swarm.
             assertEquals(swarm.round { everything() }.values.toList(), row.round())
         }
     }
 
     @Test
-    fun `what has no serializer is refused where it is shared`() {
+    fun `sharing a value without a serializer throws`() {
         class Plain
         assertFailsWith<SerializationException> { Row(1) { hopGradientCast(true, Plain()) }.round() }
     }
 
     @Test
-    fun `none, and null as a value, survive`() {
+    fun `an absent value, and null as a value, survive serialisation`() {
         val form = serializer<Maybe<Int?>>()
         for (value in listOf(Maybe.None, Maybe.Some(null), Maybe.Some(3))) {
             assertEquals(value, Json.decodeFromString(form, Json.encodeToString(form, value)))

@@ -13,7 +13,7 @@ import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 import kotlin.random.Random
 
-/** Devices of the real runtime on a graph with link lengths, which tests change between rounds. */
+/** Devices of the real runtime on a graph with link lengths. Tests change the graph between rounds. */
 internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
     private val runtimes = AggregateRuntimes()
     private val members = sortedMapOf<Int, Member>()
@@ -50,7 +50,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
 
     fun length(a: Int, b: Int): Double = members.getValue(a).links.getValue(b).length
 
-    /** Devices come and go, and links are made, cut and changed: about one in three. */
+    /** Adds and removes devices, and adds, removes and changes about one link in three. */
     fun shake() {
         if (size > 2 && random.nextInt(3) == 0) remove(ids.random(random))
         if (random.nextInt(3) == 0) add()
@@ -62,7 +62,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
         }
     }
 
-    /** A round of every device: all at once, or one after another in random order. */
+    /** Runs a round of every device: all at once, or one after another in random order. */
     fun <R> round(atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
         val results = sortedMapOf<Int, R>()
         val waves = if (atOnce) listOf(ids) else ids.shuffled(random).map { listOf(it) }
@@ -82,13 +82,13 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
         return results
     }
 
-    /** [round] as often as [times]; the last results. */
+    /** Calls [round] [times] times and returns the last results. */
     fun <R> rounds(times: Int, atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
         repeat(times - 1) { round(atOnce, program) }
         return round(atOnce, program)
     }
 
-    /** The lengths of the links, as a program sees them. */
+    /** The lengths of the links, as a field of a program. */
     fun Aggregate<Int>.lengths(): Field<Int, Double> =
         mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
 
@@ -112,7 +112,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
     }
 }
 
-/** Shortest paths from [sources] by Dijkstra's algorithm, over devices that satisfy [through]: device to distance and nearest source. */
+/** Distance and nearest source of each device, by Dijkstra's algorithm from [sources] over devices for which [through] holds. */
 internal fun Swarm.shortestPaths(
     sources: Collection<Int>,
     through: (Int) -> Boolean = { true },
@@ -136,14 +136,14 @@ internal fun Swarm.shortestPaths(
     return found
 }
 
-/** Hops to the nearest of [sources], for those that reach one. */
+/** Hops to the nearest of [sources], for devices that reach one. */
 internal fun Swarm.hopsFrom(sources: Collection<Int>): Map<Int, Int> =
     shortestPaths(sources) { _, _ -> 1.0 }.mapValues { it.value.first.toInt() }
 
-/** Devices connected with [id], itself included. */
+/** The devices of the connected component of [id]. */
 internal fun Swarm.component(id: Int): Set<Int> = shortestPaths(listOf(id)).keys
 
-/** Lets random swarms live through perturbations, and calls [check] after each, with links as they will stay. */
+/** Perturbs random swarms, and calls [check] after each perturbation, with links that then stay unchanged. */
 internal fun perturbed(seeds: IntRange = 0 until 12, check: (swarm: Swarm, atOnce: Boolean, random: Random) -> Unit) {
     for (seed in seeds) {
         val random = Random(seed)

@@ -9,7 +9,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
 class ConvergeCastTest {
-    /** Device to the sum over its tree, where each hangs below the lowest id of those one hop nearer to a sink. */
+    /** The expected sum of each device's subtree. The parent of a device is the lowest id among those one hop nearer to a sink. */
     private fun Swarm.treeSums(sinks: Collection<Int>, values: Map<Int, Int>): Map<Int, Int> {
         val hops = hopsFrom(sinks)
         fun parent(id: Int) = hops[id]?.let { mine -> neighbors(id).filter { (hops[it] ?: Int.MAX_VALUE) < mine }.minOrNull() }
@@ -18,7 +18,7 @@ class ConvergeCastTest {
     }
 
     @Test
-    fun `after any perturbation sinks have the sums of their trees within the bound`() = perturbed { swarm, atOnce, random ->
+    fun `sinks have the sums of their trees within the bound after any perturbation`() = perturbed { swarm, atOnce, random ->
         val sinks = swarm.ids.filter { random.nextInt(5) == 0 }.toSet()
         val values = swarm.ids.associateWith { random.nextInt(-50, 50) }
         val seen = swarm.rounds(3 * swarm.size + 1, atOnce) { convergeSum(values.getValue(localId), localId in sinks) }
@@ -26,7 +26,7 @@ class ConvergeCastTest {
     }
 
     @Test
-    fun `counts, means and sums agree, whichever way the potential is given`() = perturbed(0 until 4) { swarm, atOnce, _ ->
+    fun `counts, means and sums agree for every kind of potential`() = perturbed(0 until 4) { swarm, atOnce, _ ->
         val sink = swarm.ids.first()
         val hops = swarm.hopsFrom(listOf(sink))
         fun potential(id: Int) = hops[id] ?: Int.MAX_VALUE
@@ -46,7 +46,7 @@ class ConvergeCastTest {
     }
 
     @Test
-    fun `sinks may be told directly`() {
+    fun `sinks may be given instead of a potential`() {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         val seen = swarm.rounds(12) {
             listOf(
@@ -59,7 +59,7 @@ class ConvergeCastTest {
     }
 
     @Test
-    fun `devices of one potential never count each other`() {
+    fun `devices of equal potential never count each other`() {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         assertEquals(setOf(1), swarm.rounds(20) { countDevices(7.0) }.values.toSet())
     }

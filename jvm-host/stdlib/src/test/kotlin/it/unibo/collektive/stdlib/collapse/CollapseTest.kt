@@ -10,7 +10,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertNull
 
 class CollapseTest {
-    /** Fields of random size and values, and what they hold in order: neighbours ascending, then the device itself. */
+    /** Fields of random size and values, with their elements in order: neighbours ascending, then the device itself. */
     private fun fields(check: (field: Field<Int, Int>, neighbors: List<Pair<Int, Int>>, all: List<Pair<Int, Int>>) -> Unit) {
         for (seed in 0 until 40) {
             val random = Random(seed)
@@ -28,7 +28,7 @@ class CollapseTest {
     }
 
     @Test
-    fun `predicates and folds are those of the lists`() = fields { field, neighbors, all ->
+    fun `predicates and folds agree with those of lists`() = fields { field, neighbors, all ->
         for ((collapse, pairs) in listOf(field.neighbors.values to neighbors, field.all.values to all)) {
             val list = pairs.map { it.second }
             assertEquals(list.all { it > 0 }, collapse.all { it > 0 })
@@ -47,7 +47,7 @@ class CollapseTest {
     }
 
     @Test
-    fun `of neighbours, extremes are null when there are none`() = fields { field, neighbors, _ ->
+    fun `extremes of neighbours are null when there are none`() = fields { field, neighbors, _ ->
         val list = neighbors.map { it.second }
         val values = field.neighbors.values
         assertEquals(list.maxOrNull(), values.max())
@@ -73,7 +73,7 @@ class CollapseTest {
     }
 
     @Test
-    fun `of all, extremes are always there, and on ties the first in order`() = fields { field, _, all ->
+    fun `extremes of all always exist, and ties go to the first in order`() = fields { field, _, all ->
         val list = all.map { it.second }
         val values = field.all.values
         assertEquals(list.max(), values.max())

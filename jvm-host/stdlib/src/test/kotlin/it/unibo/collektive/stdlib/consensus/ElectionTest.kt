@@ -8,7 +8,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
 class ElectionTest {
-    /** Device to leader: the strongest claims all within the bound, the strongest of the others those within through others, and so on. */
+    /** The expected leader of each device: the strongest leads all within the bound, then the strongest of the others, and so on. */
     private fun Swarm.leaders(strengths: Map<Int, Int>, bound: Double, length: (Int, Int) -> Double): Map<Int, Int> {
         val leaders = sortedMapOf<Int, Int>()
         for (candidate in ids.sortedByDescending(strengths::getValue)) {
@@ -20,7 +20,7 @@ class ElectionTest {
     }
 
     @Test
-    fun `after any perturbation leaders are those of the greedy partition within the bound`() = perturbed { swarm, atOnce, random ->
+    fun `leaders are those of the greedy partition within the bound after any perturbation`() = perturbed { swarm, atOnce, random ->
         val strengths = swarm.ids.shuffled(random).mapIndexed { index, id -> id to index }.toMap()
         val bound = random.nextInt(1, 5)
         val expected = swarm.leaders(strengths, bound.toDouble()) { _, _ -> 1.0 }
@@ -38,7 +38,7 @@ class ElectionTest {
     }
 
     @Test
-    fun `the strongest of a component leads it, and is forgotten when it leaves`() = perturbed { swarm, atOnce, random ->
+    fun `the strongest device of a component leads it, and is replaced when it leaves`() = perturbed { swarm, atOnce, random ->
         val strengths = swarm.ids.shuffled(random).mapIndexed { index, id -> id to index }.toMap()
         val seen = swarm.rounds(2 * swarm.size, atOnce) {
             alignedOn("strength") { globalElection(strengths.getValue(localId)) } to alignedOn("id") { globalElection() }
@@ -50,21 +50,21 @@ class ElectionTest {
     }
 
     @Test
-    fun `equally strong leaders share a component by distance`() {
+    fun `equally strong leaders divide a component by distance`() {
         val swarm = Swarm(6).line(1.0, 1.0, 1.0, 1.0, 1.0)
         val seen = swarm.rounds(12) { globalElection(if (localId == 0 || localId == 5) 1 else 0) }
         assertEquals(listOf(0, 0, 0, 5, 5, 5), seen.values.toList())
     }
 
     @Test
-    fun `another choice of the best may be made`() {
+    fun `selectBest replaces the order of candidacies`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         val seen = swarm.rounds(6) { boundedElection(localId, 9) { a, b -> minOf(a, b) } }
         assertEquals(setOf(0), seen.values.toSet())
     }
 
     @Test
-    fun `stronger is greater, then nearer`() {
+    fun `the stronger candidacy is greater, then the nearer`() {
         val ascending = listOf(Candidacy(1, 5, 0), Candidacy(2, 9, 1), Candidacy(3, 4, 1))
         assertEquals(ascending, ascending.reversed().sorted())
         assertEquals(0, Candidacy(1, 2, 3).compareTo(Candidacy(9, 2, 3)))

@@ -13,7 +13,7 @@ class TimeReplicatedTest {
     private fun at(seconds: Int) = Instant.fromEpochSeconds(seconds.toLong())
 
     @Test
-    fun `what never forgets follows changes when it is replicated`() {
+    fun `a process that never forgets follows changes when it is replicated`() {
         val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
         fun second(now: Int, greatest: Int) = swarm.round {
             timeReplicated(at(now), 3, 10.seconds) {
@@ -27,7 +27,7 @@ class TimeReplicatedTest {
     }
 
     @Test
-    fun `the result is the oldest run's, and each run starts afresh`() {
+    fun `the result is that of the oldest replica, and each replica starts without state`() {
         val swarm = Swarm(1)
         val ages = (0 until 40).map { now -> swarm.round { timeReplicated(at(now), 2, 5.seconds) { evolve(0) { it + 1 } } }.getValue(0) }
         assertEquals((1..10).toList(), ages.take(10))
@@ -35,7 +35,7 @@ class TimeReplicatedTest {
     }
 
     @Test
-    fun `nonsense is refused`() {
+    fun `arguments out of range are refused`() {
         assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 0, 1.seconds) { } } }
         assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 1, Duration.ZERO) { } } }
     }

@@ -17,7 +17,7 @@ class BellmanFordGradientCastTest {
     )
 
     @Test
-    fun `from rest, distances are those of the shortest paths after as many rounds as there are devices`() {
+    fun `distances are shortest paths after as many rounds as there are devices`() {
         for (seed in 0 until 30) {
             val random = Random(seed)
             val swarm = Swarm(random.nextInt(2, 18), random)
@@ -30,7 +30,7 @@ class BellmanFordGradientCastTest {
     }
 
     @Test
-    fun `it counts to infinity, as its documentation says`() {
+    fun `it counts to infinity as documented`() {
         val swarm = Swarm(4).line(1.0, 1.0, 0.1)
         swarm.rounds(6) { distance(swarm, localId == 0) }
         swarm.cut(1, 2)
@@ -41,7 +41,7 @@ class BellmanFordGradientCastTest {
     }
 
     @Test
-    fun `too small values rise to the true ones, by the metric each round`() {
+    fun `distances that are too small rise by the metric each round`() {
         val swarm = Swarm(4).line(1.0, 1.0, 0.5)
         swarm.link(3, 0, 20.0)
         swarm.rounds(6) { distance(swarm, localId == 0) }

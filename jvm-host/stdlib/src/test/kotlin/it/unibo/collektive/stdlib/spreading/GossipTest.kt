@@ -10,7 +10,7 @@ import kotlin.test.assertTrue
 
 class GossipTest {
     @Test
-    fun `after any perturbation all know their component's best within the bound`() = perturbed { swarm, atOnce, random ->
+    fun `all devices have their component's best value within the bound after any perturbation`() = perturbed { swarm, atOnce, random ->
         val values = swarm.ids.associateWith { random.nextInt(100) }
         val seen = swarm.rounds(2 * swarm.size, atOnce) {
             val value = values.getValue(localId)
@@ -28,21 +28,21 @@ class GossipTest {
     }
 
     @Test
-    fun `what happens anywhere is known, and forgotten when it is over`() = perturbed(0 until 4) { swarm, atOnce, random ->
+    fun `a condition that holds anywhere is true everywhere, and false again when it ends`() = perturbed(0 until 4) { swarm, atOnce, random ->
         val happening = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
         val seen = swarm.rounds(2 * swarm.size, atOnce) { isHappeningAnywhere { localId in happening } }
         assertEquals(swarm.ids.associateWith { id -> swarm.component(id).any { it in happening } }, seen)
     }
 
     @Test
-    fun `a value travels no further than the diameter`() {
+    fun `a value travels no further than maxDiameter hops`() {
         val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
         val seen = swarm.rounds(10) { gossipMax(if (localId == 0) 9 else 1, maxDiameter = 2) }
         assertEquals(listOf(9, 9, 9, 1, 1), seen.values.toList())
     }
 
     @Test
-    fun `comparators choose`() {
+    fun `comparators and selectors choose the best`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         val seen = swarm.rounds(5) {
             val longest = alignedOn("max") { gossipMaxWith("x".repeat(localId), compareBy { it.length }) }
@@ -52,7 +52,7 @@ class GossipTest {
     }
 
     @Test
-    fun `a reducer that merges is refused, with the way out`() {
+    fun `a reducer that merges is refused, and the message names the alternative`() {
         val swarm = Swarm(2).line(1.0)
         val error = assertFailsWith<IllegalStateException> {
             swarm.rounds(2) { gossip(setOf(localId)) { a, b -> a + b } }
@@ -61,7 +61,7 @@ class GossipTest {
     }
 
     @Test
-    fun `flooding merges everything and forgets nothing`() {
+    fun `nonStabilizingGossip merges everything and forgets nothing`() {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         assertEquals(setOf(setOf(0, 1, 2, 3)), swarm.rounds(4) { nonStabilizingGossip(setOf(localId)) { a, b -> a + b } }.values.toSet())
         swarm.remove(3)
@@ -69,7 +69,7 @@ class GossipTest {
     }
 
     @Test
-    fun `what ever happened stays so`() {
+    fun `everHappened stays true`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         assertEquals(setOf(false), swarm.rounds(4) { everHappened { false } }.values.toSet())
         swarm.round { everHappened { localId == 0 } }

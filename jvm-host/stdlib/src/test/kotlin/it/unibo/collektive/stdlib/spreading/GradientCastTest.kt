@@ -12,7 +12,7 @@ import kotlin.test.assertTrue
 
 class GradientCastTest {
     @Test
-    fun `after any perturbation distances are those of the shortest paths within the bound`() = perturbed { swarm, atOnce, random ->
+    fun `distances are shortest paths within the bound after any perturbation`() = perturbed { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(5) == 0 }.toSet()
         val seen = swarm.rounds(2 * swarm.size, atOnce) { distanceTo(localId in sources, with(swarm) { lengths() }) }
         val paths = swarm.shortestPaths(sources)
@@ -20,7 +20,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `data comes from the nearest source, changed hop by hop`() = perturbed { swarm, atOnce, random ->
+    fun `data comes from the nearest source and accumulates hop by hop`() = perturbed { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(4) == 0 }.toSet()
         val seen = swarm.rounds(2 * swarm.size, atOnce) {
             gradientCast(
@@ -35,7 +35,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `hops are counted, up to the diameter`() = perturbed { swarm, atOnce, random ->
+    fun `hops are counted up to maxDiameter`() = perturbed { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
         val limit = random.nextInt(1, 5)
         val seen = swarm.rounds(2 * limit + 1, atOnce) { hopDistanceTo(localId in sources, limit) }
@@ -44,7 +44,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `each of several sources has a gradient of its own`() = perturbed(0 until 4) { swarm, atOnce, random ->
+    fun `each of several sources has its own gradient`() = perturbed(0 until 4) { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(4) == 0 }
         val seen = swarm.rounds(2 * swarm.size, atOnce) {
             multiGradientCast(
@@ -61,7 +61,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `a source that does not name itself among the sources still hears the others`() {
+    fun `a source that does not list itself still receives from the others`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         val seen = swarm.rounds(4) { multiIntGradientCast(if (localId == 1) listOf(0) else listOf(0, 2), localId) }
         assertEquals(mapOf(0 to mapOf(0 to 0, 2 to 0), 1 to mapOf(0 to 0), 2 to mapOf(0 to 0, 2 to 2)), seen, "1 passes nothing of 2 on")
@@ -80,14 +80,14 @@ class GradientCastTest {
     }
 
     @Test
-    fun `null is data like other`() {
+    fun `null is valid data`() {
         val swarm = Swarm(2).line(1.0)
         val seen = swarm.rounds(3) { hopGradientCast(localId == 0, if (localId == 0) null else "none") }
         assertNull(seen.getValue(1))
     }
 
     @Test
-    fun `a metric below bottom counts as bottom, above top as top`() {
+    fun `the metric is coerced to bottom and top`() {
         val swarm = Swarm(3).line(-5.0, 50.0)
         val seen = swarm.rounds(5) {
             distanceTo(localId == 0, 1.0, 10.0, with(swarm) { lengths() }) { a, b -> a + b }
@@ -108,7 +108,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `settled networks send the very same objects again`() {
+    fun `settled networks send the same objects again`() {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         class Box
         val boxes = List(4) { Box() }

@@ -12,14 +12,14 @@ class SharedClockTest {
     private fun at(seconds: Int) = Instant.fromEpochSeconds(seconds.toLong())
 
     @Test
-    fun `the time between rounds, never negative`() {
+    fun `localDeltaTime is the time between rounds, never negative`() {
         val swarm = Swarm(1)
         val seen = listOf(10, 13, 13, 8, 9).map { now -> swarm.round { localDeltaTime(at(now)) }.getValue(0) }
         assertEquals(listOf(0, 3, 0, 0, 1).map { it.seconds }, seen)
     }
 
     @Test
-    fun `clocks follow the fastest, whatever the own one says`() {
+    fun `every clock follows the fastest one`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         var seen = emptyMap<Int, Instant>()
         for (second in 0 until 10) seen = swarm.round { sharedClock(at(1000 * localId + second)) }
@@ -28,7 +28,7 @@ class SharedClockTest {
     }
 
     @Test
-    fun `all wait for the same moment, also those that come later`() {
+    fun `all devices wait for the same moment, also those that come later`() {
         val swarm = Swarm(2).line(1.0)
         var seen = emptyMap<Int, Duration>()
         for (second in 0 until 6) seen = swarm.round { sharedTimeLeftTo(at(second), 10.seconds) }

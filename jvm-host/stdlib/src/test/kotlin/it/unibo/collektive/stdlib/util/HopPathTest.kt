@@ -26,7 +26,7 @@ class HopPathTest {
     }
 
     @Test
-    fun `paths agree when their common hops come in the same order`() {
+    fun `paths agree when their common hops are in the same order`() {
         val random = Random(2)
         var agreeing = 0
         repeat(2000) {
@@ -48,7 +48,7 @@ class HopPathTest {
     }
 
     @Test
-    fun `a path knows the one it was made from`() {
+    fun `a path extends the one that it was made from`() {
         val stem = path(listOf(1, 2))
         assertTrue((stem + 3).extends(stem, 3))
         assertFalse((stem + 3).extends(stem, 4))

@@ -8,7 +8,7 @@ import kotlin.test.assertEquals
 
 class UtilTest {
     @Test
-    fun `sums stop at the ends of Int`() {
+    fun `nonOverflowingPlus saturates at the range of Int`() {
         assertEquals(5, 2.nonOverflowingPlus(3))
         assertEquals(Int.MAX_VALUE, Int.MAX_VALUE.nonOverflowingPlus(1))
         assertEquals(Int.MIN_VALUE, Int.MIN_VALUE.nonOverflowingPlus(-1))
@@ -16,13 +16,13 @@ class UtilTest {
     }
 
     @Test
-    fun `hops are 1 to neighbours and 0 to oneself`() {
+    fun `hops are 1 to neighbours and 0 to the device itself`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         assertEquals(mapOf(0 to 1, 2 to 1, 1 to 0), swarm.rounds(2) { hops().all.toMap() }.getValue(1))
     }
 
     @Test
-    fun `distances are between positions, however these are given`() {
+    fun `distances are equal for every kind of position`() {
         val swarm = Swarm(2).line(1.0)
         val seen = swarm.rounds(2) {
             val x = 3.0 * localId
