@@ -33,17 +33,17 @@ class ExportTest {
     }
 
     @Test
-    fun `a link that brought nothing aligns nobody`() = assertEquals<Any?>(emptyMap<Int, Int>(), received(null))
+    fun `a link without a message aligns no device`() = assertEquals<Any?>(emptyMap<Int, Int>(), received(null))
 
     @Test
-    fun `an export that is held stays as it was sent`() {
+    fun `a held export does not change`() {
         val held = List(5) { value -> send(value).also(Export::hold) }
         repeat(10) { send(100 + it) }
         for (value in held.indices) assertEquals<Any?>(mapOf(1 to value), received(held[value]))
     }
 
     @Test
-    fun `paths of a held export outlive a tidying`() {
+    fun `the paths of a held export survive tidy`() {
         val held = send(7).also(Export::hold)
         repeat(5000) { turn ->
             sender.round(inboxOf(null)) { alignedOn(turn) { neighboring(0).local.value } }
@@ -71,7 +71,7 @@ class ExportTest {
     }
 
     @Test
-    fun `no more exports are made than are held, and two`() {
+    fun `a device makes at most two exports more than are held`() {
         val made = HashSet<Export>()
         val last = ArrayDeque<Export>()
         repeat(50) { value ->

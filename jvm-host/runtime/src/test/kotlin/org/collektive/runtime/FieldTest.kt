@@ -15,7 +15,7 @@ import kotlin.test.assertNotEquals
 import kotlin.test.assertTrue
 
 class FieldTest {
-    /** What [test] says of the field of device 5, whose neighbours 1, 3 and 1000 (beyond the cache of boxes) sent their id times ten. */
+    /** Runs [test] on a field of device 5. Its neighbours 1, 3 and 1000 (beyond the cache of boxed ints) sent their id times ten. */
     private fun field(test: Aggregate<Int>.(Field<Int, Int>) -> Unit) {
         val network = TestNetwork(5, 1000, 1, 3)
         for (id in listOf(1, 3, 1000)) network.link(id, 5)
@@ -24,7 +24,7 @@ class FieldTest {
     }
 
     @Test
-    fun `entries are in ascending order, the own one last`() = field { f ->
+    fun `entries are in ascending order, this device's last`() = field { f ->
         assertEquals(listOf(1, 3, 1000), f.neighbors.ids.list)
         assertEquals(listOf(10, 30, 10000), f.neighbors.values.list)
         assertEquals(listOf(1, 3, 1000, 5), f.all.ids.list)
@@ -46,7 +46,7 @@ class FieldTest {
     }
 
     @Test
-    fun `get finds neighbours and the device itself, and no other`() = field { f ->
+    fun `get finds neighbours and the device itself, and throws for others`() = field { f ->
         assertEquals(listOf(10, 30, 50, 10000), listOf(1, 3, 5, 1000).map { f[it] })
         val error = assertFailsWith<NoSuchElementException> { f[4] }
         assertEquals("the field has no value for device 4, only for [1, 3, 1000, 5] [node 5 at root]", error.message)
@@ -91,13 +91,13 @@ class FieldTest {
     }
 
     @Test
-    fun `a field is no value of a field`() = field { f ->
+    fun `a field cannot be a value of a field`() = field { f ->
         assertFailsWith<IllegalStateException> { f.mapValues { f } }
         assertFailsWith<IllegalStateException> { f.mapToConstant(f) }
     }
 
     @Test
-    fun `equality is that of the maps`() = field { f ->
+    fun `fields are equal when their maps are`() = field { f ->
         assertEquals(f, f.mapValues { it + 1 }.mapValues { it - 1 })
         assertEquals(f.hashCode(), f.mapValues { it }.hashCode())
         assertNotEquals(f, f.mapValues { it + 1 })

@@ -23,13 +23,13 @@ class PathTreeTest {
     }
 
     @Test
-    fun `tokens of one hash are told apart`() {
+    fun `tokens with equal hashes are distinguished`() {
         assertEquals("Aa".hashCode(), "BB".hashCode())
         assertNotSame(tree.child(tree.root, "Aa"), tree.child(tree.root, "BB"))
     }
 
     @Test
-    fun `a million pivots do not stay`() {
+    fun `a million pivots are freed`() {
         val kept = tree.child(tree.root, "kept")
         var sweeps = 0
         for (pivot in 0 until 1_000_000) {

@@ -8,7 +8,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
 
-/** Equal tokens give equal paths, others give others, whichever factory makes them. */
+/** Equal tokens give equal paths, and different tokens different ones, with every factory. */
 class PathsTest {
     private data class Key(val name: String, val number: Int)
 
@@ -23,7 +23,7 @@ class PathsTest {
     }
 
     @Test
-    fun `tokens are told apart by their borders, their order and their classes`() {
+    fun `paths differ by the borders, the order and the classes of their tokens`() {
         val others = listOf(
             listOf("ab", "c"), listOf("a", "bc"), listOf("abc"), listOf("c", "ab"), listOf("a", "b", "c"), listOf(),
             listOf(1), listOf(1L), listOf("1"), listOf(null), listOf("null"), listOf(""), listOf("", ""),
@@ -34,7 +34,7 @@ class PathsTest {
     }
 
     @Test
-    fun `a digest survives its journey`() {
+    fun `a digest path survives serialisation`() {
         val path = DigestHashingFactory("a", Key("b", 2))
         val text = Json.encodeToString(Path.serializer(), path)
         assertEquals(path, Json.decodeFromString(Path.serializer(), text))

@@ -20,7 +20,7 @@ import kotlin.test.assertTrue
 
 class PrimitivesTest {
     @Test
-    fun `neighboring gives what aligned neighbours sent in their last round`() {
+    fun `neighboring returns what aligned neighbours sent in their last round`() {
         val network = TestNetwork(1, 2, 3).line(1, 2, 3)
         val first = network.values { neighboring(localId * 10).all.toMap() }
         assertEquals(mapOf(1 to 10), first[1], "nobody had sent anything yet")
@@ -56,13 +56,13 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `evolve keeps its value from round to round`() {
+    fun `evolve stores its value from round to round`() {
         val network = TestNetwork(1)
         assertEquals(listOf(1, 2, 3), List(3) { network.values { evolve(0) { it + 1 } }[1] })
     }
 
     @Test
-    fun `evolving returns another value than it keeps`() {
+    fun `evolving returns another value than it stores`() {
         val network = TestNetwork(1)
         assertEquals(listOf("1", "2"), List(2) { network.values { evolving(0) { (it + 1).yielding { toString() } } }[1] })
     }
@@ -81,7 +81,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `null is a value, kept and shared`() {
+    fun `null can be stored and shared`() {
         val network = TestNetwork(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             val kept = alignedOn("kept") { evolve<String?>("initial") { if (it == null) "was null" else null } }
@@ -92,7 +92,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `share spreads, and counts hops`() {
+    fun `share can count hops`() {
         val network = TestNetwork(0, 1, 2, 3).line(0, 1, 2, 3)
         val hops: Aggregate<Int>.() -> Any? = {
             share(99) { seen -> if (localId == 0) 0 else (seen.neighbors.values.list.minOrNull() ?: 98) + 1 }
@@ -102,14 +102,14 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `the local value of an exchange is what was kept, initial at first`() {
+    fun `the local value of an exchange is the stored one, at first initial`() {
         val network = TestNetwork(1)
         val program: Aggregate<Int>.() -> Any? = { sharing(5) { seen -> (seen.local.value + 1).yielding { seen.local.value } } }
         assertEquals(listOf(5, 6, 7), List(3) { network.values(program = program)[1] })
     }
 
     @Test
-    fun `exchange sends each neighbour a value of its own, and newcomers the local one`() {
+    fun `exchange sends each neighbour its own value, and new neighbours the local one`() {
         val network = TestNetwork(1, 2, 3).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             exchanging("") { seen ->
@@ -127,7 +127,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `a node that comes back under an old id is a newcomer`() {
+    fun `a new node with an old id starts without state and messages`() {
         val network = TestNetwork(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             exchange("") { seen -> seen.map { "${it.id} from $localId" } }.let { "" }
@@ -141,7 +141,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `mapNeighborhood maps ids, the own one included`() {
+    fun `mapNeighborhood maps ids, this device's included`() {
         val network = TestNetwork(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = { mapNeighborhood { it * 2 }.all.toMap() }
         network.values(program = program)
@@ -163,7 +163,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `a field kept from a former round is projected to the devices linked now`() {
+    fun `a field stored in an earlier round is projected to the current neighbours`() {
         val network = TestNetwork(1, 2, 3, 4).line(1, 2, 3).line(2, 4)
         val program: Aggregate<Int>.() -> Any? = {
             val now = alignedOn("now") { listOf(neighborhood()) }.single()
@@ -193,7 +193,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `a loop needs a key, and works with one`() {
+    fun `a loop clashes without a key, and works with one`() {
         val network = TestNetwork(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             (0 until 20).sumOf { key -> alignedOn(key) { neighboring(key).neighbors.values.list.sum() } }
@@ -240,7 +240,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `what the rule refuses is neither shared, nor kept, nor a pivot`() {
+    fun `a value that the rule refuses can be neither shared, nor stored, nor a pivot`() {
         val network = TestNetwork(1, rule = { if (it is StringBuilder) "a builder changes" else null })
         val view = StringBuilder("view")
         val programs = listOf<Aggregate<Int>.() -> Any?>(

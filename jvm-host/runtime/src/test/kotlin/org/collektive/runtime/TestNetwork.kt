@@ -6,7 +6,7 @@ import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 import org.collektive.spi.SharingRule
 
-/** Devices of the real runtime, joined by links that tests make and cut; rounds in lockstep. */
+/** Devices of the real runtime in lockstep. Tests add and remove the links. */
 internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { null }) {
     private val runtimes = AggregateRuntimes(rule)
     private val members = sortedMapOf<Int, Member>()
@@ -41,7 +41,7 @@ internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { nu
         members.getValue(to).since.remove(from)
     }
 
-    /** One round of [due] (all by default); what each returned or threw. */
+    /** Runs one round of each device in [due]; returns what each returned or threw. */
     fun round(vararg due: Int = members.keys.toIntArray(), program: Aggregate<Int>.() -> Any?): Map<Int, Result<Any?>> {
         now++
         runtimes.tidy(members.values.map { it.runtime })
@@ -58,12 +58,12 @@ internal class TestNetwork(vararg ids: Int, rule: SharingRule = SharingRule { nu
         return results
     }
 
-    /** [round] where no program may throw. */
+    /** [round] that fails when a program throws. */
     fun values(vararg due: Int = members.keys.toIntArray(), program: Aggregate<Int>.() -> Any?): Map<Int, Any?> =
         round(*due, program = program).mapValues { it.value.getOrThrow() }
 
     private inner class Member(val id: Int, val runtime: DeviceRuntime) : Inbox {
-        /** Sender to the round after which its link was made. */
+        /** The round after which the link of each sender was added. */
         val since = sortedMapOf<Int, Int>()
         var export: Export? = null
         var sentAt = 0

@@ -19,9 +19,9 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
-/** What programs do wrong is told with the node, the path and the place in the sources, on every route, and harms no other node. */
+/** Errors of programs name the node, the path and the source location on every route, and affect no other node. */
 class ErrorsTest {
-    /** Runs [body] as a compiled program runs a call of [name] in line [line] of Swarm.kt. */
+    /** Runs [body] as a compiled program runs a call of [name] at Swarm.kt:[line]. */
     private inline fun <R> Aggregate<Int>.call(name: String, line: Int, body: () -> R): R {
         val depth = pushToken(this, "$name@Swarm.kt:$line#0123456789abcdef")
         try {
@@ -34,7 +34,7 @@ class ErrorsTest {
         }
     }
 
-    /** The error of [program] inside `helper` on node 1 of three in a row, whose rounds go well before and after. */
+    /** The error of [program] inside `helper` on node 1 of three in a row. All rounds before and after succeed. */
     private fun failure(route: Route, program: Aggregate<Int>.() -> Any?): Throwable {
         val graph = Graph()
         for (id in 0..2) {
@@ -79,7 +79,7 @@ class ErrorsTest {
     @Test
     fun `fields of different devices`() =
         assertTold<IllegalStateException>("one has values for [0, 2, 1], the other for [1]", "node 1 at helper (Swarm.kt:7)") {
-            // Nobody else comes here.
+            // No other device reaches this path.
             val alone = call("alone", 8) { neighboring(2) }
             Field.make(this, arrayOf(0, 2), arrayOf(1, 1), 1).alignedMap(alone) { _, a, b -> a + b }
         }
@@ -114,7 +114,7 @@ class ErrorsTest {
     }
 
     @Test
-    fun `a pivot without a text of its own, where messages are serialised`() {
+    fun `a pivot without a toString of its own, where messages are serialised`() {
         class Key
         val error = failure(MailboxRoute(inMemory = false)) { alignedOn(Key()) { evolve(0) { it } } }
         assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: it has no toString of its own")
@@ -128,7 +128,7 @@ class ErrorsTest {
         val type = assertIs<SerializationException>(failure(json) { call("share", 9) { share(Plain()) { it.local.value } } })
         assertContains(type.message.orEmpty(), "Plain cannot be sent: there is no serializer; mark the class with @Serializable")
         assertTrue(type.message.orEmpty().endsWith("[node 1 at helper > share (Swarm.kt:9)]"), type.message)
-        // This route writes messages when they are read.
+        // This route serialises messages when they are read.
         val value = assertFailsWith<SerializationException> {
             failure(MailboxRoute(inMemory = false)) { call("neighboring", 8) { neighboring(Double.NaN) }.local.value }
         }
@@ -141,8 +141,8 @@ class ErrorsTest {
         fun Aggregate<Int>.deeper(): Int = call("deeper", 3) { alignedOn("key") { deeper() } } + 1
         for (inMemory in listOf(true, false)) {
             val error = assertIs<StackOverflowError>(failure(MailboxRoute(inMemory)) { deeper() })
-            val told = Regex("the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]")
-            assertTrue(told.matches(error.message.orEmpty()), error.message)
+            val expected = Regex("the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]")
+            assertTrue(expected.matches(error.message.orEmpty()), error.message)
         }
     }
 }

@@ -9,7 +9,7 @@ import org.collektive.spi.Inbox
 import java.util.concurrent.Callable
 import java.util.concurrent.Executors
 
-/** The way of simulations: messages are read in place, by [threads] threads at once. */
+/** The route of simulations: [threads] threads read messages in place at the same time. */
 internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
     override val name = "in place, $threads threads"
     private val runtimes = AggregateRuntimes()

@@ -15,7 +15,7 @@ import it.unibo.collektive.path.Path
 import kotlinx.serialization.builtins.serializer
 import kotlinx.serialization.json.Json
 
-/** The way of the public API: [Collektive] devices with mailboxes, whose messages stay objects or become JSON texts. */
+/** The route of the public API: [Collektive] devices with mailboxes, whose messages are objects or JSON texts. */
 internal class MailboxRoute(private val inMemory: Boolean) : Route {
     override val name = if (inMemory) "mailboxes" else "mailboxes with JSON"
     private val devices = sortedMapOf<Int, Device>()
@@ -57,7 +57,7 @@ internal class MailboxRoute(private val inMemory: Boolean) : Route {
             }
         }
 
-        /** What [deliverableFor] got becomes visible only when all of the round have run. */
+        /** Messages passed to [deliverableFor] become visible only after all rounds of the step. */
         fun flush() {
             sending?.let { sent = it }
             sending = null

@@ -11,10 +11,10 @@ import it.unibo.collektive.aggregate.api.sharing
 import it.unibo.collektive.aggregate.values
 import kotlin.random.Random
 
-/** A piece of a program: a number, or none. */
+/** A part of a program; returns a number or `null`. */
 internal typealias Piece = Aggregate<Int>.() -> Int?
 
-/** Programs at random: all primitives, nested in each other, in branches, recursions and below data. */
+/** Random programs of all primitives: nested in each other, in branches, in recursion and below data. */
 internal class RandomPrograms(private val random: Random) {
     private var places = 0
 
@@ -52,7 +52,7 @@ internal class RandomPrograms(private val random: Random) {
             12 -> at { mix(neighborhood().neighbors.list.size, alignedOn("b") { b() }) }
             else -> at {
                 val first = evolve(k) { it + 1 }
-                // The second primitive at its path, on some devices.
+                // A second primitive at the same path, on some devices.
                 if (k == 1 && localId % 3 == 0) mix(neighboring(first).local.value, first) else mix(first, alignedOn("b") { b() })
             }
         }

@@ -10,11 +10,11 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
 
-/** The meaning of the primitives, as plainly as it can be said: maps from whole paths to values. */
+/** The semantics of the primitives in their simplest form: maps from whole paths to values. */
 internal class ReferenceRoute : Route {
     override val name = "reference"
 
-    /** What a round left behind: kept values, and per path the value for known receivers and the default. */
+    /** The outcome of a round: stored values, and at each path the values for known receivers and the default. */
     class Record(val kept: Map<List<Any?>, Any?>, val sent: Map<List<Any?>, Pair<Map<Int, Any?>, Any?>>)
 
     val records = sortedMapOf<Int, Record>()

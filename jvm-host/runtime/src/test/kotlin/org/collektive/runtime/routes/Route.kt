@@ -2,7 +2,7 @@ package org.collektive.runtime.routes
 
 import it.unibo.collektive.aggregate.api.Aggregate
 
-/** One way to run the same devices on the same [Graph]. */
+/** One way of running the same devices on the same [Graph]. */
 internal interface Route {
     val name: String
 
@@ -11,11 +11,11 @@ internal interface Route {
 
     fun remove(id: Int)
 
-    /** Runs one round of [due] at once: what each returned or threw. Those that returned have sent their messages afterwards. */
+    /** Runs one round of each device in [due]; returns what each returned or threw. Successful rounds send their messages at the end. */
     fun round(graph: Graph, due: List<Int>, program: Aggregate<Int>.() -> Any?): Map<Int, Result<Any?>>
 }
 
-/** Directed links and when they were made; when devices last sent. */
+/** Directed links with the time at which they were added, and the time at which each device last sent. */
 internal class Graph {
     var now = 0
     val ids = sortedSetOf<Int>()
@@ -46,9 +46,9 @@ internal class Graph {
         for (id in ids) sentAt[id] = now
     }
 
-    /** The devices that [id] has links from, ascending. */
+    /** The senders of links to [id], ascending. */
     fun senders(id: Int): List<Int> = links.getValue(id).keys.toList()
 
-    /** Whether the link was there when [from] sent. */
+    /** Whether the link existed when [from] sent. */
     fun wasKnown(from: Int, to: Int): Boolean = links.getValue(to).getValue(from) < (sentAt[from] ?: -1)
 }

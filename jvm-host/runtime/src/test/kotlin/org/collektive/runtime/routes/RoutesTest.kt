@@ -7,7 +7,7 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** All routes mean the same: random programs on random graphs that change, with failing rounds, against [ReferenceRoute]. */
+/** Compares all routes with [ReferenceRoute]: random programs on random, changing graphs, with failing rounds. */
 class RoutesTest {
     @Test
     fun `every route returns, keeps and sends what the reference does`() {
@@ -33,13 +33,13 @@ class RoutesTest {
                             nextId++
                         }
                         if (random.nextInt(10) == 0) {
-                            val gone = graph.ids.random(random)
-                            graph.remove(gone)
-                            all.forEach { it.remove(gone) }
-                            // Sometimes another one comes back under its id.
+                            val removed = graph.ids.random(random)
+                            graph.remove(removed)
+                            all.forEach { it.remove(removed) }
+                            // Sometimes a new device gets the id of the removed one.
                             if (random.nextBoolean()) {
-                                graph.add(gone)
-                                all.forEach { it.add(gone) }
+                                graph.add(removed)
+                                all.forEach { it.add(removed) }
                             }
                         }
                         for (from in graph.ids) {
