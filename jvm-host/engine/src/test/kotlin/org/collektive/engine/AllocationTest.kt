@@ -8,7 +8,7 @@ import java.lang.management.ManagementFactory
 import java.util.concurrent.TimeUnit
 import kotlin.test.assertTrue
 
-/** The engine itself allocates nothing per tick once it is warm; a control that does shows that the measure works. */
+/** The warm engine allocates nothing per tick. A control that allocates shows that the measurement works. */
 class AllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
     private val answer = Any()
@@ -40,7 +40,7 @@ class AllocationTest {
         }
     }
 
-    /** Bytes that the engine's thread and those of its pool allocate; the least of several runs, since code that is not compiled yet allocates more. */
+    /** Bytes per tick that the calling thread and the pool allocate. The least of several runs: code that is not yet compiled allocates more. */
     private fun bytesPerTick(schedule: Schedule, network: NetworkModel, allocates: Boolean): Long {
         Engine(EngineSettings(1, 2, schedule, network), AggregateRuntimes()).use { engine ->
             val tick = Tick()

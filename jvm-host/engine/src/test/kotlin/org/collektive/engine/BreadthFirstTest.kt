@@ -6,12 +6,12 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** The order in which rounds run on one thread, as the programs see it. */
+/** The order in which rounds run on one thread, recorded by the programs. */
 class BreadthFirstTest {
     private val ran = ArrayList<Int>()
     private val recorder = program { device -> ran += device.id }
 
-    /** The ids whose rounds ran in this tick. */
+    /** The ids of the rounds of this tick, in the order in which they ran. */
     private fun TestEngine.ranIn(fill: Tick.() -> Unit): List<Int> {
         ran.clear()
         step(fill = fill)
@@ -19,7 +19,7 @@ class BreadthFirstTest {
     }
 
     @Test
-    fun `neighbours run one soon after the other, whatever their ids`() = TestEngine(recorder).use { engine ->
+    fun `neighbours run close together, whatever their ids`() = TestEngine(recorder).use { engine ->
         val line = (0 until LENGTH).shuffled(Random(1))
         val order = with(engine) {
             ranIn {
@@ -32,12 +32,12 @@ class BreadthFirstTest {
             }
         }
         assertEquals(line.toSet(), order.toSet())
-        // Both ways from where it starts, by turns.
+        // In both directions from the start, alternating.
         for ((a, b) in line.zipWithNext()) assertTrue(abs(order.indexOf(a) - order.indexOf(b)) <= 2, "$a and $b are neighbours")
     }
 
     @Test
-    fun `each due node runs once, whoever comes and goes`() = TestEngine(recorder).use { engine ->
+    fun `each due node runs once while nodes come and go`() = TestEngine(recorder).use { engine ->
         val random = Random(7)
         val there = sortedSetOf<Int>()
         val links = HashSet<Pair<Int, Int>>()

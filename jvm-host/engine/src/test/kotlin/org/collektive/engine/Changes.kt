@@ -5,10 +5,10 @@ import kotlin.random.Random
 /** A directed link. */
 internal data class Line(val from: Int, val to: Int)
 
-/** What a link has beside its ends. */
+/** The values of a link. */
 internal class Values(val length: Float, val attenuation: Float)
 
-/** What changes in one tick, and who is due. */
+/** The changes and the due nodes of one tick. */
 internal class Changes(
     val removed: List<Int>,
     val added: List<Int>,
@@ -18,7 +18,7 @@ internal class Changes(
     val globals: Int?,
 ) {
     companion object {
-        /** A random but valid sequence of [count] ticks, in which nodes and links come and go, some of them at once again. */
+        /** A random valid sequence of [count] ticks that adds and removes nodes and links, some of them again in the same tick. */
         fun random(seed: Int, count: Int): List<Changes> {
             val random = Random(seed)
             val nodes = sortedSetOf<Int>()
@@ -41,7 +41,7 @@ internal class Changes(
     }
 }
 
-/** One tick with [changes], which arrive in their own order or in a random one. */
+/** A tick with [changes], in their order or in a random one. */
 internal fun TestEngine.step(changes: Changes, order: Random? = null): TickResult = step {
     fun <T> List<T>.arriving() = if (order == null) this else shuffled(order)
     changes.removed.arriving().forEach(nodesRemoved::add)

@@ -15,7 +15,7 @@ class EngineTest {
     private val seen = program { neighboring(localId).neighbors.values.list }
 
     @Test
-    fun `in lockstep all read what was sent before the tick`() = TestEngine(seen).use { test ->
+    fun `in lockstep all rounds read the messages of earlier ticks`() = TestEngine(seen).use { test ->
         with(test) {
             step {
                 add(1, 2, 3)
@@ -31,7 +31,7 @@ class EngineTest {
     }
 
     @Test
-    fun `in sequence each sees what earlier ones sent in the same tick`() = TestEngine(seen, schedule = Schedule.SEQUENTIAL).use { test ->
+    fun `in sequence each round reads what earlier ones sent in the same tick`() = TestEngine(seen, schedule = Schedule.SEQUENTIAL).use { test ->
         with(test) {
             val first = step {
                 add(3, 1, 2)
@@ -44,7 +44,7 @@ class EngineTest {
     }
 
     @Test
-    fun `nodes that are not due keep what they sent`() = TestEngine(program { device ->
+    fun `neighbours still read the last messages of nodes that are not due`() = TestEngine(program { device ->
         neighboring(device.time).neighbors.toMap()
     }).use { test ->
         with(test) {
@@ -81,7 +81,7 @@ class EngineTest {
     }
 
     @Test
-    fun `programs know time, and global data once it was sent`() = TestEngine(program { "${it.time} ${it.deltaTime} ${it.globals}" }).use { test ->
+    fun `programs read the time, and global data once it was sent`() = TestEngine(program { "${it.time} ${it.deltaTime} ${it.globals}" }).use { test ->
         with(test) {
             assertEquals<Any?>("0.5 0.5 null", step { add(1); due(1) }.answer(0))
             assertEquals<Any?>("1.0 0.5 wind", step { globals = "wind"; due(1) }.answer(0))
@@ -104,7 +104,7 @@ class EngineTest {
     }
 
     @Test
-    fun `a round that throws costs its node this round only`() {
+    fun `a round that throws fails alone`() {
         val failures = listOf<() -> Any?>(
             { error("broken") },
             { throw StackOverflowError() },
@@ -147,7 +147,7 @@ class EngineTest {
     }
 
     @Test
-    fun `an exception whose own text fails is still reported`() = TestEngine(program { throw object : RuntimeException() {
+    fun `an exception whose message throws is still reported`() = TestEngine(program { throw object : RuntimeException() {
         override fun toString(): String = error("no text")
     } }).use { test ->
         with(test) {
@@ -157,7 +157,7 @@ class EngineTest {
     }
 
     @Test
-    fun `a round that never ends is told, and abandons the engine`() {
+    fun `a round that never ends is reported, and the engine can only be closed`() {
         val endless = program("endless") { device -> if (device.id == 2) spin() else 0 }
         val test = TestEngine(endless, threads = 2)
         with(test) {
@@ -197,7 +197,7 @@ class EngineTest {
     }
 
     @Test
-    fun `a failure is told with its path, that of an endless recursion shortened`() {
+    fun `a failure names its path, shortened for endless recursion`() {
         fun Aggregate<Int>.deeper(): Int = alignedOn("deeper") { deeper() } + 1
         val program = program {
             when (localId) {

@@ -18,7 +18,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Devices on the public API of Collektive give what the project's own runtime gives. */
+/** Devices on Collektive's public API compute the same results as the project's own runtime. */
 class MailboxRuntimesTest {
     @TestFactory
     fun `random programs give the same answers for hundreds of ticks with nodes and links that come and go`(): List<DynamicTest> =
@@ -35,12 +35,12 @@ class MailboxRuntimesTest {
     private fun run(seed: Int, schedule: Schedule, runtimes: DeviceRuntimes): List<Map<Int, Any?>> {
         val piece = Pieces(Random(seed)).piece(4)
         return TestEngine(program { piece() }, 2, schedule, runtimes = runtimes).use { test ->
-            // The two tell where an error was in words of their own.
-            Changes.random(seed, 300).map { tick -> test.step(tick).toMap().mapValues { (_, told) -> if (told is String) "failed" else told } }
+            // The two describe the place of an error differently.
+            Changes.random(seed, 300).map { tick -> test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) "failed" else answer } }
         }
     }
 
-    /** Programs at random, of all primitives. */
+    /** Random programs of all primitives. */
     private class Pieces(private val random: Random) {
         private var places = 0
 
@@ -64,7 +64,7 @@ class MailboxRuntimesTest {
     }
 
     @Test
-    fun `what must not leave a round is refused by this way too`() {
+    fun `values that must not outlive a round are refused here too`() {
         val rule = SharingRule { if (it is StringBuilder) "a builder changes" else null }
         val view = StringBuilder()
         val program = program {

@@ -13,11 +13,11 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
 
-/** Random runs with nodes and links coming and going, against a model made of maps, for any number of threads and any network. */
+/** Compares random runs, in which nodes and links come and go, with a model of maps, for several thread counts and networks. */
 class ModelTest {
     private val networks = mapOf(
         "ideal" to NetworkModel(),
-        "all but ideal" to NetworkModel(retention = 1e9),
+        "almost ideal" to NetworkModel(retention = 1e9),
         "lossy" to NetworkModel(loss = 0.3, lossPerMetre = 0.02, lossPerAttenuation = 0.1),
         "slow" to NetworkModel(delay = 0.7, jitter = 2.0),
         "forgetful" to NetworkModel(jitter = 0.4, retention = 0.8),
@@ -25,7 +25,7 @@ class ModelTest {
     )
 
     @TestFactory
-    fun `the engine does what the model does`(): List<DynamicTest> = Schedule.entries.flatMap { schedule ->
+    fun `engine and model agree`(): List<DynamicTest> = Schedule.entries.flatMap { schedule ->
         networks.flatMap { (name, network) ->
             (1..4).map { seed ->
                 DynamicTest.dynamicTest("$schedule, $name, seed $seed") {
@@ -49,19 +49,19 @@ class ModelTest {
 
     @Test
     fun `schedules and networks differ`() {
-        val runs = networks.filterKeys { it != "all but ideal" }.values.map { run(1, 2, Schedule.LOCKSTEP, it) } +
+        val runs = networks.filterKeys { it != "almost ideal" }.values.map { run(1, 2, Schedule.LOCKSTEP, it) } +
             listOf(run(1, 2, Schedule.SEQUENTIAL, NetworkModel()))
         for (a in runs.indices) for (b in 0 until a) assertNotEquals(runs[a], runs[b], "$a and $b")
     }
 
     @Test
-    fun `a network with nothing in its way is an ideal one`() {
+    fun `a network model without loss and delay equals the ideal network`() {
         for (schedule in Schedule.entries) {
-            assertEquals(run(2, 2, schedule, NetworkModel()), run(2, 2, schedule, networks.getValue("all but ideal")))
+            assertEquals(run(2, 2, schedule, NetworkModel()), run(2, 2, schedule, networks.getValue("almost ideal")))
         }
     }
 
-    /** What is known of a tick: the answers, then sent, dropped, delayed and expired messages. */
+    /** The outcome of a tick: the answers, then the numbers of sent, dropped, delayed and expired messages. */
     private data class Outcome(val answers: Map<Int, Any?>, val counts: List<Long>)
 
     private fun run(
@@ -93,11 +93,11 @@ class ModelTest {
         }
     }
 
-    /** The same program and the same network, written as their meaning says. */
+    /** The same program and network, implemented directly from their specification. */
     private class Model(private val schedule: Schedule, private val network: NetworkModel) {
         private class Message(val tick: Int, val count: Long, val kept: Long, val toEach: Map<Int, Long>, val receivers: Set<Int>)
 
-        /** What a link ever brought, with the time of its arrival. */
+        /** All messages of a link, with the times of their arrival. */
         private class Link(var values: Values, val since: Int) {
             val arrivals = ArrayList<Pair<Message, Double>>()
             var newest: Message? = null
@@ -167,7 +167,7 @@ class ModelTest {
             link.arrivals += message to message.tick * 0.5 + delay
         }
 
-        /** The newest message that has arrived so far counts, until its time is over. */
+        /** The newest message that has arrived and has not expired. */
         private fun settle(link: Link) {
             val arrived = link.arrivals.filter { it.second <= now + 0.0005 }.maxByOrNull { it.first.tick } ?: return
             if (arrived.first !== link.newest) {
@@ -185,14 +185,14 @@ class ModelTest {
             val own = last[id]
             val count = (own?.count ?: 0) + 1
             val incoming = links.filterKeys { it.to == id }.toSortedMap(compareBy(Line::from))
-            val heard = incoming.mapNotNull { (line, link) -> link.current?.let { Triple(line.from, link, it.first) } }
+            val received = incoming.mapNotNull { (line, link) -> link.current?.let { Triple(line.from, link, it.first) } }
             val seen = LinkedHashMap<Int, Long>()
-            for ((sender, link, message) in heard) {
+            for ((sender, link, message) in received) {
                 val isKnown = id in message.receivers && link.since <= message.tick
                 seen[sender] = if (isKnown) message.toEach[id] ?: message.kept else message.kept
             }
             seen[id] = own?.kept ?: id.toLong()
-            val near = heard.filter { it.first % 3 == id % 3 }.associate { it.first to it.third.count }
+            val near = received.filter { it.first % 3 == id % 3 }.associate { it.first to it.third.count }
             if ((tick + id) % 7 == 0) return null to null
             val toEach = seen.mapValues { it.value * 31 + it.key }
             val receivers = links.keys.filter { it.from == id }.map { it.to }.toSet()

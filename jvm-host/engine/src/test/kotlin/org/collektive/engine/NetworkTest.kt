@@ -11,14 +11,14 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
-/** What receivers see of what senders sent; ticks are half a second apart. */
+/** Which messages receivers read; ticks are half a second apart. */
 class NetworkTest {
-    /** Each node tells its time; the answer is what the neighbours told. */
-    private val heard = program { device -> neighboring(device.time).neighbors.toMap() }
+    /** Each node sends its time; its answer is what it received from its neighbours. */
+    private val received = program { device -> neighboring(device.time).neighbors.toMap() }
 
-    /** What 2 hears of 1 in each of [ticks] ticks, while 1 sends in those of [sending]. */
-    private fun heardOf1(network: NetworkModel, ticks: Int, sending: IntRange = 1..ticks, schedule: Schedule = Schedule.LOCKSTEP): List<Double?> =
-        TestEngine(heard, schedule = schedule, network = network).use { test ->
+    /** What node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
+    private fun receivedFrom1(network: NetworkModel, ticks: Int, sending: IntRange = 1..ticks, schedule: Schedule = Schedule.LOCKSTEP): List<Double?> =
+        TestEngine(received, schedule = schedule, network = network).use { test ->
             with(test) {
                 (1..ticks).map { number ->
                     val result = step {
@@ -36,48 +36,48 @@ class NetworkTest {
         }
 
     @Test
-    fun `without delay a message is there at the next tick, in sequence in the same`() {
-        // Retention keeps the network from being ideal; ideal or not, the same is heard.
+    fun `without delay a message arrives at the next tick, in sequence at the same one`() {
+        // A retention makes the network non-ideal; the messages are the same.
         for (network in listOf(NetworkModel(), NetworkModel(retention = 1e9))) {
-            assertEquals(listOf(null, 0.5, 1.0, 1.5), heardOf1(network, 4))
-            assertEquals<List<Double?>>(listOf(0.5, 1.0, 1.5), heardOf1(network, 3, schedule = Schedule.SEQUENTIAL))
+            assertEquals(listOf(null, 0.5, 1.0, 1.5), receivedFrom1(network, 4))
+            assertEquals<List<Double?>>(listOf(0.5, 1.0, 1.5), receivedFrom1(network, 3, schedule = Schedule.SEQUENTIAL))
         }
     }
 
     @Test
-    fun `a delay is counted from the tick of the sending`() {
-        assertEquals(listOf(null, 0.5, 1.0), heardOf1(NetworkModel(delay = 0.5), 3), "one tick is what lockstep takes anyway")
-        assertEquals(listOf(null, null, 0.5, 1.0), heardOf1(NetworkModel(delay = 0.6), 4))
-        assertEquals(listOf(null, null, null, 0.5), heardOf1(NetworkModel(delay = 1.5), 4))
-        assertEquals(listOf(null, 0.5), heardOf1(NetworkModel(delay = 0.5), 2, schedule = Schedule.SEQUENTIAL))
+    fun `a delay starts at the tick of sending`() {
+        assertEquals(listOf(null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.5), 3), "one tick is what lockstep takes anyway")
+        assertEquals(listOf(null, null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.6), 4))
+        assertEquals(listOf(null, null, null, 0.5), receivedFrom1(NetworkModel(delay = 1.5), 4))
+        assertEquals(listOf(null, 0.5), receivedFrom1(NetworkModel(delay = 0.5), 2, schedule = Schedule.SEQUENTIAL))
     }
 
     @Test
     fun `a message is valid for the retention after its arrival`() {
         val network = NetworkModel(retention = 1.0)
-        assertEquals(listOf(null, 0.5, 0.5, null, null), heardOf1(network, 5, sending = 1..1))
+        assertEquals(listOf(null, 0.5, 0.5, null, null), receivedFrom1(network, 5, sending = 1..1))
         val late = NetworkModel(retention = 1.0, delay = 1.0)
-        assertEquals(listOf(null, null, 0.5, 0.5, 0.5, null), heardOf1(late, 6, sending = 1..1))
+        assertEquals(listOf(null, null, 0.5, 0.5, 0.5, null), receivedFrom1(late, 6, sending = 1..1))
     }
 
     @Test
-    fun `what arrives after a later message is of no use`() {
-        val seen = heardOf1(NetworkModel(jitter = 3.0), 200).filterNotNull()
+    fun `a message that arrives after a more recent one is ignored`() {
+        val seen = receivedFrom1(NetworkModel(jitter = 3.0), 200).filterNotNull()
         assertEquals(seen.sorted(), seen)
         assertTrue(seen.toSet().size < 150, "some are overtaken")
         assertTrue(seen.toSet().size > 50, "many are not")
     }
 
     @Test
-    fun `everything is lost at a loss of one`() = assertEquals(List(5) { null }, heardOf1(NetworkModel(loss = 1.0), 5))
+    fun `a loss of one drops every message`() = assertEquals(List(5) { null }, receivedFrom1(NetworkModel(loss = 1.0), 5))
 
     @Test
-    fun `a lost message leaves the one before`() {
-        val seen = heardOf1(NetworkModel(loss = 0.5), 100).drop(20)
+    fun `a lost message leaves the previous one readable`() {
+        val seen = receivedFrom1(NetworkModel(loss = 0.5), 100).drop(20)
         assertTrue(null !in seen && seen.toSet().size in 20..60, "$seen")
     }
 
-    private fun lossOf(network: NetworkModel, length: Float, attenuation: Float) = TestEngine(heard, network = network).use { test ->
+    private fun lossOf(network: NetworkModel, length: Float, attenuation: Float) = TestEngine(received, network = network).use { test ->
         with(test) {
             val ids = IntArray(100) { it }
             var sent = 0L
@@ -102,14 +102,14 @@ class NetworkTest {
     fun `loss grows with the link's length and attenuation`() {
         val network = NetworkModel(loss = 0.1, lossPerMetre = 0.02, lossPerAttenuation = 0.05)
         for ((length, attenuation, expected) in listOf(Triple(0f, 0f, 0.1), Triple(10f, 0f, 0.3), Triple(0f, 4f, 0.3), Triple(10f, 8f, 0.7), Triple(99f, 0f, 1.0))) {
-            // Four standard deviations of a share of 10,500.
+            // Four standard deviations of a proportion of 10,500.
             assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "$length m, $attenuation")
         }
     }
 
     @Test
     fun `every message is counted once`() {
-        TestEngine(heard, network = NetworkModel(delay = 0.6, retention = 0.7)).use { test ->
+        TestEngine(received, network = NetworkModel(delay = 0.6, retention = 0.7)).use { test ->
             with(test) {
                 fun counts(fill: Tick.() -> Unit) = step(fill = fill).network.run { listOf(sent, dropped, delayed, expired) }
                 assertEquals(listOf(2L, 0, 2, 0), counts { add(1, 2, 3); link(1, 2); link(1, 3); due(1) }, "one round, two links; time 0.5")
@@ -118,7 +118,7 @@ class NetworkTest {
                 assertEquals(listOf(0L, 0, 0, 2), counts { }, "valid until 1.8, and it is 2.0")
             }
         }
-        TestEngine(heard, network = NetworkModel(loss = 1.0)).use { test ->
+        TestEngine(received, network = NetworkModel(loss = 1.0)).use { test ->
             with(test) {
                 val counts = step { add(1, 2); link(1, 2); due(1) }.network
                 assertEquals(listOf(1L, 1L, 0L, 0L), counts.run { listOf(sent, dropped, delayed, expired) })
@@ -127,7 +127,7 @@ class NetworkTest {
     }
 
     @Test
-    fun `an ideal network counts what was sent, failed rounds not`() {
+    fun `an ideal network counts the messages of successful rounds`() {
         TestEngine(program { device -> if (device.id == 3) error("broken") else device.id }).use { test ->
             with(test) {
                 val first = step { add(1, 2, 3); link(1, 2); link(2, 1); link(3, 1); due(1, 2, 3) }
@@ -139,9 +139,9 @@ class NetworkTest {
     }
 
     @Test
-    fun `a link that is made brings what its sender sent last, by its own loss`() {
+    fun `a new link takes its sender's last message, subject to its own loss`() {
         val network = NetworkModel(lossPerMetre = 0.01, retention = 10.0)
-        TestEngine(heard, network = network).use { test ->
+        TestEngine(received, network = network).use { test ->
             with(test) {
                 step { add(1, 2, 3); due(1) }
                 val result = step { link(1, 2, 0f); link(1, 3, 100f); due(2, 3) }
@@ -152,7 +152,7 @@ class NetworkTest {
     }
 
     @Test
-    fun `a value for one receiver reaches it late, but never who came after the sending`() {
+    fun `a value for one receiver may arrive late, but never goes to a later neighbour`() {
         val program = program { exchanging("to all") { seen -> seen.map { "to ${it.id}" }.yielding { seen.neighbors.toMap() } } }
         TestEngine(program, network = NetworkModel(delay = 1.0)).use { test ->
             with(test) {
@@ -168,7 +168,7 @@ class NetworkTest {
     }
 
     @Test
-    fun `nothing on its way survives its link or its nodes`() {
+    fun `no message in flight survives its link or its nodes`() {
         val network = NetworkModel(delay = 1.0)
         val ways = listOf<TestEngine.(Tick) -> Unit>(
             { it.unlink(1, 2) },
@@ -177,12 +177,12 @@ class NetworkTest {
             { it.nodesRemoved.add(2); it.add(2); it.link(1, 2) },
         )
         val expected = listOf(emptyMap(), mapOf(1 to 0.5), emptyMap(), mapOf(1 to 0.5))
-        for ((way, heard) in ways.zip(expected)) {
-            TestEngine(this.heard, network = network).use { test ->
+        for ((way, received) in ways.zip(expected)) {
+            TestEngine(this.received, network = network).use { test ->
                 with(test) {
                     step { add(1, 2); link(1, 2); due(1) }
                     step { way(this) }
-                    assertEquals<Map<Int, Any?>>(mapOf(2 to heard), step { due(2) }.toMap())
+                    assertEquals<Map<Int, Any?>>(mapOf(2 to received), step { due(2) }.toMap())
                 }
             }
         }

@@ -15,7 +15,7 @@ class PhiloxTest {
     }
 
     @Test
-    fun `blocks are those of the published vectors`() {
+    fun `blocks match the published test vectors`() {
         assertEquals("6627e8d5 e169c58d bc57ac4c 9b00dbd8", block("0 0 0 0", "0 0"))
         assertEquals(
             "408f276d 41c83b0e a20bc7c6 6d5451fd",

@@ -7,7 +7,7 @@ import org.junit.jupiter.api.TestFactory
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** Each bad tick is refused with a message that names the tick, the id and the value, and leaves no trace. */
+/** A bad tick is refused with a message that names the tick, the id and the value, and has no effect. */
 class RefusedTicksTest {
     private class Case(val message: String, val fill: TestEngine.(Tick) -> Unit)
 
@@ -70,7 +70,7 @@ class RefusedTicksTest {
         }
     }
 
-    /** Four ticks; before the third one comes the bad one, wrapped in changes that must not happen. */
+    /** Runs four ticks, and before the third the bad one, together with changes that must not be applied. */
     private fun run(bad: Case?): List<Any?> {
         val program = program { device -> evolveAll(device.time) to device.time }
         return TestEngine(program).use { test ->

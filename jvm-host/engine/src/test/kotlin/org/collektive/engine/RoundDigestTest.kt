@@ -9,7 +9,7 @@ import kotlin.test.assertEquals
 
 class RoundDigestTest {
     @Test
-    fun `the chain is that of the documentation`() {
+    fun `the chain is the documented one`() {
         val random = Random(1)
         val buffer = ByteBuffer.allocateDirect(100_000).order(ByteOrder.LITTLE_ENDIAN)
         for (at in 0 until buffer.capacity()) buffer.put(at, random.nextInt().toByte())
@@ -38,7 +38,7 @@ class RoundDigestTest {
     }
 
     @Test
-    fun `answers side by side count like one after the other`() {
+    fun `adding several answers at once equals adding them one by one`() {
         val random = Random(2)
         val length = 12
         val entryBytes = RoundDigest.HEADER_BYTES + length

@@ -7,7 +7,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
 import java.util.concurrent.TimeUnit
 
-/** A program from a lambda. */
+/** Makes a program from a lambda. */
 internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any?): NodeProgram = object : NodeProgram {
     override val name = name
 
@@ -17,7 +17,7 @@ internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any
     override fun describe(failure: Throwable, place: String?): String = "$failure [$place]"
 }
 
-/** An engine with the real runtime, ticked one by one. */
+/** An engine with the real runtime, driven tick by tick. */
 internal class TestEngine(
     private val program: NodeProgram,
     threads: Int = 1,
@@ -35,7 +35,7 @@ internal class TestEngine(
     var tick = 0L
         private set
 
-    /** The next tick; a refused one does not count. */
+    /** Runs the next tick. A refused one does not advance the number. */
     fun step(limitMillis: Long = 10_000, fill: Tick.() -> Unit): TickResult {
         val request = Tick()
         request.number = tick + 1
