@@ -5,7 +5,7 @@ import java.util.Random
 import kotlin.test.Test
 import kotlin.test.assertTrue
 
-/** Whatever bytes arrive: a frame that passes the check can be read to its end, and one that does not gives one kind of error. */
+/** Any frame is either readable to its end or rejected with a [MalformedFrameException]. */
 internal class DamagedFrameTest {
     private val random = Random(42)
 
@@ -19,7 +19,7 @@ internal class DamagedFrameTest {
     }
 
     @Test
-    fun `frames with rare numbers in them`() = attack { bytes ->
+    fun `frames with extreme numbers`() = attack { bytes ->
         repeat(1 + random.nextInt(3)) {
             val number = listOf(0, 1, -1, 4, 5, 0x7F, 0x7FFF, 0x8000, 0xFFFF, Int.MAX_VALUE, Int.MIN_VALUE, bytes.size)[random.nextInt(12)]
             val at = random.nextInt(bytes.size - 3)
@@ -29,10 +29,10 @@ internal class DamagedFrameTest {
     }
 
     @Test
-    fun `frames cut short`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
+    fun `truncated frames`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
 
     @Test
-    fun `frames of noise`() = attack { bytes -> bytes.also(random::nextBytes) }
+    fun `frames of random bytes`() = attack { bytes -> bytes.also(random::nextBytes) }
 
     private fun attack(damage: (ByteArray) -> ByteArray) {
         var passed = 0

@@ -9,7 +9,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** Tables that share a vtable are each checked by themselves. */
+/** Each of several tables that share a vtable is checked. */
 internal class ElementReaderTest {
     private val layout = TableLayout().inline("number", 4, 8, false).string("name", 6, false)
     private val frame = frame(3)
@@ -18,26 +18,26 @@ internal class ElementReaderTest {
     fun `tables that share a vtable pass`() = assertEquals(3, checked().size)
 
     @Test
-    fun `the string of the last one leads outside`() {
+    fun `the string of the last table lies outside the frame`() {
         frame.putInt(field(2, NAME), 1 shl 20)
         assertEquals("data[2].name lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `the string of the last one leads nowhere`() {
+    fun `the string of the last table has a damaged offset`() {
         frame.putInt(field(2, NAME), 0)
         assertEquals("data[2].name has a damaged offset", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `the last one has a vtable of its own, which is damaged`() {
+    fun `the last table has another vtable, which is damaged`() {
         frame.putInt(table(2), 1 shl 20)
         assertEquals("data[2] lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `a number of the last one lies beyond the end of the frame`() {
-        // The table's own start is the last thing in the frame, and its vtable says that eight bytes more follow.
+    fun `a number of the last table lies beyond the end of the frame`() {
+        // The frame ends with the start of the table, but its vtable claims eight more bytes.
         val end = frame.limit() - Int.SIZE_BYTES
         val vtable = table(1) - frame.getInt(table(1))
         frame.putInt(end, end - vtable)
@@ -50,7 +50,7 @@ internal class ElementReaderTest {
         val reader = ElementReader(layout) { position, _ -> position }
         reader.attach(frame, frame.getInt(0))
         reader.check()
-        // The same places, and a vtable that is none.
+        // The same positions, with a damaged vtable.
         frame.putShort(table(0) - frame.getInt(table(0)), 3)
         assertFailsWith<MalformedFrameException> { reader.check() }
     }

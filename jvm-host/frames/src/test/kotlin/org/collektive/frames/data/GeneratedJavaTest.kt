@@ -17,7 +17,7 @@ internal class GeneratedJavaTest {
     private val random = Random(7)
 
     @Test
-    fun `readers give what was written, for structs and for tables`() {
+    fun `readers return what was written, for structs and for tables`() {
         repeat(200) {
             read(GeneratedSchemas.features, SensorFrames.sensors(GeneratedSchemas.features, random.nextInt(5), random))
             read(GeneratedSchemas.blocks, SensorFrames.sensors(GeneratedSchemas.blocks, random.nextInt(5), random, BLOCK_BYTES))
@@ -32,7 +32,7 @@ internal class GeneratedJavaTest {
     }
 
     @Test
-    fun `a reader gives one view for all elements and refuses others`() {
+    fun `a reader returns one view for all elements and rejects other indices`() {
         val frame = SensorFrames.sensors(GeneratedSchemas.features, 2, random)
         val reader = GeneratedSchemas.features.sensorReader()
         reader.attach(frame.buffer(), frame.position)
@@ -63,7 +63,7 @@ internal class GeneratedJavaTest {
     }
 
     @Test
-    fun `packed structs are written like those that come as objects`() {
+    fun `packed structs are written like structs from objects`() {
         val results = Array<Any?>(5) { Objects.random(GeneratedSchemas.blocks.actuatorType, random) }
         val writer = GeneratedSchemas.blocks.actuatorWriter()
         val packed = ByteBuffer.allocate(results.size * writer.structBytes).order(ByteOrder.LITTLE_ENDIAN)
@@ -103,7 +103,7 @@ internal class GeneratedJavaTest {
         copyOfRange(size - ranges[2 * i], size - ranges[2 * i] + ranges[2 * i + 1])
 
     @Test
-    fun `results that cannot be written say what is wrong with them`() {
+    fun `a result that cannot be written has a fault that names the reason`() {
         val blocks = GeneratedSchemas.blocks.actuatorWriter()
         assertEquals("the result is null", blocks.findFault(null))
         assertEquals("the result is a java.lang.String, not a test.blocks.ActuatorDataT", blocks.findFault("x"))
@@ -125,7 +125,7 @@ internal class GeneratedJavaTest {
     }
 
     @Test
-    fun `a result that holds itself is refused, and the deepest allowed one is written`() {
+    fun `a result that contains itself is refused, and the deepest allowed one is written`() {
         val type = GeneratedSchemas.features.actuatorType.classLoader.loadClass("test.features.TreeT")
         val round = type.getConstructor().newInstance()
         round.set("Left", round)
@@ -147,7 +147,7 @@ internal class GeneratedJavaTest {
         java.lang.reflect.Array.newInstance(type, 1).also { java.lang.reflect.Array.set(it, 0, item) }
 
     @Test
-    fun `a frame outside of the buffer's position and limit is malformed`() {
+    fun `a frame outside the buffer's position and limit is malformed`() {
         val frame = SensorFrames.sensors(GeneratedSchemas.blocks, 3, random, BLOCK_BYTES)
         val reader = GeneratedSchemas.blocks.sensorReader()
         assertFailsWith<MalformedFrameException> { reader.attach(frame.buffer().limit(frame.bytes.size - 1), frame.position) }

@@ -5,10 +5,10 @@ import java.lang.reflect.Method
 import java.util.Random
 import java.lang.reflect.Array as ReflectArray
 
-/** Random and printed objects of flatc's object classes, whatever the schema. */
+/** Makes and prints random objects of flatc's object classes of any schema. */
 internal object Objects {
     /**
-     * One text for the same data, whoever holds it; the C# tests print theirs the same way. Members by name in lower case,
+     * A canonical text of the data; the C# tests print the same. Members by name in lower case,
      * sorted; reals as their bits; integers as signed 64 bits; absent lists as empty.
      */
     fun dump(data: Any?): String = buildString { append(data, data?.javaClass) }
@@ -47,7 +47,7 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
 
-    /** An object of class [type] without a fault. */
+    /** A random object of class [type] without a fault. */
     fun random(type: Class<*>, random: Random, nesting: Int = 0): Any {
         val made = type.getConstructor().newInstance()
         for (setter in type.methods.filter { it.name.startsWith("set") && it.parameterCount == 1 }.sortedBy { it.name }) {
@@ -79,7 +79,7 @@ internal object Objects {
         return made
     }
 
-    /** Unsigned types are wider in Java, so only values that fit every type of that Java type are made. */
+    /** Unsigned types are wider in Java, so the values fit every schema type with that Java type. */
     private fun scalar(type: Class<*>, random: Random): Any = when (type) {
         Boolean::class.javaPrimitiveType -> random.nextBoolean()
         Byte::class.javaPrimitiveType -> random.nextInt(256).toByte()

@@ -5,13 +5,13 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.Random
 
-/** A frame as C# would send it. [position]: of its table. [objects]: what it holds. */
+/** A frame as C# sends it, with the [position] of its table and its content as [objects]. */
 internal class Frame(val bytes: ByteArray, val position: Int, val objects: List<Any>) {
     fun buffer(): ByteBuffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
 }
 
 internal object SensorFrames {
-    /** A table `Sensors` of random elements; structs are told from tables by [structBytes]. */
+    /** A table `Sensors` of random elements: structs of [structBytes] bytes, or tables if that is `null`. */
     fun sensors(schema: DataSchema, count: Int, random: Random, structBytes: Int? = null, alignment: Int = 8): Frame {
         val type = schema.sensorType.classLoader.loadClass("${schema.sensorType.name}T")
         val objects = List(count) { Objects.random(type, random) }

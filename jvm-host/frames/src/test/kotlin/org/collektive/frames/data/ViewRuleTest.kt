@@ -28,13 +28,13 @@ class ViewRuleTest {
     private val view = Sensors()
 
     @Test
-    fun `a view is refused, and named`() {
+    fun `a view is refused by name`() {
         assertContains(ViewRule.refusal(view).orEmpty(), "a ${Sensors::class.java.name} is a view of this tick's memory")
         assertNotNull(ViewRule.refusal(ByteBuffer.allocate(1)))
     }
 
     @Test
-    fun `so is what holds one`() {
+    fun `a value that contains a view is refused`() {
         val holders = listOf(
             1 to view, view to 1, Triple(1, 2, view), listOf(1, view), arrayListOf<Any>(view), setOf(view), mapOf(1 to view), mapOf(view to 1), arrayOf(view),
             Reading(view), Named("now", view), Chain(Chain(null, view), null), Derived(view), Maybe.Some(view), sequenceOf(view),
@@ -47,7 +47,7 @@ class ViewRuleTest {
     }
 
     @Test
-    fun `all else may be shared`() {
+    fun `all other values may be shared`() {
         val ring = arrayOfNulls<Any>(1).also { it[0] = it }
         val values = listOf(
             null, 1, "text", 2.0, Unit, Thread.State.NEW, intArrayOf(1), 1 to 2, listOf(1, "a", null), emptyMap<Any, Any>(), Reading(null),

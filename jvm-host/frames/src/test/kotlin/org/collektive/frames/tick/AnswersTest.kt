@@ -23,7 +23,7 @@ import java.nio.ByteOrder
 import kotlin.random.Random
 import kotlin.test.assertEquals
 
-/** The way of answers that are structs: here 12 bytes, 4 of the node's id and 8 of the tick. */
+/** Answers that are structs of 12 bytes: 4 for the node's id and 8 for the tick. */
 class AnswersTest {
     private val failing = HashSet<Int>()
     private var now = 0L
@@ -45,7 +45,7 @@ class AnswersTest {
     }
 
     @Test
-    fun `whichever rounds fail, the others' answers stand side by side and in the digest`() {
+    fun `the answers of successful rounds are contiguous and in the digest, whichever rounds fail`() {
         val random = Random(7)
         val digest = RoundDigest()
         val expected = RoundDigest()
@@ -58,7 +58,7 @@ class AnswersTest {
                 val due = (0 until NODES).filter { random.nextInt(4) > 0 }
                 due.forEach(tick.due::add)
                 failing.clear()
-                // All, none, and all that lies between.
+                // All rounds, none, and every subset.
                 val percent = number.toInt() % 5 * 25
                 due.filterTo(failing) { random.nextInt(100) < percent }
                 answers.begin(tick.due)
