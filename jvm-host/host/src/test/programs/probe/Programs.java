@@ -11,11 +11,11 @@ import org.collektive.api.Device;
 import org.collektive.api.Program;
 import org.slf4j.LoggerFactory;
 
-/** Programs that do well, or as badly as their sensors say. */
+/** Programs that succeed, or fail in the way that their sensors select. */
 public final class Programs {
   private Programs() {}
 
-  /** Own value and those of the neighbours, the number of good rounds, a random number, the wind. */
+  /** The sum of this node's value and those of its neighbours, the number of successful rounds, a random number, the wind. */
   @Program(name = "sum")
   public static ActuatorDataT sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
     long sum = sensors.value();

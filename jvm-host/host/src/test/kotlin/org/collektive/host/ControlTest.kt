@@ -11,14 +11,14 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** What the JVM tells about itself. */
+/** Control frames report the state of the JVM. */
 @Timeout(60)
 class ControlTest {
     private val shim = TestShim()
     private val control = TestControl(shim)
 
     @Test
-    fun `flags are those in effect, unknown ones are left out`() {
+    fun `flags have their effective values, and unknown flags are omitted`() {
         val answer = control.ask(flags = listOf("MaxHeapSize", "UseNoSuchThing", "TieredCompilation"))
         assertEquals(listOf("MaxHeapSize", "TieredCompilation"), (0 until answer.flagsLength()).map { answer.flags(it).name() })
         assertTrue(answer.flags(0).value().toLong() in 1..ManagementFactory.getMemoryMXBean().heapMemoryUsage.max * 2)
@@ -26,7 +26,7 @@ class ControlTest {
     }
 
     @Test
-    fun `memory and classes are counted, after a collection if wished`() {
+    fun `memory and classes are counted, after a collection if requested`() {
         val before = control.ask().collections()
         val after = control.ask(collect = true)
         assertTrue(after.collections() > before)

@@ -7,7 +7,7 @@ import java.lang.management.ManagementFactory
 import java.nio.file.Files
 import kotlin.test.assertTrue
 
-/** The host's thread allocates nothing per tick once it is warm: frames are read, and answers written, in place. */
+/** The warm host's thread allocates nothing per tick: it reads frames and writes answers in place. */
 @Timeout(60)
 class HostAllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
@@ -40,7 +40,7 @@ class HostAllocationTest {
         val control = (1..3).minOf { ticks(500, true) }
         assertTrue(control >= 800, "the control allocates 816 B, but only $control were seen")
         val bytes = (1..3).minOf { ticks(500, false) }
-        // The test's own wrapping of the answer is all that is left.
+        // Only the test's own duplicate of the answer remains.
         assertTrue(bytes <= WRAPPER_BYTES, "$bytes B per tick")
         session.close()
     }
@@ -50,7 +50,7 @@ class HostAllocationTest {
     private fun java.nio.ByteBuffer.tickPosition(): Int = (0 until capacity() - 8).first { getLong(it) == 2L }
 
     private companion object {
-        /** `ByteBuffer.duplicate` in [TestSession]. */
+        /** Size of the `ByteBuffer.duplicate` in [TestSession]. */
         const val WRAPPER_BYTES = 128
     }
 }

@@ -12,7 +12,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** What programs print, log and throw in threads of their own reaches the shim, with its origin. */
+/** What programs print, log and throw in their own threads goes to the shim's log, with its origin. */
 internal class HostLogTest {
     private val shim = TestShim()
     private val log = HostLog(shim)
@@ -45,7 +45,7 @@ internal class HostLogTest {
     }
 
     @Test
-    fun `what a round prints or logs carries its node and program`() {
+    fun `lines that a round prints or logs begin with node and program`() {
         round("print", "log", "slf4j")
         println("outside")
         assertContains(logs(), LogLevel.INFO to "[node 4, program probe] hello")
@@ -56,7 +56,7 @@ internal class HostLogTest {
     }
 
     @Test
-    fun `a thread that a round made carries the round in which it was made`() {
+    fun `lines of a thread that a round started begin with that round`() {
         round("thread")
         assertTrue(logs().any { it.second.startsWith("[thread of-probe of node 4, program probe] from afar") }, "${logs()}")
     }

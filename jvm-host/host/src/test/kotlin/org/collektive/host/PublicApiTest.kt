@@ -27,7 +27,7 @@ import kotlin.metadata.visibility
 import kotlin.reflect.KClass
 import kotlin.test.fail
 
-/** What programs are compiled against changes only together with the dump beside its module, `jvm-host/MODULE/api/MODULE.api`. */
+/** The API for programs changes only together with its dump, `jvm-host/MODULE/api/MODULE.api`. */
 internal class PublicApiTest {
     @TempDir
     lateinit var folder: Path
@@ -52,7 +52,7 @@ internal class PublicApiTest {
         return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString() + reified(place)
     }
 
-    /** The functions that are put into their callers' code because of their reified types: no JVM API, and so in no dump, but Kotlin's. */
+    /** Inline functions with reified types: they are API of Kotlin but not of the JVM, so the dump omits them. */
     private fun reified(place: File): String {
         val loader = URLClassLoader(arrayOf(place.toURI().toURL()), javaClass.classLoader)
         val names = if (place.isFile) JarFile(place).use { jar -> jar.entries().toList().map { it.name } } else place.walk().map { it.relativeTo(place).path }.toList()
@@ -65,10 +65,10 @@ internal class PublicApiTest {
     }
 
     private companion object {
-        /** The modules that programs see, each with any class of its own. */
+        /** The modules that programs use, each with one of its classes. */
         val MODULES = mapOf("dsl" to Field::class, "runtime" to Collektive::class, "stdlib" to Maybe::class, "api" to Program::class, "frames" to Vector3::class)
 
-        /** What programs name, and what the compiler plugin makes them call. */
+        /** The packages that programs use, and those that the compiler plugin makes them call. */
         val NAMES = AbiFilters(
             setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet(),
         )

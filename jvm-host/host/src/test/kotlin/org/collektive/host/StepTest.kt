@@ -50,7 +50,7 @@ class StepTest {
     }
 
     @Test
-    fun `one seed and one input give one digest, whatever the threads`() {
+    fun `equal seeds and inputs give equal digests for any number of threads`() {
         val runs = listOf(1, 2, 8).map { digests(session(threads = it)) }
         assertEquals(runs[0], runs[1])
         assertEquals(runs[0], runs[2])
@@ -61,7 +61,7 @@ class StepTest {
     }
 
     @Test
-    fun `nor the order in which changes arrive, under any schedule and network`() {
+    fun `the order of changes does not affect the digest, under any schedule and network`() {
         val bad = listOf(0.2, 0.01, 0.0, 0.05, 0.2, 0.3)
         val digests = HashSet<List<Long>>()
         for (schedule in 0..2) {
@@ -74,7 +74,7 @@ class StepTest {
                 digests += expected
             }
         }
-        assertEquals(3, digests.size, "asynchronous is lockstep for those who are due, and under a delay nobody sees the same tick")
+        assertEquals(3, digests.size, "asynchronous equals lockstep for due nodes, and with a delay no message arrives in its own tick")
     }
 
     @Test
@@ -166,7 +166,7 @@ class StepTest {
     }
 
     @Test
-    fun `without memory for the answer the session fails, and says so`() {
+    fun `without memory for the answer the session fails with a message that says so`() {
         val session = session(program = "probe")
         session.ok(Step(1).apply { added = nodes(1); due = listOf(1) })
         shim.memoryLeft = 4096
@@ -190,7 +190,7 @@ class StepTest {
     }
 
     @Test
-    fun `bad requests are refused with what is wrong`() {
+    fun `a bad request is refused, and the message names the reason`() {
         val session = session()
         session.ok(Step(1).apply { added = nodes(1, 2); linked = listOf(1 to 2); due = listOf(1, 2) })
         val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
@@ -213,7 +213,7 @@ class StepTest {
     }
 
     @Test
-    fun `each node may have a program of its own`() {
+    fun `each node may have its own program`() {
         val session = session(program = "")
         assertEquals(HostError.PROGRAM.code.toLong(), session.step(Step(1).apply { added = nodes(1) }.bytes()))
         assertContains(shim.error, "node 1 names no program, and the session has none either")

@@ -9,7 +9,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.test.assertTrue
 
-/** A [Control] of its own, asked as C# does. */
+/** A separate [Control], called as C# calls it. */
 internal class TestControl(private val shim: TestShim) {
     private val control = Control(shim)
     private var answer = ByteBuffer.allocateDirect(64)
@@ -37,7 +37,7 @@ internal class TestControl(private val shim: TestShim) {
         return ControlResponse.getRootAsControlResponse(bytes)
     }
 
-    /** Does [recording] and waits until it is done. */
+    /** Requests the action [recording] and waits until it is done. */
     fun record(recording: Int, settings: String = "default", path: String = ""): ControlResponse {
         ask(recording = recording, settings = settings, path = path)
         val deadline = System.nanoTime() + LIMIT_NANOS

@@ -14,7 +14,7 @@ import kotlin.io.path.walk
 import kotlin.io.path.writeText
 import org.collektive.generator.main as generate
 
-/** Users' jars, generated and compiled as a user would, and on no class path of the tests. */
+/** Users' jars, generated and compiled as by a user. They are on no class path of the tests. */
 @OptIn(ExperimentalPathApi::class)
 internal object ProbeJars {
     private val root = Path.of(System.getProperty("collektive.root"))
@@ -23,10 +23,10 @@ internal object ProbeJars {
     }
     private val generated: Path by lazy { generate(work.resolve("generated"), "probe.fbs") }
 
-    /** Schema `probe.ProbeSchema` and the programs "sum" and "probe". */
+    /** A jar with the schema `probe.ProbeSchema` and the programs "sum" and "probe". */
     val programs: Path by lazy { jar("programs", generated, root.resolve("jvm-host/host/src/test/programs")) }
 
-    /** The same, and `other.OtherSchema` with [java] as `other/Programs.java`. */
+    /** [programs] with `other.OtherSchema` added, and [java] as `other/Programs.java`. */
     fun withOtherSchema(java: String): Path {
         val folder = createTempDirectory(work, "both")
         val both = generate(folder.resolve("generated"), "probe.fbs", "other.fbs")
@@ -35,7 +35,7 @@ internal object ProbeJars {
         return jar(folder.fileName.toString(), both, root.resolve("jvm-host/host/src/test/programs"))
     }
 
-    /** The same schema as [programs], and [java] as `probe/Bad.java`. */
+    /** The schema of [programs], with [java] as `probe/Bad.java`. */
     fun withClass(java: String): Path {
         val folder = createTempDirectory(work, "bad")
         folder.resolve("probe").createDirectories().resolve("Bad.java").writeText(java)

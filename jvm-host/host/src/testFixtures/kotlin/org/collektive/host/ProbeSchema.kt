@@ -10,12 +10,12 @@ import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.ServiceLoader
 
-/** What the tests must know of the probe's generated code, which is on no class path of theirs. */
+/** Access to the probe's generated code, which is on no class path of the tests. */
 internal object ProbeSchema {
-    /** Fingerprints as C# would send them. */
+    /** Fingerprints as C# sends them. */
     val types: Map<String, Long> by lazy { types("probe.ProbeSchema", ProbeJars.programs) }
 
-    /** The same for any schema of a jar. */
+    /** Fingerprints of any schema of a jar. */
     fun types(schema: String, jar: Path): Map<String, Long> {
         val loader = ProgramLoader(listOf(ProgramJar.open(JarBytes.read(jar.toString()))))
         return ServiceLoader.load(DataSchema::class.java, loader).single { it.name == schema }.types
@@ -45,6 +45,6 @@ internal object ProbeSchema {
         val text: String? get() = __offset(6).let { if (it == 0) null else __string(it + bb_pos) }
     }
 
-    /** Protected, and generated code knows its own only. */
+    /** The position in the frame, a protected field of [Table]. */
     private val POSITION = Table::class.java.getDeclaredField("bb_pos").apply { isAccessible = true }
 }

@@ -17,7 +17,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.concurrent.ConcurrentLinkedQueue
 
-/** The shim's part on a plain JVM: memory, error text, log. */
+/** The shim's functions on a plain JVM: memory, error message, log. */
 internal class TestShim : ShimCalls {
     val logs = ConcurrentLinkedQueue<Pair<LogLevel, String>>()
     var error = ""
@@ -38,7 +38,7 @@ internal class TestShim : ShimCalls {
     }
 }
 
-/** One tick's request, as C# would write it. */
+/** Builds a tick's request as C# writes it. */
 internal class Step(val tick: Long) {
     var time = tick * 0.05
     var deltaTime = 0.05
@@ -110,7 +110,7 @@ internal fun direct(builder: FlatBufferBuilder): ByteBuffer {
     return ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
 }
 
-/** A session of the real [Host], driven as the shim does. */
+/** A session of the real [Host], called as the shim calls it. */
 internal class TestSession(private val shim: TestShim, private val id: Long = next++, answerBytes: Int = 1024) {
     private var answer = ByteBuffer.allocateDirect(answerBytes)
 
@@ -144,7 +144,7 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
     fun step(request: ByteBuffer, limitMillis: Int = 10_000): Long =
         call(request) { Host.step(id, request, 0, request.capacity(), 1, answer, limitMillis) }
 
-    /** The answer of a step that must succeed. */
+    /** Runs a step that must succeed, and returns its answer. */
     fun ok(step: Step): StepResponse {
         val code = step(step.bytes())
         check(code >= 0) { "$code: ${shim.error}" }

@@ -48,7 +48,7 @@ internal class TickEvent : Event() {
     var bytesOut = 0L
 
     @Label("Wait")
-    @Description("Since the end of the tick before: sensors, actuators, physics and drawing outside of the JVM")
+    @Description("Time since the end of the previous tick: sensors, actuators, physics and rendering outside the JVM")
     @Timespan(Timespan.NANOSECONDS)
     @JvmField
     var wait = 0L
@@ -76,7 +76,7 @@ internal class NetworkStatsEvent : Event() {
     var tick = 0L
 
     @Label("Sent")
-    @Description("Messages put on links, one for each link")
+    @Description("Messages sent, one per link and export")
     @JvmField
     var sent = 0L
 
@@ -90,7 +90,7 @@ internal class NetworkStatsEvent : Event() {
     var delayed = 0L
 
     @Label("Expired")
-    @Description("Messages that links held and whose retention ended")
+    @Description("Received messages that expired")
     @JvmField
     var expired = 0L
 }

@@ -96,7 +96,7 @@ public class Session internal constructor(
     } catch (e: RoundsNotFinished) {
         shim.log(LogLevel.ERROR, "${e.message}; the threads:")
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
-        throw fail(e) { "${e.message}; the log shows what each thread was doing. Mend the program, then open a new session" }
+        throw fail(e) { "${e.message}; the log shows what each thread was doing. Fix the program, then open a new session" }
     } catch (e: Throwable) {
         throw fail(e) { "tick ${request.tick.number} failed inside the engine: $e" }
     }

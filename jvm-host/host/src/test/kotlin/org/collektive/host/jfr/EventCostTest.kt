@@ -7,11 +7,11 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import kotlin.test.assertTrue
 
-/** What our events cost while nothing records: next to nothing. */
+/** Our events cost almost nothing while there is no recording. */
 @Timeout(120)
 class EventCostTest {
     @Test
-    fun `asking whether a round is wanted is nothing beside a round`() {
+    fun `the check for a recording costs little compared with a round`() {
         val asking = (1..5).minOf { nanosPer(ASKS) { repeat(ASKS) { if (ProgramRounds.begin() != null) wanted++ } } }
         val session = TestSession(TestShim()).apply { open(program = "probe", threads = 1) }
         val nodes = (0 until NODES).toList()

@@ -23,7 +23,7 @@ import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
-/** Flight recordings, from the control that starts them to the events in their files. */
+/** Flight recordings, from the control frame that starts one to the events in its file. */
 @Timeout(120)
 class RecorderTest {
     @TempDir
@@ -37,7 +37,7 @@ class RecorderTest {
     }
 
     @Test
-    fun `a recording holds each tick, the sampled rounds, the errors and both ends of the session`() {
+    fun `a recording contains all ticks, the sampled rounds, the errors, and start and end of the session`() {
         val file = folder.resolve("new/swarm.jfr")
         assertEquals(RecordingState.On, start(file).recording())
         val session = TestSession(shim, answerBytes = 128)
@@ -81,7 +81,7 @@ class RecorderTest {
     }
 
     @Test
-    fun `a dump holds what there is so far, and the recording goes on`() {
+    fun `a dump contains the recording so far, and the recording continues`() {
         val dump = folder.resolve("dump.jfr")
         val file = folder.resolve("all.jfr")
         start(file)
@@ -98,17 +98,17 @@ class RecorderTest {
     }
 
     @Test
-    fun `an order that comes while another goes on is not forgotten`() {
+    fun `an action requested while another runs is done after it`() {
         val file = folder.resolve("short.jfr")
         control.ask(recording = RecordingAction.Start, path = file.toString())
         control.ask(recording = RecordingAction.Stop)
         val states = generateSequence { control.ask().recording().also { Thread.sleep(1) } }.takeWhile { it != RecordingState.Off }.toSet()
-        assertTrue(RecordingState.On !in states, "it was said to go on after the order to stop")
+        assertTrue(RecordingState.On !in states, "the state was ON after the request to stop")
         assertTrue(file.exists(), "no $file")
     }
 
     @Test
-    fun `the settings are default, profile, or those of a file, which may switch events off`() {
+    fun `settings are default, profile or a file, which may disable events`() {
         val settings = folder.resolve("few.jfc")
         settings.writeText(
             """<?xml version="1.0" encoding="UTF-8"?><configuration version="2.0">
@@ -125,7 +125,7 @@ class RecorderTest {
     }
 
     @Test
-    fun `what cannot be done says why, and the next action works`() {
+    fun `an action that fails reports the reason, and the next one works`() {
         assertContains(refused { control.record(RecordingAction.Stop).recordingError() }, "none runs")
         assertContains(refused { start(folder.resolve("a.jfr"), "fast").recordingError() }, "no settings 'fast'")
         assertContains(refused { start(folder.resolve("a.jfr"), "$folder/none.jfc").recordingError() }, "none.jfc")
