@@ -35,7 +35,7 @@ class RecordTest {
     @field:TempDir
     lateinit var folder: Path
 
-    /** A little swarm in which something happens in every tick; [change] makes it another one. */
+    /** A small swarm with changes in every tick; [change] alters it. */
     private fun record(name: String = "a", ticks: Int = TICKS, jar: Path = ProbeJars.programs, change: Step.() -> Unit = {}): Path {
         val file = folder.resolve("$name.clkrec")
         val session = TestSession(shim)
@@ -63,7 +63,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a replay gives the digests of the record`() {
+    fun `a replay computes the digests of the record`() {
         val result = run("replay", record())
         assertEquals(0, result.code, result.messages)
         assertContains(result.results, "$TICKS ticks replayed, every digest is that of the record")
@@ -72,7 +72,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a record needs no jar beside it`() {
+    fun `a record contains its jars`() {
         val jar = folder.resolve("moved.jar")
         Files.copy(ProbeJars.programs, jar)
         val file = record(jar = jar)
@@ -81,7 +81,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a changed program parts from the record at the first answer that differs`() {
+    fun `a changed program is reported at the first answer that differs`() {
         val file = record(jar = summing("sensors.value()"))
         assertEquals(0, run("replay", file, "--programs", summing("sensors.value() + 0")).code)
         val result = run("replay", file, "--programs", summing("sensors.value() + (sensors.value() == 403 ? 1 : 0)"))
@@ -92,7 +92,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a program that fails now and not then is a difference`() {
+    fun `a program that fails only in the replay is a difference`() {
         val result = run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
         assertEquals(1, result.code)
         assertContains(result.results, "tick 1 is the first that differs")
@@ -144,7 +144,7 @@ class RecordTest {
     }
 
     @Test
-    fun `steps that were refused or never ended are in the record, and are so again`() {
+    fun `refused steps and steps without end are recorded, and replay the same way`() {
         val file = folder.resolve("failed.clkrec")
         val session = TestSession(shim)
         check(session.open(program = "probe", record = file.toString()) >= 0)
@@ -164,7 +164,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a record that cannot be written is refused at once, and nothing is opened`() {
+    fun `a record that cannot be written refuses the session`() {
         for (path in listOf(folder.resolve("no/such/folder/x").toString(), folder.toString(), "/dev/full", "a\u0000b")) {
             val session = TestSession(shim)
             assertEquals(HostError.ARGUMENT.code.toLong(), session.open(record = path), path)
@@ -176,7 +176,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a record cut at any chunk is replayed up to there`() {
+    fun `a record truncated at any chunk is replayed up to that chunk`() {
         val whole = record(ticks = 4)
         val bytes = whole.readBytes()
         val chunks = chunks(bytes)
@@ -185,7 +185,7 @@ class RecordTest {
             if (index == 0) continue
             val ticks = maxOf(0, (index - firstStep) / 2)
             for (length in listOf(chunk.offset, chunk.offset + 5, chunk.offset + Chunk.HEADER_BYTES, chunk.offset + Chunk.HEADER_BYTES + chunk.payload.remaining() / 2)) {
-                // The last chunk has no payload: then this is the whole record.
+                // The last chunk has no payload, so this is the whole record.
                 if (length == bytes.size.toLong()) continue
                 val cut = folder.resolve("cut").also { it.writeBytes(bytes.copyOf(length.toInt())) }
                 val result = run("replay", cut)
@@ -197,13 +197,13 @@ class RecordTest {
     }
 
     @Test
-    fun `a flipped bit anywhere is found in the chunk where it is`() {
+    fun `a flipped bit is reported at its chunk`() {
         val bytes = record(ticks = 2).readBytes()
         val chunks = chunks(bytes)
         val flipped = folder.resolve("flipped")
         val random = Random(3)
         for (at in bytes.indices) {
-            // The jar is long, and one byte of it is like another.
+            // The jar is long; a few of its bytes are enough.
             val chunk = chunks.lastOrNull { it.offset <= at }
             if (chunk?.kind == Chunk.JAR && at > chunk.offset + 100 && at % 101 != 0) continue
             val damaged = bytes.copyOf().also { it[at] = (it[at].toInt() xor (1 shl random.nextInt(8))).toByte() }
@@ -214,7 +214,7 @@ class RecordTest {
     }
 
     @Test
-    fun `damage under a right checksum is no crash either`() {
+    fun `damage under a valid checksum is reported, too`() {
         val bytes = record(ticks = 3).readBytes()
         val chunks = chunks(bytes).filter { it.kind != Chunk.JAR && it.payload.hasRemaining() }
         val random = Random(4)
@@ -233,7 +233,7 @@ class RecordTest {
     }
 
     @Test
-    fun `chunks in an order that makes no sense are damage`() {
+    fun `chunks in a wrong order are damage`() {
         val bytes = record(ticks = 2).readBytes()
         val chunks = chunks(bytes)
         val step = chunks.first { it.kind == Chunk.STEP }
@@ -249,7 +249,7 @@ class RecordTest {
     }
 
     @Test
-    fun `what is no record, or of another version or schema, is refused with what differs`() {
+    fun `a file that is no record, or of another version or schema, is refused with the reason`() {
         val file = record()
         val bytes = file.readBytes()
         val other = folder.resolve("other")
@@ -274,7 +274,7 @@ class RecordTest {
         assertContains(refused("diff", file, changed), "different schemas")
     }
 
-    /** A jar whose program "sum" answers [expression]. */
+    /** A jar whose program "sum" returns [expression]. */
     private fun summing(expression: String): Path = ProbeJars.withClass(
         """
         package probe;
@@ -303,7 +303,7 @@ class RecordTest {
         }
     }
 
-    /** Makes the checksum of the chunk that lies where [chunk] lies right again. */
+    /** Corrects the checksum of the chunk at the position of [chunk]. */
     private fun seal(bytes: ByteArray, chunk: Chunk) {
         val crc = CRC32().apply {
             update(bytes, chunk.offset.toInt(), Chunk.CHECKSUM_AT)
