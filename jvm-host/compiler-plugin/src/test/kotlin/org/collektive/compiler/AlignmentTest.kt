@@ -8,13 +8,13 @@ import kotlin.test.assertFailsWith
 
 class AlignmentTest {
     @Test
-    fun `calls in a row have places of their own`() = assertPaths("row", "neighboring", "neighboring", "evolve")
+    fun `consecutive calls have different paths`() = assertPaths("row", "neighboring", "neighboring", "evolve")
 
     @Test
     fun `a path reads as the calls that lead to it`() = assertPaths("nested", "helper > share", "helper > share")
 
     @Test
-    fun `arguments run before the call that takes them`() = assertPaths("argument", "neighboring", "share", "helper > share")
+    fun `arguments are evaluated before their call`() = assertPaths("argument", "neighboring", "share", "helper > share")
 
     @Test
     fun `arguments run in the order they are written`() {
@@ -87,7 +87,7 @@ class AlignmentTest {
     fun `function objects of an interface`() = assertPaths("functionObjects", "work > evolve", "work > evolve")
 
     @Test
-    fun `objects that keep the Aggregate, and objects around, above and below them`() = assertPaths(
+    fun `objects that keep the Aggregate, their inner classes, superclasses and subclasses`() = assertPaths(
         "keeping", "near > neighboring", "both > near > neighboring", "both > near > neighboring", "go > near > neighboring",
         "inherited > neighboring", "viaMixin > neighboring", "all > neighboring",
     )
@@ -96,13 +96,13 @@ class AlignmentTest {
     fun `context parameters`() = assertPaths("contextual", "inContext > evolve", "inContext > evolve")
 
     @Test
-    fun `functions that are given only a field`() = assertPaths("onlyField", "neighboring", "spread > neighboring", "spread > neighboring")
+    fun `functions with only a field as argument`() = assertPaths("onlyField", "neighboring", "spread > neighboring", "spread > neighboring")
 
     @Test
     fun `functions of a field are aligned on each entry`() = assertPaths("insideMap", "neighboring", "map > 0 > evolve")
 
     @Test
-    fun `alignedOn tells iterations apart`() =
+    fun `alignedOn distinguishes iterations`() =
         assertPaths("loop", "alignedOn > 1 > evolve", "alignedOn > 2 > evolve", "forEach > alignedOn > 1 > evolve")
 
     @Test
@@ -115,7 +115,7 @@ class AlignmentTest {
     }
 
     @Test
-    fun `what cannot lead to a primitive is left alone`() {
+    fun `calls that cannot reach a primitive are not aligned`() {
         val network = ReferenceDevices(0)
         network.round(compiled.program("plain"))
         val device = network.devices.getValue(0) as ReferenceDevice
@@ -130,7 +130,7 @@ class AlignmentTest {
     fun `implementations of Aggregate are not programs`() = assertPaths("wrapped", "neighboring")
 
     @Test
-    fun `a package whose name only begins like Kotlin's is the user's`() {
+    fun `a package whose name only starts like Kotlin's belongs to the user`() {
         val compiled = Compilation.of(
             """
             @file:Suppress("unused") package kotlinswarm;
@@ -143,7 +143,7 @@ class AlignmentTest {
     }
 
     @Test
-    fun `CollektiveIgnore keeps the plugin away from functions, classes and properties`() {
+    fun `CollektiveIgnore excludes functions, classes and properties`() {
         for (name in listOf("ignored", "ignoredMember", "ignoredGetter")) {
             assertFailsWith<AlignmentClashException>(name) { trace(compiled.program(name)) }
         }

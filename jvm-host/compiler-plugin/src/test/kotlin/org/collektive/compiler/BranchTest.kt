@@ -21,7 +21,7 @@ class BranchTest {
     }
 
     @Test
-    fun `conditions are outside`() = assertSeen("condition", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
+    fun `conditions are not part of an arm`() = assertSeen("condition", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
     fun `a lambda called in both arms does not align across them`() = assertSeen("lambdaInArms", 0 to setOf(2), 1 to setOf(3))
@@ -54,7 +54,7 @@ class BranchTest {
         assertEquals(listOf("|| > neighboring"), trace(compiled.program("or")).second)
     }
 
-    /** The neighbours that some of four devices, all linked, see after two rounds. */
+    /** The neighbours in the fields of some of four devices, all linked, after two rounds. */
     private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>) {
         for (plain in listOf(false, true)) {
             val network = ReferenceDevices(0, 1, 2, 3, plain = plain)

@@ -162,7 +162,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `fields assigned inside their arm, or in no arm, and values assigned anywhere are fine`() = assertReports(
+    fun `fields assigned inside their arm, or in no arm, and values assigned anywhere are allowed`() = assertReports(
         """
         fun Aggregate<Int>.assigning(given: Field<Int, Int>): Any? {
             var f = neighboring(localId)
@@ -192,7 +192,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `a field that an arm assigns to a property of what is from outside is an error too`() = assertReports(
+    fun `a field that an arm assigns to a property of an outer object is an error`() = assertReports(
         """
         class Frame { var field: Any? = null; val next: Frame get() = this }
         object Shared { var field: Any? = null }
@@ -220,7 +220,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `fields assigned to properties of what their arm made, or in no arm, are fine`() = assertReports(
+    fun `fields assigned to properties of objects of the same arm, or in no arm, are allowed`() = assertReports(
         """
         class Frame { var field: Any? = null; val next: Frame get() = this }
         var global: Any? = null
@@ -318,7 +318,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `branches of values and unused branches are fine`() = assertReports(
+    fun `branches of values and unused branches are allowed`() = assertReports(
         """
         fun Aggregate<Int>.values(): Int = if (localId == 0) neighboring(localId).local.value else 1
         fun Aggregate<Int>.unused(): Int {
@@ -377,7 +377,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `aligned iterations, loop headers and functions of a field are fine`() = assertReports(
+    fun `aligned iterations, loop headers and functions of a field are allowed`() = assertReports(
         """
         fun Aggregate<Int>.helper(x: Int): Int = share(x) { it.local.value + x }
         fun Aggregate<Int>.fine(items: List<Int>): Int {
@@ -401,7 +401,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `align and dealign by hand are warnings`() = assertReports(
+    fun `explicit align and dealign are warnings`() = assertReports(
         """
         fun Aggregate<Int>.manual() {
             align(1) // MANUAL_ALIGNMENT
@@ -418,7 +418,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `evolve that sends its old value could be share`() = assertReports(
+    fun `evolve that sends its old value is a warning`() = assertReports(
         """
         fun Aggregate<Int>.slow(): Int = evolve(0) { old -> neighboring(old).all.list.maxOf { it.value } } // EVOLVE_THAT_SHARES
         fun Aggregate<Int>.slowToo(): Int = evolving(0) { val f = run { neighboring(it) }; f.local.value.yielding { this + 1 } } // EVOLVE_THAT_SHARES
@@ -428,7 +428,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `a primitive that ignores what it is given`() = assertReports(
+    fun `a primitive that ignores its parameter is a warning`() = assertReports(
         """
         fun Aggregate<Int>.ignoring(): Int {
             val a = evolve(0) { localId } // IGNORED_PARAMETER
@@ -452,7 +452,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `yielding what is kept anyway`() = assertReports(
+    fun `yielding the stored value is a warning`() = assertReports(
         """
         fun Aggregate<Int>.needless(): Int {
             val a = evolving(0) { old -> (old + 1).yielding { this } } // NEEDLESS_YIELDING
@@ -470,7 +470,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `a constant to all neighbours`() = assertReports(
+    fun `sending a constant to all neighbours is a warning`() = assertReports(
         """
         fun Aggregate<Int>.constant(): Int = neighboring(1).neighbors.size + neighboring("a").neighbors.size // CONSTANT_NEIGHBORING CONSTANT_NEIGHBORING
         fun Aggregate<Int>.fine(x: Int): Int = neighboring(x).neighbors.size + neighboring(x + 1).neighbors.size + neighborhood().neighbors.size
@@ -495,7 +495,7 @@ class ChecksTest {
     }
 
     @Test
-    fun `messages say what to do`() {
+    fun `messages name the correction`() {
         val reports = Compilation.of("fun Aggregate<Int>.f() { for (i in 1..2) neighboring(i) }").reports
         assertEquals(CompilerMessageSeverity.WARNING, reports.single().severity)
         assertTrue("alignedOn(key) { ... }" in reports.single().text, reports.single().text)
@@ -525,7 +525,7 @@ class ChecksTest {
     }
 
     private companion object {
-        /** Warnings of the compiler about the sources' style. */
+        /** Warnings of the compiler about the style of the sources. */
         val COMPILERS_OWN = setOf("UNUSED_EXPRESSION", "UNUSED_VARIABLE", "NOTHING_TO_INLINE")
     }
 }

@@ -23,11 +23,11 @@ import java.nio.file.Path
 
 /** One line of the compiler's output. */
 internal data class Report(val severity: CompilerMessageSeverity, val line: Int, val text: String) {
-    /** `FIELD_FROM_BRANCH` of `[FIELD_FROM_BRANCH] ...`. */
+    /** The name of the diagnostic: `FIELD_FROM_BRANCH` for `[FIELD_FROM_BRANCH] ...`. */
     val name: String get() = text.substringAfter('[', "").substringBefore(']')
 }
 
-/** A Kotlin source compiled by the real compiler with the plugin as users load it. */
+/** A Kotlin source, compiled by the real compiler with the plugin, loaded as users load it. */
 internal class Compilation private constructor(val succeeded: Boolean, val reports: List<Report>, private val classes: Path) {
     private val loader by lazy { URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader) }
 
@@ -77,7 +77,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             return Compilation(code == ExitCode.OK, reports.sortedBy { it.line }, folder.resolve("classes"))
         }
 
-        /** The plugin's classes and its services, which some builds keep in two folders. */
+        /** The plugin's classes and its services; some builds put them into two folders. */
         private val PLUGIN: Array<String> = CompilerPluginRegistrar::class.java.name.let { service ->
             val services = CollektivePlugin::class.java.classLoader.getResources("META-INF/services/$service").asSequence()
                 .filter { it.protocol == "file" }
@@ -85,7 +85,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             (services + placeOf(CollektivePlugin::class.java)).distinct().toList().toTypedArray()
         }
 
-        /** The jar or folder that [type] was loaded from. */
+        /** The jar or folder from which [type] was loaded. */
         private fun placeOf(type: Class<*>): String = File(type.protectionDomain.codeSource.location.toURI()).path
     }
 

@@ -3,7 +3,7 @@ package org.collektive.compiler
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Unusual Kotlin compiles to valid code that computes what it says, with and without the plugin alike. */
+/** Unusual Kotlin constructs compile to valid code that computes the same with and without the plugin. */
 class ConstructsTest {
     @Test
     fun `all constructs give the same results with and without the plugin`() {

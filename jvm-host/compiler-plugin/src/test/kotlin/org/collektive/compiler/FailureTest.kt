@@ -4,25 +4,25 @@ import org.junit.jupiter.api.assertThrows
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Where a program fails is known when its exception arrives, though the stack is empty then. */
+/** The path of a failure is recorded, although the stack is empty when the exception leaves the round. */
 class FailureTest {
     @Test
-    fun `an exception is noted where it came up`() = assertFails("plain", "helper > if > deep", "Program.kt:2")
+    fun `an exception has the path where it was thrown`() = assertFails("plain", "helper > if > deep", "Program.kt:2")
 
     @Test
-    fun `calls that were over do not count`() = assertFails("afterwards", "helper", "Program.kt:4")
+    fun `calls that have returned are not in the path`() = assertFails("afterwards", "helper", "Program.kt:4")
 
     @Test
-    fun `arms count, and lambdas where they run`() = assertFails("arms", "if > run", "Program.kt:5")
+    fun `arms are in the path, and lambdas where they run`() = assertFails("arms", "if > run", "Program.kt:5")
 
     @Test
-    fun `an exception that was caught does not count`() = assertFails("caught", "deep", "Program.kt:8")
+    fun `a caught exception does not affect the path of a later one`() = assertFails("caught", "deep", "Program.kt:8")
 
     @Test
-    fun `one that was thrown again keeps its place`() = assertFails("again", "helper > if > deep", "Program.kt:2")
+    fun `a rethrown exception keeps its path`() = assertFails("again", "helper > if > deep", "Program.kt:2")
 
     @Test
-    fun `at the root there is no path`() {
+    fun `a failure outside all calls has no path`() {
         val network = ReferenceDevices(0)
         assertThrows<IllegalStateException> { network.round(compiled.program("root")) }
         assertEquals(null, (network.devices.getValue(0) as ReferenceDevice).failed)

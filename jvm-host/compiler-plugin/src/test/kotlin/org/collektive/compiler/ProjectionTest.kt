@@ -5,19 +5,19 @@ import kotlin.test.assertEquals
 
 class ProjectionTest {
     @Test
-    fun `an arm sees a field from outside without the devices of other arms`() = assertSeen("inArm", 0 to setOf(2), 1 to setOf(3))
+    fun `in an arm, a field from outside lacks the devices of other arms`() = assertSeen("inArm", 0 to setOf(2), 1 to setOf(3))
 
     @Test
-    fun `so does the body of alignedOn`() = assertSeen("inAlignedOn", 0 to setOf(2), 1 to setOf(3))
+    fun `in alignedOn, a field from outside lacks the devices below other pivots`() = assertSeen("inAlignedOn", 0 to setOf(2), 1 to setOf(3))
 
     @Test
-    fun `and the code after an explicit align`() = assertSeen("afterAlign", 0 to setOf(2), 1 to setOf(3))
+    fun `after align, a field from outside lacks the devices below other pivots`() = assertSeen("afterAlign", 0 to setOf(2), 1 to setOf(3))
 
     @Test
-    fun `behind dealign the field is whole again`() = assertSeen("afterDealign", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
+    fun `after dealign, the field has all devices again`() = assertSeen("afterDealign", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
-    fun `outside of branches a field is whole`() = assertSeen("outside", 0 to setOf(1, 2, 3))
+    fun `outside branches, a field has all devices`() = assertSeen("outside", 0 to setOf(1, 2, 3))
 
     @Test
     fun `a field made in the arm needs no projection`() {
@@ -36,7 +36,7 @@ class ProjectionTest {
     }
 
     @Test
-    fun `a lambda in an arm sees the restricted field`() = assertSeen("lambda", 0 to setOf(2), 1 to setOf(3))
+    fun `a lambda in an arm reads the restricted field`() = assertSeen("lambda", 0 to setOf(2), 1 to setOf(3))
 
     @Test
     fun `elvis and when arms`() = assertSeen("elvis", 0 to setOf(2), 1 to setOf())
@@ -50,11 +50,11 @@ class ProjectionTest {
     }
 
     @Test
-    fun `a lambda sees a field as it is where the lambda is written, wherever it runs`() =
+    fun `a lambda reads a field as at the place where the lambda is written`() =
         assertSeen("lambdaFromOutside", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
-    fun `what a function takes out of its arguments comes as they hold it`() =
+    fun `a field that a function takes out of its arguments is not projected`() =
         assertSeen("takenOut", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test

@@ -14,11 +14,11 @@ import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.readable
 
 /**
- * Devices that keep everything in maps by whole path: slow and obviously right.
+ * Devices that store everything in maps by whole path: slow, and simple enough to be correct.
  *
- * @param linked whether two devices are neighbours; all are unless told otherwise.
- * @param plain devices offer no [AlignmentStack].
- * @param unchecked clashes go unnoticed; for programs compiled without the plugin.
+ * @param linked whether two devices are neighbours; by default, all are.
+ * @param plain whether devices do not implement [AlignmentStack].
+ * @param unchecked whether clashes are ignored, for programs compiled without the plugin.
  */
 internal class ReferenceDevices(
     vararg ids: Int,
@@ -31,7 +31,7 @@ internal class ReferenceDevices(
     /** The neighbours of [id], ascending. */
     fun neighbors(id: Int): List<PlainDevice> = devices.values.filter { it.localId != id && linked(it.localId, id) }.sortedBy { it.localId }
 
-    /** One round of all, who read what was sent in the round before. */
+    /** Runs one round of all devices, which read the messages of the previous round. */
     fun round(program: Aggregate<Int>.() -> Any?): Map<Int, Any?> {
         val results = devices.mapValues { (_, device) -> device.round(program) }
         devices.values.forEach { it.commit() }
@@ -39,14 +39,14 @@ internal class ReferenceDevices(
     }
 }
 
-/** Runs [program] once on a lonely device: its result, and the paths of its primitives as people read them. */
+/** Runs [program] once on a device without neighbours. Returns its result and the readable paths of its primitives. */
 internal fun trace(program: Aggregate<Int>.() -> Any?): Pair<Any?, List<String>> {
     val network = ReferenceDevices(0)
     val result = network.round(program).getValue(0)
     return result to network.devices.getValue(0).visited
 }
 
-/** A device without [AlignmentStack], as another implementation of the API would be. */
+/** A device without [AlignmentStack], like one of another implementation of the API. */
 internal open class PlainDevice(override val localId: Int, private val network: ReferenceDevices) : Aggregate<Int> {
     protected val stack = mutableListOf<Any?>()
     private var state = mapOf<List<Any?>, Any?>()
@@ -58,7 +58,7 @@ internal open class PlainDevice(override val localId: Int, private val network: 
     /** Paths of the primitives of the last round, in order. */
     val paths = mutableListOf<List<Any?>>()
 
-    /** The same as people read them. */
+    /** The readable form of these paths. */
     val visited: List<String> get() = paths.map(::describe)
 
     override val inMemoryOnly get() = true
@@ -158,12 +158,12 @@ internal open class PlainDevice(override val localId: Int, private val network: 
     private fun describe(path: List<Any?>) = path.joinToString(" > ") { readable(it) }
 }
 
-/** A device as the project's own runtime offers it. */
+/** A device with [AlignmentStack], like one of the project's own runtime. */
 internal class ReferenceDevice(id: Int, network: ReferenceDevices) : PlainDevice(id, network), AlignmentStack {
     /** All tokens pushed so far, in order. */
     val pushed = mutableListOf<String>()
 
-    /** Where the last failure came up, and the failure. */
+    /** The path of the last failure, and the failure. */
     var failed: Pair<ProgramPlace, Throwable>? = null
 
     override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())

@@ -19,13 +19,13 @@ import org.collektive.runtime.round
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 
-/** Devices in a row, each linked with the one before and the one after, who read what was sent in the round before. */
+/** Devices in a row, each linked to the previous and the next one. They read the messages of the previous round. */
 internal fun interface Row {
-    /** One round of all: what each device returned. */
+    /** Runs one round of all devices; returns what each returned. */
     fun round(program: Aggregate<Int>.() -> Any?): List<Any?>
 }
 
-/** All ways to run [size] devices in a row, by name: the reference interpreters and the routes that users have. */
+/** All ways of running [size] devices in a row, by name: the reference implementations and those of users. */
 internal fun rows(size: Int): Map<String, Row> {
     val ids = IntArray(size) { it }
     val reference = ReferenceDevices(*ids, linked = ::near)

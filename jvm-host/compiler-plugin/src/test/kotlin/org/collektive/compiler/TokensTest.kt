@@ -9,7 +9,7 @@ import kotlin.test.assertTrue
 
 class TokensTest {
     @Test
-    fun `a token says what and where, and ends in 64 bits that tell the place`() {
+    fun `a token names the call and its location, and ends with a 64-bit hash`() {
         val token = tokens(compiled).first().first()
         assertTrue(Regex("first@Program\\.kt:5#[0-9a-f]{16}").matches(token), token)
         assertEquals("first", readable(token))
@@ -17,29 +17,29 @@ class TokensTest {
     }
 
     @Test
-    fun `builds in different folders agree`() = assertEquals(tokens(compiled), tokens(Compilation.of(SOURCE)))
+    fun `builds in different folders make the same tokens`() = assertEquals(tokens(compiled), tokens(Compilation.of(SOURCE)))
 
     @Test
-    fun `modules do not share tokens, so that two jars with files of one name can meet in one program`() {
+    fun `two modules with files of the same name have different tokens`() {
         val elsewhere = tokens(Compilation.of(SOURCE, module = "elsewhere"))
         assertEquals(emptySet(), tokens(compiled).flatten().toSet() intersect elsewhere.flatten().toSet())
     }
 
     @Test
-    fun `each place has its own token`() {
+    fun `each call has its own token`() {
         val places = tokens(compiled).flatten()
         // Calls of first and twice in main, of first in the lambda, of neighboring in both overloads.
         assertEquals(7, places.toSet().size)
     }
 
     @Test
-    fun `equal tokens are one object, so that comparing them is cheap`() {
+    fun `equal tokens are the same object`() {
         val (once, again) = List(2) { tokens(compiled) }
         for ((a, b) in once.flatten() zip again.flatten()) assertSame(a, b)
     }
 
     @Test
-    fun `pivots of the program are read as they are`() {
+    fun `a program's own pivots are readable as their text`() {
         assertEquals("a@b", readable("a@b"))
         assertEquals(null, location("a@b"))
         assertEquals("null", readable(null))

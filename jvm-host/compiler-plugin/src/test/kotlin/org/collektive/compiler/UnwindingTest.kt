@@ -3,7 +3,7 @@ package org.collektive.compiler
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Every way out of an aligned region leaves the stack as it was. */
+/** Every exit from an aligned region restores the stack. */
 class UnwindingTest {
     @Test
     fun `early return from an arm`() = assertLastPath("returned", "mark > evolve")
@@ -24,13 +24,13 @@ class UnwindingTest {
     fun `a caught exception from deep inside`() = assertLastPath("caughtDeep", "evolve")
 
     @Test
-    fun `an alignedOn that was left`() = assertLastPath("leftAlignedOn", "mark > evolve")
+    fun `an exit from alignedOn`() = assertLastPath("leftAlignedOn", "mark > evolve")
 
     @Test
-    fun `an align that the called function never undid`() = assertLastPath("openAlign", "evolve", plainToo = false)
+    fun `an align without dealign in the called function`() = assertLastPath("openAlign", "evolve", plainToo = false)
 
     @Test
-    fun `an arm that never ends well, in an expression`() = assertLastPath("inExpression", "evolve")
+    fun `an arm that always throws, in an expression`() = assertLastPath("inExpression", "evolve")
 
     private fun assertLastPath(program: String, expected: String, plainToo: Boolean = true) {
         for (plain in if (plainToo) listOf(false, true) else listOf(false)) {

@@ -5,14 +5,14 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.TestFactory
 import kotlin.test.assertEquals
 
-/** Programs in all styles that Kotlin knows mean on every route what one works out by hand. */
+/** Programs in all styles of Kotlin compute the expected results on every route. */
 class UsersProgramsTest {
     @TestFactory
     fun `programs of users`(): List<DynamicTest> = expected.map { (name, results) ->
         dynamicTest(name) {
             val program = compiled.program(name)
             for ((route, row) in rows(4)) {
-                // Clashes in loops of that route are what AlignmentStack is for.
+                // Loops clash on that route, which has no AlignmentStack.
                 if (route == WITHOUT_STACK && name in LOOPS_OVER_FIELDS) continue
                 val last = List(ROUNDS) { row.round(program) }.last()
                 assertEquals(results, last.toString(), route)
@@ -29,7 +29,7 @@ class UsersProgramsTest {
 
         val compiled = Compilation.of(source)
 
-        /** By program what the devices return. */
+        /** The results of the devices by program. */
         val expected: Map<String, String> =
             Regex("// = (.*)\nfun Aggregate<Int>\\.(\\w+)\\(").findAll(source).associate { it.groupValues[2] to it.groupValues[1] }
     }

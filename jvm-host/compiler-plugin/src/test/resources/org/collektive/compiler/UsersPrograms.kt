@@ -1,4 +1,4 @@
-// Programs as users write them. Each is preceded by what four devices in a row return in the twelfth round.
+// Programs as users write them. The comment before each is what four devices in a row return in the twelfth round.
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.*
 import it.unibo.collektive.stdlib.spreading.*
@@ -13,7 +13,7 @@ import kotlin.reflect.KProperty
 
 fun <ID : Any> Aggregate<ID>.hopsTo(source: Boolean, limit: Int = 99): Int =
     share(limit) { seen ->
-        // Inside an arm `seen` would not hold the sources, who take the other one.
+        // Inside an arm, `seen` lacks the sources, which take the other arm.
         val next = 1 + (seen.neighbors.values.list.minOrNull() ?: limit)
         if (source) 0 else minOf(limit, next)
     }
