@@ -14,7 +14,7 @@ internal class FingerprintTest {
     }
 
     @Test
-    fun `the text holds nested types in place, and a table inside itself as a distance`() {
+    fun `the text contains nested types inline, and a recursive table as a distance`() {
         val schema = read("struct P { x: float; on: bool; } enum E : ubyte { A, B = 4 } table N { next: N; all: [N]; }", "p: P; e: E = B; n: N; s: string (required); o: int = null;")
         assertEquals(
             "table{0 p:struct 8{0 x:float;4 on:bool;};1 e:enum ubyte{A=0,B=4}=4;2 n:table{0 next:^0;1 all:[^0];};3 s:string required;4 o:int=null;}",
@@ -23,7 +23,7 @@ internal class FingerprintTest {
     }
 
     @Test
-    fun `whatever changes the bytes or the names changes the fingerprint`() {
+    fun `every change of bytes or names changes the fingerprint`() {
         val base = fingerprint("a: float; b: int;")
         val changes = listOf(
             "b: int; a: float;", "a: float; c: int;", "a: double; b: int;", "a: float = 1; b: int;", "a: float; b: int = null;",

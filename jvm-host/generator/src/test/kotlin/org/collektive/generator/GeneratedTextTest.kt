@@ -10,7 +10,7 @@ import kotlin.test.assertTrue
 
 internal class GeneratedTextTest {
     @Test
-    fun `the same schema gives the same files, whatever folder it lies in`() {
+    fun `the same schema gives the same files in any folder`() {
         val first = Workshop.newFolder()
         val second = Workshop.newFolder()
         val copy = Files.createDirectories(second.resolve("elsewhere"))
@@ -25,7 +25,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `no file holds a path of the machine, and all C# is marked as generated`() {
+    fun `no file contains a path of the machine, and all C# is marked as generated`() {
         val output = Workshop.generate("include \"types.fbs\"; namespace a.b; table SensorData { p: org.collektive.schema.Vector3; } struct ActuatorData { x: float; }", "my_swarm.fbs")
         for ((path, text) in texts(output)) {
             assertFalse(output.parent.toString() in text || Workshop.root.toString() in text, path)
@@ -44,7 +44,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `schemas generated into one folder are all announced, in any order, and one that is gone is not`() {
+    fun `all schemas generated into one folder are listed as services, and removed ones are not`() {
         val work = Workshop.newFolder()
         fun generate(namespace: String, output: String) {
             val schema = work.resolve("$namespace.fbs")
@@ -62,7 +62,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `comments of the schema become documentation, made safe for XML`() {
+    fun `comments of the schema become documentation, escaped for XML`() {
         val output = Workshop.generate("namespace a;\n/// All & <more>\n/// of it.\ntable SensorData {\n/// In metres.\nx: float; } struct ActuatorData { x: float; }")
         val text = texts(output).getValue("csharp/a/UserSchema.cs")
         assertContains(text, "/// <summary>All &amp; &lt;more&gt; of it.</summary>")
@@ -70,7 +70,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `a file whose text did not change keeps its time`() {
+    fun `an unchanged file keeps its modification time`() {
         val output = Workshop.newFolder()
         val schema = Workshop.testSchemas.resolve("globals.fbs")
         Workshop.generate(schema, output)
@@ -81,7 +81,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `the code that is committed for Unity is what the generator makes`() {
+    fun `the code committed for Unity is the generator's output`() {
         for (schema in Workshop.files(Workshop.root.resolve("unity/Samples~")).filter { "$it".endsWith(".fbs") }) {
             val output = Workshop.newFolder()
             Workshop.generate(schema, output)

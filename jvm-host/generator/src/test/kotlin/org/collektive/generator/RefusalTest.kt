@@ -8,10 +8,10 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 
-/** What a user can get wrong, and what is said about it. */
+/** Mistakes of users, and the messages about them. */
 internal class RefusalTest {
     @Test
-    fun `a schema without one of the two types says which and what it found`() {
+    fun `a schema without one of the two types is refused, and the message lists its types`() {
         assertEquals(
             "user.fbs: there is no SensorData; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
             refusal("namespace a; struct Sensors { x: float; } struct ActuatorData { x: float; }"),
@@ -26,7 +26,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `types that the bridge cannot carry are named with their field and what to use instead`() {
+    fun `an unsupported type is refused with its field and an alternative`() {
         assertEquals("user.fbs: SensorData.shape: unions are not supported; use one optional table field for each case", refusal(user("table A {} table B {} union Shape { A, B }", "shape: Shape;")))
         assertEquals("user.fbs: SensorData.shapes: unions are not supported; use one optional table field for each case", refusal(user("table A {} table B {} union Shape { A, B }", "shapes: [Shape];")))
         assertEquals("user.fbs: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table", refusal(user("struct Grid { cells: [float:4]; }", "grid: Grid;")))
@@ -37,7 +37,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `names that the generated code cannot have are refused`() {
+    fun `names that collide with generated code are refused`() {
         for (name in listOf("class", "to_string", "wait", "byte_buffer")) {
             assertEquals("user.fbs: SensorData.$name: C# or Java has a member of this name in every class; rename the field", refusal(user("", "$name: int;")))
         }
@@ -61,7 +61,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `flatc's errors come through with file and line`() {
+    fun `flatc's errors are passed on with file and line`() {
         val message = refusal("namespace a;\ntable SensorData { x: flot; }")
         assertContains(message, "user.fbs:2")
         assertContains(message, "flot")
@@ -76,7 +76,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `a command line with something missing or unknown says what`() {
+    fun `a command line with a missing or unknown option is refused by name`() {
         val flatc = Workshop.flatc.toString()
         val schema = Workshop.testSchemas.resolve("blocks.fbs").toString()
         fun message(vararg words: String) = assertFailsWith<GeneratorException> { Arguments.parse(arrayOf(*words)) }.message.orEmpty()

@@ -3,7 +3,7 @@ package org.collektive.generator
 import java.nio.file.Files
 import java.nio.file.Path
 
-/** Runs the generator in folders of its own. */
+/** Runs the generator in temporary folders. */
 internal object Workshop {
     val root: Path = Path.of(System.getProperty("collektive.root"))
     val flatc: Path = Path.of(System.getProperty("collektive.flatc"))
@@ -13,10 +13,10 @@ internal object Workshop {
         Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
     }
 
-    /** A folder of its own, which goes when the tests are over. */
+    /** Makes a temporary folder, which is deleted after the tests. */
     fun newFolder(): Path = Files.createTempDirectory(work, "")
 
-    /** Generates from a schema of this text, with the right `include` before it. */
+    /** Generates from a schema with this text, preceded by the `include` of the core types. */
     fun generate(text: String, name: String = "user.fbs"): Path {
         val folder = newFolder()
         val schema = Files.writeString(folder.resolve(name), text)
