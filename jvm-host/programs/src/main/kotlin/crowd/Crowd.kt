@@ -12,7 +12,7 @@ import org.collektive.schema.Vector3T
 import kotlin.math.sqrt
 
 /**
- * Walks to a goal and keeps its distance from obstacles and from other walkers, whom it passes on the right. Where the crowd is too
+ * Walks to a goal and keeps its distance from obstacles and other walkers; it passes these on the right. Where the crowd is too
  * dense, a warning spreads a few hops; walkers that receive it walk at half speed.
  */
 @Program(

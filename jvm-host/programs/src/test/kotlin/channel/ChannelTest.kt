@@ -9,8 +9,8 @@ import java.nio.ByteOrder
 import kotlin.test.assertEquals
 
 /**
- * Worked out by hand. Nodes 0 to 4 stand in a row, 10 m apart, from the source to the target; 5 stands beside 2, 8 m off; 6 nearly between
- * 0 and 2: its way is 40.1 m long, 5's is 56 m.
+ * The expected values are calculated by hand. Nodes 0 to 4 are in a row, 10 m apart, from source to target; 5 is 8 m beside 2; 6 is almost between
+ * 0 and 2. The path through 6 is 40.1 m long, that through 5 is 56 m.
  */
 class ChannelTest {
     private val row = (0..4).associateWith { Point2D(10.0 * it, 0.0) } + mapOf(5 to Point2D(20.0, 8.0), 6 to Point2D(10.0, 1.0))
@@ -21,31 +21,31 @@ class ChannelTest {
     private fun Map<Int, ActuatorDataT>.marked() = filterValues { it.inChannel }.keys
 
     @Test
-    fun `the channel is the shortest way, and what is nearly on it`() {
+    fun `the channel contains the shortest path and the nodes close to it`() {
         swarm().use { assertEquals(setOf(0, 1, 2, 3, 4, 6), it.ticks(STABLE).marked()) }
     }
 
     @Test
-    fun `its width is a parameter`() {
+    fun `the channel's width is a parameter`() {
         swarm("0").use { assertEquals(setOf(0, 1, 2, 3, 4), it.ticks(STABLE).marked()) }
         swarm("16.1").use { assertEquals(row.keys, it.ticks(STABLE).marked()) }
     }
 
     @Test
-    fun `each node knows its way to the source`() {
+    fun `each node computes its distance to the source`() {
         val answers = swarm().use { it.ticks(STABLE) }
         for ((id, metres) in listOf(0f, 10f, 20f, 30f, 40f, 28f).withIndex()) assertEquals(metres, answers.getValue(id).distance, 1e-4f, "node $id")
     }
 
     @Test
-    fun `when a node of it fails, the channel finds another way`() = swarm().use {
+    fun `when a node of the channel fails, the channel takes another path`() = swarm().use {
         it.ticks(STABLE)
         it.places -= 1
         assertEquals(setOf(0, 2, 3, 4, 6), it.ticks(STABLE).marked())
     }
 
     @Test
-    fun `without a way there is no channel, and no distance beyond the gap`() = swarm().use {
+    fun `without a path there is no channel, and no distance beyond the gap`() = swarm().use {
         it.ticks(STABLE)
         it.places -= 3
         val answers = it.ticks(STABLE)
@@ -55,7 +55,7 @@ class ChannelTest {
     }
 
     @Test
-    fun `a node alone that is source and target is the channel`() =
+    fun `a single node that is source and target is the channel`() =
         Swarm(1.0, mapOf("width" to "0"), { _, place -> sensors(place, source = true, target = true) }, Aggregate<Int>::channel).use {
             it.places[0] = Point2D(0.0, 0.0)
             assertEquals(setOf(0), it.tick().marked())
@@ -68,7 +68,7 @@ class ChannelTest {
     }
 
     private companion object {
-        /** Ticks after which nothing changes any more. */
+        /** Number of ticks after which nothing changes. */
         const val STABLE = 30
     }
 }

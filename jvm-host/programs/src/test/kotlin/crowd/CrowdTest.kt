@@ -14,7 +14,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Walkers on the ground; they hear each other within 6 m. */
+/** Walkers on the ground; those within 6 m of each other are linked. */
 class CrowdTest {
     private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorDataT>) -> T): T =
         Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place -> sensors(place, walkers.getValue(id)) }, Aggregate<Int>::crowd).use {
@@ -26,18 +26,18 @@ class CrowdTest {
         walk(mapOf(0 to Walker(Point2D(0.0, 0.0), goal, obstacles.asList()))) { it.tick().getValue(0).velocity }
 
     @Test
-    fun `a free walker goes straight to its goal, and slows down at the last metre`() {
+    fun `a free walker goes straight to its goal, and slows down in the last metre`() {
         assertEquals(0.84f to 1.12f, alone(Point2D(6.0, 8.0)).onGround())
         assertEquals(0.7f to 0f, alone(Point2D(0.5, 0.0)).onGround())
         assertEquals(0f to 0f, alone(Point2D(0.0, 0.0)).onGround())
     }
 
     @Test
-    fun `a walker without a goal is an error that says so`() =
+    fun `a walker without a goal fails with a message that says so`() =
         assertContains(assertFailsWith<IllegalStateException> { alone(null) }.message.orEmpty(), "the sensors give no goal")
 
     @Test
-    fun `two who meet pass each other on the right`() {
+    fun `two walkers who meet pass each other on the right`() {
         val walkers = mapOf(0 to Walker(Point2D(-0.6, 0.0), Point2D(10.0, 0.0)), 1 to Walker(Point2D(0.6, 0.0), Point2D(-10.0, 0.0)))
         val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
         assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: on, but slower, and to the right, which is -z")
@@ -45,7 +45,7 @@ class CrowdTest {
     }
 
     @Test
-    fun `a wall pushes away when it is near`() {
+    fun `a near wall repels a walker`() {
         val (x, _) = alone(Point2D(10.0, 0.0), Point2D(0.3, 0.0)).onGround()
         assertTrue(x < 0, "$x")
         assertEquals(1.4f to 0f, alone(Point2D(10.0, 0.0), Point2D(1.5, 0.0)).onGround(), "1.25 m from its skin")
@@ -53,7 +53,7 @@ class CrowdTest {
     }
 
     @Test
-    fun `where it is too dense a warning spreads two hops, and who hears it goes at half the speed`() {
+    fun `a warning about density spreads two hops, and warned walkers go at half speed`() {
         // Twelve within 2 m of each other, and a chain of three 5 m apart.
         val dense = (0 until 12).associateWith { Point2D(0.3 * (it % 4), 0.3 * (it / 4)) }
         val chain = mapOf(12 to Point2D(5.0, 0.0), 13 to Point2D(10.0, 0.0), 14 to Point2D(15.0, 0.0))

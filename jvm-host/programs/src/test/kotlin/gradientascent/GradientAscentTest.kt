@@ -10,7 +10,7 @@ import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
-/** Worked out by hand: 0 at the origin, 1 five metres away at (3, 1, 4), sensing 10 and 20. */
+/** Node 0 at the origin senses 10, node 1 at (3, 1, 4) senses 20. The expected values are calculated by hand. */
 class GradientAscentTest {
     private val runtimes = AggregateRuntimes()
     private val devices = List(2) { runtimes.device(it) }
@@ -26,23 +26,23 @@ class GradientAscentTest {
     private val high = sensors(20f, vector(3f, 1f, 4f))
 
     @Test
-    fun `both climb, the one in front too`() {
+    fun `both nodes climb, also the one in front`() {
         round(0, null, low)
         assertEquals(listOf(3.6f, 1f, 4.8f), round(1, 0, high), "away from the lower one")
         assertEquals(listOf(0.6f, 1f, 0.8f), round(0, 1, low), "towards the higher one")
     }
 
     @Test
-    fun `alone and free it stays`() = assertEquals(listOf(3f, 1f, 4f), round(1, null, high))
+    fun `a node without neighbours and obstacles stays in place`() = assertEquals(listOf(3f, 1f, 4f), round(1, null, high))
 
     @Test
-    fun `the step is the node's own`() {
+    fun `the step is the node's parameter`() {
         round(1, null, high)
         assertEquals(listOf(0.3f, 1f, 0.4f), round(0, 1, low, step = "0.5"))
     }
 
     @Test
-    fun `an obstacle within a metre pushes away, one beyond does not`() {
+    fun `an obstacle repels within a metre only`() {
         assertEquals(listOf(-1f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(0.5f, 0f, 0f))))
         assertEquals(listOf(0f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(1.5f, 0f, 0f))))
     }
@@ -55,7 +55,7 @@ class GradientAscentTest {
     }
 
     @Test
-    fun `a neighbour or an obstacle at the very same place has no direction`() {
+    fun `a neighbour or an obstacle at the same position has no direction`() {
         round(1, null, sensors(20f, vector(0f, 1f, 0f)))
         assertEquals(listOf(0f, 1f, 0f), round(0, 1, sensors(10f, vector(0f, 1f, 0f), vector(0f, 0f, 0f))))
     }

@@ -14,13 +14,13 @@ import kotlin.test.assertEquals
 /** The case study moves a swarm the same way on the project's own runtime and on Collektive's public API. */
 class RuntimesTest {
     @Test
-    fun `both runtimes give the same positions for hundreds of ticks`() {
+    fun `both runtimes compute the same positions for hundreds of ticks`() {
         val own = run(AggregateRuntimes())
         assertEquals(own, run(MailboxRuntimes()))
         assertEquals(TICKS, own.distinct().size, "the swarm moves")
     }
 
-    /** All targets of each tick, while nodes move, come and go. */
+    /** All targets of each tick, while nodes move and are added and removed. */
     private fun run(runtimes: DeviceRuntimes): List<Map<Int, List<Float>>> =
         Swarm(RANGE, mapOf("step" to "1.0"), { _, place -> sense(place) }, Aggregate<Int>::gradientAscent, runtimes).use { swarm ->
             val random = Random(7)

@@ -10,7 +10,7 @@ internal fun vector(x: Float, y: Float, z: Float) = Vector3T().also {
     it.z = z
 }
 
-/** What a node at [position] senses. */
+/** The sensor data of a node at [position]. */
 internal fun sensors(intensity: Float, position: Vector3T, vararg obstacles: Vector3T): SensorData {
     val builder = FlatBufferBuilder()
     val data = SensorDataT()

@@ -8,7 +8,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.test.assertEquals
 
-/** Worked out by hand: nodes 0 to 5 stand in a row, 10 m apart, and hear those next to them. */
+/** Nodes 0 to 5 are in a row, 10 m apart, linked to the next ones. The expected values are calculated by hand. */
 class LeaderElectionTest {
     private fun swarm(radius: String) =
         Swarm(11.0, mapOf("radius" to radius), { _, place -> sensors(place) }, Aggregate<Int>::leaderElection).apply {
@@ -18,27 +18,27 @@ class LeaderElectionTest {
     private fun Map<Int, ActuatorDataT>.leaders() = values.map { it.leader }
 
     @Test
-    fun `the greatest id leads all within the radius, the greatest of the others those around that one`() {
+    fun `the greatest id leads all within the radius, then the greatest of the others`() {
         swarm("20").use { assertEquals(listOf(2, 2, 2, 5, 5, 5), it.ticks(STABLE).leaders()) }
         swarm("10").use { assertEquals(listOf(1, 1, 3, 3, 5, 5), it.ticks(STABLE).leaders()) }
         swarm("50").use { assertEquals(listOf(5, 5, 5, 5, 5, 5), it.ticks(STABLE).leaders()) }
     }
 
     @Test
-    fun `each node knows how far the nearest leader is`() {
+    fun `each node computes its distance to the nearest leader`() {
         val answers = swarm("20").use { it.ticks(STABLE) }
         assertEquals(listOf(20f, 10f, 0f, 10f, 10f, 0f), answers.values.map { it.distance })
     }
 
     @Test
-    fun `when a leader fails the regions form anew`() = swarm("20").use {
+    fun `when a leader fails, another one is elected`() = swarm("20").use {
         it.ticks(STABLE)
         it.places -= 5
         assertEquals(listOf(1, 1, 4, 4, 4), it.ticks(STABLE).leaders())
     }
 
     @Test
-    fun `a node alone leads itself`() = swarm("20").use {
+    fun `a single node leads itself`() = swarm("20").use {
         it.places -= 4
         val answers = it.ticks(STABLE)
         assertEquals(5, answers.getValue(5).leader)
@@ -51,7 +51,7 @@ class LeaderElectionTest {
     }
 
     private companion object {
-        /** Ticks after which nothing changes any more. */
+        /** Number of ticks after which nothing changes. */
         const val STABLE = 40
     }
 }

@@ -17,7 +17,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
 
 /**
- * Devices on the ground that all run [round] in each tick on what [sense] gives for their id and place. Two hear each other while they are
+ * Devices on the ground. All run [round] in each tick, on the data that [sense] returns for id and position. Two are linked while they are
  * less than [range] metres apart.
  */
 internal class Swarm<S : Any, A : Any>(
@@ -27,7 +27,7 @@ internal class Swarm<S : Any, A : Any>(
     private val round: Aggregate<Int>.(S, Device) -> A,
     runtimes: DeviceRuntimes = AggregateRuntimes(),
 ) : AutoCloseable {
-    /** Where each device is, by id; devices are added, moved and removed here between ticks. */
+    /** The position of each device by id. Change it between ticks to add, move and remove devices. */
     val places = sortedMapOf<Int, Point2D>()
 
     private val engine = Engine(EngineSettings(1, 2, Schedule.LOCKSTEP), runtimes)
@@ -45,7 +45,7 @@ internal class Swarm<S : Any, A : Any>(
         override fun describe(failure: Throwable, place: String?) = failure.toString()
     }
 
-    /** The answers of one tick, by id. @throws IllegalStateException when a round failed. */
+    /** Runs one tick and returns the answers by id. @throws IllegalStateException when a round failed. */
     fun tick(): Map<Int, A> {
         val tick = Tick()
         tick.number = ++ticks
@@ -67,7 +67,7 @@ internal class Swarm<S : Any, A : Any>(
         }
     }
 
-    /** The answers of the last of [count] ticks. */
+    /** Runs [count] ticks and returns the answers of the last. */
     fun ticks(count: Int): Map<Int, A> {
         repeat(count - 1) { tick() }
         return tick()
