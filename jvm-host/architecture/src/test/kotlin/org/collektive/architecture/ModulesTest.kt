@@ -6,7 +6,7 @@ import javax.xml.parsers.DocumentBuilderFactory
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** `docs/architecture.md` shows the modules as their POMs have them. */
+/** Compares `docs/architecture.md` with the modules' POMs. */
 class ModulesTest {
     private val root = File(System.getProperty("collektive.root"))
 
@@ -26,7 +26,7 @@ class ModulesTest {
 
     private fun modules() = elements(root.resolve("jvm-host/pom.xml"), "module").map { it.textContent } - "architecture"
 
-    /** Solid: the module's classes use the other's. Dotted: only its build does, to generate or compile sources. */
+    /** A solid arrow is a dependency of the module's classes; a dotted one of its build only, to generate or compile sources. */
     private fun arrows(module: String): List<String> = elements(root.resolve("jvm-host/$module/pom.xml"), "dependency")
         .filter { it.text("groupId") == "org.collektive" && it.text("scope") != "test" }
         .map { "$module ${if (it.text("artifactId") in BUILD_TOOLS) "-.->" else "-->"} ${it.text("artifactId")}" }

@@ -8,7 +8,7 @@ import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition.slices
 import kotlin.test.Test
 import kotlin.test.assertTrue
 
-/** What the compiler cannot see, since it holds inside a module or for what is on a class path anyway. */
+/** Rules that the compiler does not check: inside a module, or about classes that are on the class path anyway. */
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {
@@ -21,7 +21,7 @@ class PackagesTest {
     fun `no two packages depend on each other`() = slices().matching("org.collektive.(**)").should().beFreeOfCycles().check(classes)
 
     @Test
-    fun `rounds know nothing of FlatBuffers`() = noClasses()
+    fun `the engine and runtimes do not use FlatBuffers`() = noClasses()
         .that().resideInAnyPackage("org.collektive.spi..", "org.collektive.engine..", "org.collektive.runtime..", "org.collektive.api..", "it.unibo..")
         .should().dependOnClassesThat().resideInAPackage("com.google.flatbuffers..").check(classes)
 
@@ -31,7 +31,7 @@ class PackagesTest {
         .should().dependOnClassesThat().haveFullyQualifiedName("com.google.flatbuffers.FlatBufferBuilder").check(classes)
 
     @Test
-    fun `the host and what it stands on know no DSL, which belongs to the programs`() = noClasses()
+    fun `the host and its dependencies do not use the DSL`() = noClasses()
         .that().resideInAnyPackage("org.collektive.host..", "org.collektive.frames..", "org.collektive.engine..", "org.collektive.spi..", "org.collektive.api..")
         .should().dependOnClassesThat().resideInAPackage("it.unibo..").check(classes)
 
