@@ -19,7 +19,7 @@ internal interface Workload : AutoCloseable {
 /**
  * The benchmark's second process: serves the host over TCP on loopback, and runs workloads without C#.
  *
- * Prints its port, serves one client, and exits when the client disconnects. A request is kind, id, length (i32 each) and payload; an answer is
+ * Prints its port, serves one client, and exits when it disconnects. A request is kind, id, length (i32 each) and payload; an answer is
  * status (i32, 0 for success), length (i32) and payload. All numbers are little-endian.
  */
 public fun main() {
