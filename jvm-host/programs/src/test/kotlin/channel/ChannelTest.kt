@@ -9,8 +9,8 @@ import java.nio.ByteOrder
 import kotlin.test.assertEquals
 
 /**
- * The expected values are calculated by hand. Nodes 0 to 4 are in a row, 10 m apart, from source to target; 5 is 8 m beside 2; 6 is almost between
- * 0 and 2. The path through 6 is 40.1 m long, that through 5 is 56 m.
+ * The expected values are calculated by hand. Nodes 0 to 4 are in a row, 10 m apart, from source to target;
+ * 5 is 8 m beside 2, and 6 almost between 0 and 2. The path through 6 is 40.1 m long, that through 5 is 56 m.
  */
 class ChannelTest {
     private val row = (0..4).associateWith { Point2D(10.0 * it, 0.0) } + mapOf(5 to Point2D(20.0, 8.0), 6 to Point2D(10.0, 1.0))

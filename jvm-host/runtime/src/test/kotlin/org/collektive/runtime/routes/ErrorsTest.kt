@@ -63,7 +63,7 @@ class ErrorsTest {
         for (route in listOf(fast, MailboxRoute(inMemory = true), MailboxRoute(inMemory = false))) check(route)
     }
 
-    private inline fun <reified E : Throwable> assertTold(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) = onAll { route ->
+    private inline fun <reified E : Throwable> assertMessage(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) = onAll { route ->
         val error = assertIs<E>(failure(route, program), route.name)
         assertContains(error.message.orEmpty(), what, message = route.name)
         assertTrue(error.message.orEmpty().endsWith(" [$place]"), "${route.name}: ${error.message}")
@@ -71,14 +71,14 @@ class ErrorsTest {
 
     @Test
     fun `two primitives at one path`() =
-        assertTold<AlignmentClashException>("alignedOn(key) { }", "node 1 at helper > share (Swarm.kt:9)") {
+        assertMessage<AlignmentClashException>("alignedOn(key) { }", "node 1 at helper > share (Swarm.kt:9)") {
             call("share", 9) { share(1) { it.local.value } }
             call("share", 9) { share(1) { it.local.value } }
         }
 
     @Test
     fun `fields of different devices`() =
-        assertTold<IllegalStateException>("one has values for [0, 2, 1], the other for [1]", "node 1 at helper (Swarm.kt:7)") {
+        assertMessage<IllegalStateException>("one has values for [0, 2, 1], the other for [1]", "node 1 at helper (Swarm.kt:7)") {
             // No other device reaches this path.
             val alone = call("alone", 8) { neighboring(2) }
             Field.make(this, arrayOf(0, 2), arrayOf(1, 1), 1).alignedMap(alone) { _, a, b -> a + b }
@@ -86,17 +86,17 @@ class ErrorsTest {
 
     @Test
     fun `a value for a device that is no neighbour`() =
-        assertTold<NoSuchElementException>("no value for device 99, only for [1]", "node 1 at helper (Swarm.kt:7)") {
+        assertMessage<NoSuchElementException>("no value for device 99, only for [1]", "node 1 at helper (Swarm.kt:7)") {
             call("neighboring", 8) { neighboring(1) }[99]
         }
 
     @Test
     fun `a field as a value or a result`() {
-        assertTold<IllegalStateException>("a field cannot be a value of a field", "node 1 at helper (Swarm.kt:7)") {
+        assertMessage<IllegalStateException>("a field cannot be a value of a field", "node 1 at helper (Swarm.kt:7)") {
             val field = call("neighboring", 8) { neighboring(1) }
             field.mapToConstant(field)
         }
-        assertTold<IllegalStateException>("alignedOn returned a field", "node 1 at helper > alignedOn > key (Swarm.kt:8)") {
+        assertMessage<IllegalStateException>("alignedOn returned a field", "node 1 at helper > alignedOn > key (Swarm.kt:8)") {
             call("alignedOn", 8) { alignedOn("key") { neighboring(1) } }
         }
     }
@@ -105,9 +105,9 @@ class ErrorsTest {
     fun `a pivot that cannot be a key`() {
         val place = "node 1 at helper (Swarm.kt:7)"
         for (pivot in listOf(intArrayOf(1), arrayOf("a"), { 1 })) {
-            assertTold<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) { alignedOn(pivot) { evolve(0) { it } } }
+            assertMessage<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) { alignedOn(pivot) { evolve(0) { it } } }
         }
-        assertTold<IllegalArgumentException>("a Field cannot be a pivot", place) {
+        assertMessage<IllegalArgumentException>("a Field cannot be a pivot", place) {
             val field = call("near", 2) { neighboring(1) }
             alignedOn(field) { evolve(0) { it } }
         }
