@@ -13,7 +13,12 @@ import org.collektive.api.Program
  * Marks the nodes on the shortest path from the source to the target, and those close to it. Each node computes its distance to both,
  * along links; the target broadcasts the length of the shortest path.
  */
-@Program("channel", parameters = [Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater.")])
+@Program(
+    "channel",
+    parameters = [
+        Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater."),
+    ],
+)
 public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorDataT {
     val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
     val fromSource = distanceTo(sensors.source(), metric)

@@ -13,7 +13,10 @@ import org.collektive.api.Program
  * Divides the swarm into regions, each with a leader at most `radius` metres away along links. The greatest id leads all nodes within the
  * radius; of the remaining nodes, the greatest id leads those around it, and so on. When a leader fails, its region elects another.
  */
-@Program("leader-election", parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")])
+@Program(
+    "leader-election",
+    parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")],
+)
 public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorDataT {
     val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
     val elected = boundedElection(device.parameters.double("radius"), metric)

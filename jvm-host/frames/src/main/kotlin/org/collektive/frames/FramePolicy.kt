@@ -7,7 +7,11 @@ package org.collektive.frames
  * @property maxStringBytes greatest length of a string, in bytes of UTF-8.
  * @property checksTableSize whether the table size in a vtable must cover all fields of its table. Readers do not use that size.
  */
-public enum class FramePolicy(internal val sharesStrings: Boolean, internal val maxStringBytes: Int, internal val checksTableSize: Boolean) {
+public enum class FramePolicy(
+    internal val sharesStrings: Boolean,
+    internal val maxStringBytes: Int,
+    internal val checksTableSize: Boolean,
+) {
     /** Frames of `frame.fbs`. Names of programs and parameters are repeated and short. */
     FRAME(sharesStrings = true, maxStringBytes = 0xFFFF, checksTableSize = true),
 

@@ -12,7 +12,14 @@ import java.nio.file.Path
  * @property layouts the output folder for a Java class with the layouts of all tables of any schema, such as `frame.fbs`; `null`
  *   generates none.
  */
-internal class Arguments(val flatc: Path, val schema: Path, val include: Path, val csharp: Path?, val java: Path?, val layouts: Path? = null) {
+internal class Arguments(
+    val flatc: Path,
+    val schema: Path,
+    val include: Path,
+    val csharp: Path?,
+    val java: Path?,
+    val layouts: Path? = null,
+) {
     companion object {
         const val USAGE: String =
             "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER " +

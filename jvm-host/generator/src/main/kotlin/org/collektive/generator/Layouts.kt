@@ -20,7 +20,8 @@ internal object Layouts {
         "fields" to type.fields.map { field(it, constant) },
     )
 
-    private fun entry(table: TableType, field: Field) = mapOf("constant" to "${shortConstant(table)}_${field.name.uppercase()}", "offset" to field.offset)
+    private fun entry(table: TableType, field: Field) =
+        mapOf("constant" to "${shortConstant(table)}_${field.name.uppercase()}", "offset" to field.offset)
 
     private fun shortConstant(type: TableType): String = type.name.simple.replace(Regex("(?<=[a-z0-9])(?=[A-Z])"), "_").uppercase()
 

@@ -17,7 +17,8 @@ internal class OutputFolder(private val root: Path) {
     /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds: other schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
         val file = root.resolve(path)
-        val others = if (Files.exists(file)) Files.readAllLines(file).map(String::trim).filter { it.isNotEmpty() && isWanted(it) } else emptyList()
+        val old = if (Files.exists(file)) Files.readAllLines(file).map(String::trim) else emptyList()
+        val others = old.filter { it.isNotEmpty() && isWanted(it) }
         write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }
 

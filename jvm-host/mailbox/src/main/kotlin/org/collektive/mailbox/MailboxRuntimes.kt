@@ -39,8 +39,10 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     private var outbound = Messages(emptyMap(), null)
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
-        inbound = Inbound((0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NOBODY) })
-        val round: AggregateResult<Int, Any?> = Collektive.aggregate(localId = id, network = this, previousState = state) { program.run(this, sensors) }
+        val messages = (0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NOBODY) }
+        inbound = Inbound(messages)
+        val round: AggregateResult<Int, Any?> =
+            Collektive.aggregate(localId = id, network = this, previousState = state) { program.run(this, sensors) }
         round.newState.forEach(::allow)
         newState = round.newState
         return round.result

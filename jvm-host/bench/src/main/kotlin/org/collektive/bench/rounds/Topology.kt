@@ -5,7 +5,11 @@ import kotlin.math.sqrt
 import kotlin.random.Random
 
 /** Devices in the plane with symmetric links. Ids are 0 until [size]; neighbours are in ascending order. */
-public class Topology internal constructor(internal val x: DoubleArray, internal val y: DoubleArray, internal val neighbors: Array<IntArray>) {
+public class Topology internal constructor(
+    internal val x: DoubleArray,
+    internal val y: DoubleArray,
+    internal val neighbors: Array<IntArray>,
+) {
     internal val size: Int get() = x.size
 
     internal fun distance(a: Int, b: Int): Double {

@@ -75,7 +75,8 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
         override val name get() = "gradient-ascent"
 
         @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? = (aggregate as Aggregate<Int>).gradientAscent(sensors as SensorData, device)
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? =
+            (aggregate as Aggregate<Int>).gradientAscent(sensors as SensorData, device)
 
         override fun describe(failure: Throwable, place: String?): String = failure.toString()
     }

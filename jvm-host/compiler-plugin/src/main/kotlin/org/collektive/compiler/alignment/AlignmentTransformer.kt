@@ -272,7 +272,8 @@ internal class AlignmentTransformer(
     /** Generates `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }`. */
     private fun IrBlockBuilder.noteAndRethrow(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
         val failure = buildVariable(
-            scope.getLocalDeclarationParent(), startOffset, endOffset, IrDeclarationOrigin.CATCH_PARAMETER, Name.identifier("failure"), plugin.irBuiltIns.throwableType,
+            scope.getLocalDeclarationParent(), startOffset, endOffset,
+            IrDeclarationOrigin.CATCH_PARAMETER, Name.identifier("failure"), plugin.irBuiltIns.throwableType,
         )
         val note = irCall(dsl.noteFailure).apply {
             arguments[0] = aggregate()

@@ -262,8 +262,8 @@ public class Field<ID : Any, out T> private constructor(
     private fun requireAligned(other: Field<ID, *>) {
         check((ids === other.ids || ids.contentEquals(other.ids)) && context.localId == other.context.localId) {
             context.withPlace(
-                "fields of different devices cannot be combined: one has values for ${all.ids.list}, the other for ${other.all.ids.list}; " +
-                    "make both at one place of the program",
+                "fields of different devices cannot be combined: one has values for ${all.ids.list}, " +
+                    "the other for ${other.all.ids.list}; make both at one place of the program",
             )
         }
     }

@@ -24,6 +24,7 @@ internal class Programs(private val byName: Map<String, LoadedProgram>, default:
 
     private inline fun find(name: String, who: () -> String) = byName[name] ?: throw HostException(
         HostError.PROGRAM,
-        "${who()} wants the program '$name', which is in none of the jars; there are ${byName.keys}. Correct the name, or build the jar that has it",
+        "${who()} wants the program '$name', which is in none of the jars; there are ${byName.keys}. " +
+            "Correct the name, or build the jar that has it",
     )
 }

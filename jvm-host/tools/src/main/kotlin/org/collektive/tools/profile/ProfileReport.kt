@@ -61,7 +61,8 @@ internal class ProfileReport {
         phase("  rounds", ticks.map { it.getDuration("rounds") })
         phase("  answer", ticks.map { it.getDuration("write") })
         phase("between ticks", ticks.map { it.getDuration("wait") })
-        line("  %-22s %7.1f kB %7.1f kB", "frame in, out (median)", ticks.map { it.getLong("bytesIn") / KILO }.middle(), ticks.map { it.getLong("bytesOut") / KILO }.middle())
+        val (bytesIn, bytesOut) = listOf("bytesIn", "bytesOut").map { name -> ticks.map { it.getLong(name) / KILO }.middle() }
+        line("  %-22s %7.1f kB %7.1f kB", "frame in, out (median)", bytesIn, bytesOut)
     }
 
     private fun StringBuilder.phase(name: String, times: List<Duration>) {
@@ -127,7 +128,8 @@ internal class ProfileReport {
             total += count
         }
 
-        fun top(): List<Map.Entry<String, Long>> = counts.entries.sortedWith(compareByDescending<Map.Entry<String, Long>> { it.value }.thenBy { it.key }).take(TOP)
+        fun top(): List<Map.Entry<String, Long>> =
+            counts.entries.sortedWith(compareByDescending<Map.Entry<String, Long>> { it.value }.thenBy { it.key }).take(TOP)
     }
 
     internal companion object {

@@ -17,7 +17,8 @@ internal object ObjectDifference {
     }
 
     private fun ofIds(left: Set<Int>, right: Set<Int>, field: String): Difference? =
-        (left + right).sorted().find { it !in left || it !in right }?.let { Difference("node $it", field, presence(it in left), presence(it in right)) }
+        (left + right).sorted().find { it !in left || it !in right }
+            ?.let { Difference("node $it", field, presence(it in left), presence(it in right)) }
 
     private fun ofArrays(left: List<Any?>, right: List<Any?>, whose: String, field: String): Difference? {
         val owners = (left + right).map { it?.let(::owner) }
@@ -53,7 +54,8 @@ internal object ObjectDifference {
 
     private fun items(array: Any): List<Any?> = List(java.lang.reflect.Array.getLength(array)) { java.lang.reflect.Array.get(array, it) }
 
-    private fun fields(value: Any) = value.javaClass.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.onEach { it.isAccessible = true }
+    private fun fields(value: Any) =
+        value.javaClass.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.onEach { it.isAccessible = true }
 
     private fun isLeaf(value: Any) = value is Number || value is String || value is Boolean
 

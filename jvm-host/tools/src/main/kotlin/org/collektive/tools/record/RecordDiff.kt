@@ -16,7 +16,9 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
     fun run(): Boolean {
         val types = left.settings.types
         for ((name, hash) in types.entries + right.settings.types.entries) {
-            if (types[name] != hash || right.settings.types[name] != hash) throw RecordRefused("the records are of different schemas: type $name differs")
+            if (types[name] != hash || right.settings.types[name] != hash) {
+                throw RecordRefused("the records are of different schemas: type $name differs")
+            }
         }
         if (left.settings.schema() != right.settings.schema()) {
             throw RecordRefused("the records are of different schemas: ${left.settings.schema()} in A, ${right.settings.schema()} in B")

@@ -47,7 +47,9 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
 private fun replay(arguments: List<String>, report: Report): Int {
     val file = arguments.firstOrNull() ?: throw RecordRefused("replay: name a record")
     val jars = arguments.drop(1).chunked(2).map { option ->
-        if (option.first() != "--programs" || option.size < 2) throw RecordRefused("replay: '${option.first()}' is no option, or lacks its value")
+        if (option.first() != "--programs" || option.size < 2) {
+            throw RecordRefused("replay: '${option.first()}' is no option, or lacks its value")
+        }
         JarBytes.read(option[1])
     }
     Record.open(path(file)).use { record ->

@@ -56,7 +56,8 @@ internal class Replay(private val record: Record, private val programs: List<Jar
                 if (!isEqual && (now is StepResponseReader) != (step.answer != null)) break
             }
         } finally {
-            report.line("$ticks ticks replayed, ${if (isEqual) "every digest is that of the record" else "not all as recorded"}; the last digest is ${hex(digest)}")
+            val verdict = if (isEqual) "every digest is that of the record" else "not all as recorded"
+            report.line("$ticks ticks replayed, $verdict; the last digest is ${hex(digest)}")
             if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; in the record $recordedFailedRounds")
         }
         return isEqual

@@ -58,5 +58,6 @@ internal fun <Shared> Aggregate<*>.serialized(type: KType): DataSharingMethod<Sh
     Serialize(serializer(type) as KSerializer<Shared>)
 } catch (cause: SerializationException) {
     val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
-    throw SerializationException(withPlace("values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"), cause)
+    val message = "values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"
+    throw SerializationException(withPlace(message), cause)
 }
