@@ -36,7 +36,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     public var linkCount: Int = 0
         private set
 
-    /** Announces a tick, so that the threads wake up while its frame is prepared. */
+    /** Announces a tick, so that the threads wake up while its frame is read. */
     public fun wake() {
         pool.wake()
     }

@@ -5,7 +5,7 @@ import org.collektive.engine.RoundThread
 
 /** Samples the rounds that become events: one in [EVERY] per thread. An event for every round would cost more than a short round. */
 public object ProgramRounds {
-    /** A prime, so that each tick samples other nodes, whatever their number. */
+    /** A prime, so that the sampled nodes change from tick to tick. */
     public const val EVERY: Int = 17
 
     /** Only answers whether such events are enabled. Its class loads on first use. */

@@ -5,8 +5,11 @@ import java.nio.ByteBuffer
 /** The shim's native functions. The shim registers them before it calls the host. */
 public object Shim {
     /**
-     * Grows the buffer of [slot] to at least [capacity] bytes and returns it; `null` when memory is exhausted. The shim owns the buffer.
-     * The old one stays readable until the host call returns.
+     * Grows the buffer of [slot] to at least [capacity] bytes and returns it. Call it on the engine thread. The shim owns the buffer; the
+     * old one stays readable until the host call returns.
+     *
+     * @throws OutOfMemoryError when memory is exhausted; other implementations of [ShimCalls] may return `null`.
+     * @throws IllegalStateException when [slot] is not the answer slot of the running call.
      */
     @JvmStatic
     public external fun grow(slot: Long, capacity: Int): ByteBuffer?
