@@ -1,13 +1,9 @@
-// The same modules as jvm-host/pom.xml, which names all versions.
+// The modules of jvm-host for those who live in Gradle or IntelliJ; CI and ./collektive use jvm-host/pom.xml.
 pluginManagement {
+    includeBuild("gradle/build-logic")
     repositories {
         mavenCentral()
         gradlePluginPortal()
-    }
-    val pom = rootDir.resolve("jvm-host/pom.xml").readText()
-    val kotlinVersion = checkNotNull(Regex("<kotlin\\.version>(.+?)</").find(pom)).groupValues[1]
-    plugins {
-        id("org.jetbrains.kotlin.jvm") version kotlinVersion
     }
 }
 
@@ -19,7 +15,25 @@ dependencyResolutionManagement {
 
 rootProject.name = "collektive"
 
-for (module in listOf("flatbuffers", "dsl", "runtime", "stdlib", "compiler-plugin", "api", "generator", "engine", "host", "programs", "bench")) {
+val modules = listOf(
+    "flatbuffers",
+    "spi",
+    "dsl",
+    "runtime",
+    "mailbox",
+    "compiler-plugin",
+    "stdlib",
+    "api",
+    "engine",
+    "generator",
+    "frames",
+    "host",
+    "tools",
+    "programs",
+    "bench",
+    "architecture",
+)
+for (module in modules) {
     include(module)
     project(":$module").projectDir = file("jvm-host/$module")
 }

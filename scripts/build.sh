@@ -24,7 +24,7 @@ build_shim() {
 }
 
 jvm_fingerprint() {
-  fingerprint "$ROOT/jvm-host" "$ROOT/schema" "$ROOT"/unity/Samples~/*/*.fbs
+  fingerprint "$ROOT"/jvm-host/pom.xml "$ROOT"/jvm-host/*/{pom.xml,src} "$ROOT/schema" "$ROOT"/unity/Samples~/*/*.fbs
   cat "$BUILD/stamp/flatbuffers"
 }
 

@@ -1,40 +1,33 @@
 package org.collektive.architecture
 
 import org.w3c.dom.Element
-import java.io.File
-import javax.xml.parsers.DocumentBuilderFactory
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
 /** Compares `docs/architecture.md` with the modules' POMs. */
 class ModulesTest {
-    private val root = File(System.getProperty("collektive.root"))
+    private val page = Poms.root.resolve("docs/architecture.md").readText()
 
     @Test
     fun `the diagram shows the dependencies of all modules`() {
         val arrow = Regex("""^ +([a-z-]+) (-->|-\.->) ([a-z-]+)$""", RegexOption.MULTILINE)
-        val drawn = arrow.findAll(root.resolve("docs/architecture.md").readText()).map { it.value.trim() }.sorted().toList()
+        val drawn = arrow.findAll(page).map { it.value.trim() }.sorted().toList()
         assertEquals(modules().flatMap(::arrows).sorted(), drawn)
     }
 
     @Test
     fun `the table names every module`() {
         val row = Regex("""^\| `([a-z-]+)` \|""", RegexOption.MULTILINE)
-        val listed = row.findAll(root.resolve("docs/architecture.md").readText()).map { it.groupValues[1] }.toSet()
+        val listed = row.findAll(page).map { it.groupValues[1] }.toSet()
         assertEquals(modules().toSet(), listed.intersect(modules().toSet()))
     }
 
-    private fun modules() = elements(root.resolve("jvm-host/pom.xml"), "module").map { it.textContent } - "architecture"
+    private fun modules() = Poms.modules - "architecture"
 
     /** A solid arrow is a dependency of the module's classes; a dotted one of its build only, to generate or compile sources. */
-    private fun arrows(module: String): List<String> = elements(root.resolve("jvm-host/$module/pom.xml"), "dependency")
+    private fun arrows(module: String): List<String> = Poms.elements(Poms.of(module), "dependency")
         .filter { it.text("groupId") == "org.collektive" && it.text("scope") != "test" }
         .map { "$module ${if (it.text("artifactId") in BUILD_TOOLS) "-.->" else "-->"} ${it.text("artifactId")}" }
-
-    private fun elements(pom: File, name: String): List<Element> {
-        val found = DocumentBuilderFactory.newInstance().newDocumentBuilder().parse(pom).getElementsByTagName(name)
-        return (0 until found.length).map { found.item(it) as Element }
-    }
 
     private fun Element.text(name: String) = getElementsByTagName(name).item(0)?.textContent
 

@@ -1,0 +1,8 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
+
+dependencies {
+    api(libs.serialization.core)
+    kotlinCompilerPluginClasspathMain(libs.kotlin.serialization)
+}

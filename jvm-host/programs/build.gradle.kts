@@ -1,0 +1,38 @@
+import org.collektive.gradle.GeneratorJava
+
+plugins {
+    id("org.collektive.kotlin-module")
+    id("org.collektive.flatbuffers")
+}
+
+val generatorPath = configurations.create("generatorPath") {
+    isCanBeConsumed = false
+}
+
+dependencies {
+    compileOnly(project(":host"))
+    generatorPath(project(":generator"))
+    kotlinCompilerPluginClasspathMain(project(":compiler-plugin"))
+    testImplementation(project(":host"))
+}
+
+val schemaCode = tasks.register<GeneratorJava>("schemaCode") {
+    generator.from(generatorPath)
+    schemas.from(fileTree("$rootDir/unity/Samples~") { include("*/*.fbs") })
+    product = "--java"
+}
+
+sourceSets.main {
+    java.srcDir(schemaCode)
+}
+
+// By which the host finds the schemas.
+tasks.processResources {
+    from(schemaCode) {
+        include("META-INF/services/*")
+    }
+}
+
+tasks.jar {
+    archiveFileName = "collektive-programs.jar"
+}

@@ -1,0 +1,3 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
