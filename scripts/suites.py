@@ -59,6 +59,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("acceptance", ["test_acceptance"], [*built, "build_replay_page", "setup_python"]),
         Suite("quick", ["test_acceptance_quick"], [*built, "build_replay_page", "setup_python"], quick=True, label="acceptance-quick"),
         Suite("bench", ["test_bench"], [*built, "setup_python"]),
+        Suite("gradle", ["test_gradle"], ["build_jvm", "setup_python"]),
     ]
 
 
@@ -143,6 +144,9 @@ def main(names: list[str]) -> int:
     ready: set[str] = set()
     cases: list[junit.Case] = []
     for suite in suites:
+        if suite.name == "gradle" and not shutil.which(os.environ.get("COLLEKTIVE_GRADLE", "gradle")):
+            say("test gradle: skipped, there is no Gradle on the PATH, nor one that COLLEKTIVE_GRADLE names")
+            continue
         if suite.nunit and suite.name not in names and not has_nunit():
             say(f"test {suite.title}: skipped, this system has no package of NUnit 2.6")
             continue

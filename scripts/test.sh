@@ -7,7 +7,8 @@ help_test() {
   cat <<'H'
 usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --sanitize | bare [ROOT]...
 
-Builds and tests everything, or the suites named: lint, scripts, jvm, shim, csharp, assets, faults, exits, roundtrip, page, acceptance, bench.
+Builds and tests everything, or the suites named: lint, scripts, jvm, shim, csharp, assets, faults, exits, roundtrip, page, acceptance, bench,
+gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in under six minutes: most suites on one JDK, and a short acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
@@ -262,6 +263,9 @@ test_acceptance_quick() {
   unlock
   python_tests "$1" "$ROOT/scripts/acceptance" -m quick -n 2 --dist loadgroup
 }
+
+# test_gradle RESULTS: compares what Gradle makes of the JVM side with what Maven made.
+test_gradle() { python_tests "$1" "$ROOT/scripts/gradle"; }
 
 test_bench() {
   unlock
