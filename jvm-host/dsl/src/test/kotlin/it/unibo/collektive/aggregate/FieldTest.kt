@@ -1,11 +1,8 @@
-package org.collektive.runtime
+@file:OptIn(DelicateCollektiveApi::class)
 
-import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.neighboring
-import it.unibo.collektive.aggregate.ids
-import it.unibo.collektive.aggregate.toMap
-import it.unibo.collektive.aggregate.values
+package it.unibo.collektive.aggregate
+
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import org.junit.jupiter.api.Test
 import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
@@ -15,16 +12,13 @@ import kotlin.test.assertNotEquals
 import kotlin.test.assertTrue
 
 class FieldTest {
-    /** Runs [test] on a field of device 5. Its neighbours 1, 3 and 1000 (beyond the cache of boxed ints) sent their id times ten. */
-    private fun field(test: Aggregate<Int>.(Field<Int, Int>) -> Unit) {
-        val network = TestNetwork(5, 1000, 1, 3)
-        for (id in listOf(1, 3, 1000)) network.link(id, 5)
-        network.values { neighboring(localId * 10).local.value }
-        network.values(5) { test(neighboring(localId * 10)) }
-    }
+    private val device = StandInDevice(5)
+
+    /** A field of device 5, whose neighbours 1, 3 and 1000 (beyond the cache of boxes) sent their id times ten. */
+    private val f = device.field(listOf(1, 3, 1000), listOf(10, 30, 10_000), local = 50)
 
     @Test
-    fun `entries are in ascending order, this device's last`() = field { f ->
+    fun `entries are in ascending order, the own one last`() {
         assertEquals(listOf(1, 3, 1000), f.neighbors.ids.list)
         assertEquals(listOf(10, 30, 10000), f.neighbors.values.list)
         assertEquals(listOf(1, 3, 1000, 5), f.all.ids.list)
@@ -35,7 +29,7 @@ class FieldTest {
     }
 
     @Test
-    fun `collapses are collections`() = field { f ->
+    fun `collapses are collections`() {
         assertEquals(3, f.neighbors.size)
         assertEquals(4, f.all.size)
         assertTrue(3 in f.neighbors.ids)
@@ -46,14 +40,14 @@ class FieldTest {
     }
 
     @Test
-    fun `get finds neighbours and the device itself, and throws for others`() = field { f ->
+    fun `get finds neighbours and the device itself, and no other`() {
         assertEquals(listOf(10, 30, 50, 10000), listOf(1, 3, 5, 1000).map { f[it] })
         val error = assertFailsWith<NoSuchElementException> { f[4] }
         assertEquals("the field has no value for device 4, only for [1, 3, 1000, 5] [node 5 at root]", error.message)
     }
 
     @Test
-    fun `map runs once per entry`() = field { f ->
+    fun `map runs once per entry`() {
         val seen = ArrayList<Int>()
         val mapped = f.map { (id, value) -> value + id.also(seen::add) }
         assertContentEquals(listOf(1, 3, 1000, 5), seen)
@@ -63,13 +57,13 @@ class FieldTest {
     }
 
     @Test
-    fun `mapValues and mapToConstant`() = field { f ->
+    fun `mapValues and mapToConstant`() {
         assertEquals(listOf("10", "30", "10000", "50"), f.mapValues(Int::toString).all.values.list)
         assertEquals(listOf<Any?>(null, null, null, null), f.mapToConstant(null).all.values.list)
     }
 
     @Test
-    fun `fields of the same devices combine`() = field { f ->
+    fun `fields of the same devices combine`() {
         val ids = f.map { it.id }
         assertEquals(f.mapValues { it * 11 / 10 }, f.alignedMapValues(ids) { value, id -> value + id })
         assertEquals(f.mapValues { 2 * it }, f.alignedMap(f) { id, a, b -> if (id == a / 10) a + b else -1 })
@@ -84,20 +78,52 @@ class FieldTest {
     }
 
     @Test
-    fun `fields of different devices do not combine`() = field { f ->
-        val alone = alignedOn("elsewhere") { listOf(neighboring(1)) }.single()
+    fun `fields of different devices do not combine`() {
+        val alone = device.field(emptyList(), emptyList(), local = 1)
         val error = assertFailsWith<IllegalStateException> { f.alignedMapValues(alone) { a, b -> a + b } }
-        assertTrue("one has values for [1, 3, 1000, 5], the other for [5]" in error.message.orEmpty(), error.message)
+        assertEquals(
+            "fields of different devices cannot be combined: one has values for [1, 3, 1000, 5], the other for [5]; " +
+                "make both at one place of the program [node 5 at root]",
+            error.message,
+        )
     }
 
     @Test
-    fun `a field cannot be a value of a field`() = field { f ->
+    fun `a field is no value of a field`() {
         assertFailsWith<IllegalStateException> { f.mapValues { f } }
         assertFailsWith<IllegalStateException> { f.mapToConstant(f) }
     }
 
     @Test
-    fun `fields are equal when their maps are`() = field { f ->
+    fun `what maps one entry is aligned on its id, however it ends`() {
+        val paths = ArrayList<List<Any?>>()
+        f.map { paths += device.path }
+        assertEquals(listOf(listOf<Any?>(1), listOf(3), listOf(1000), listOf(5)), paths)
+        assertFailsWith<IllegalStateException> { f.mapValues<Int> { error("broken") } }
+        assertEquals(emptyList(), device.path)
+    }
+
+    @Test
+    fun `a receiver without a value of its own gets the local one`() {
+        assertEquals(listOf(10, 30, 10_000, 50, 50), listOf(1, 3, 1000, 5, 4).map(f::getOrLocal))
+    }
+
+    @Test
+    fun `ids need no order when they are no numbers`() {
+        val named = StandInDevice("b").field(listOf("z", "a"), listOf(1, 2), local = 3)
+        assertEquals(listOf(1, 2, 3), listOf("z", "a", "b").map { named[it] })
+        assertFailsWith<NoSuchElementException> { named["c"] }
+    }
+
+    @Test
+    fun `only a field made of one value is known to be constant`() {
+        assertTrue(f.mapToConstant(1).isConstant)
+        assertFalse(f.mapValues { 1 }.isConstant)
+        assertEquals(3, f.mapToConstant(1).neighborCount)
+    }
+
+    @Test
+    fun `equality is that of the maps`() {
         assertEquals(f, f.mapValues { it + 1 }.mapValues { it - 1 })
         assertEquals(f.hashCode(), f.mapValues { it }.hashCode())
         assertNotEquals(f, f.mapValues { it + 1 })
@@ -107,7 +133,7 @@ class FieldTest {
     }
 
     @Test
-    fun `an entry maps its value, and keeps its id`() = field { f ->
+    fun `an entry maps its value, and keeps its id`() {
         assertEquals(5 to 51, f.local.mapValue { it + 1 }.let { (id, value) -> id to value })
         assertEquals(5 to 55, f.local.map { it.id + it.value }.let { (id, value) -> id to value })
     }

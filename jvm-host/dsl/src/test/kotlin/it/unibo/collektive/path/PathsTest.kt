@@ -1,8 +1,5 @@
-package org.collektive.runtime
+package it.unibo.collektive.path
 
-import it.unibo.collektive.path.DigestHashingFactory
-import it.unibo.collektive.path.FullPathFactory
-import it.unibo.collektive.path.Path
 import kotlinx.serialization.json.Json
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals

@@ -1,0 +1,55 @@
+package it.unibo.collektive.aggregate
+
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** What a program sees of a field as collections. */
+class CollapseTest {
+    private val field = StandInDevice(2).field(listOf(1, 3, 4), listOf("a", "b", "a"), local = "own")
+    private val alone = StandInDevice(2).field(emptyList(), emptyList(), local = "own")
+
+    @Test
+    fun `the neighbours come in order, without the device itself`() {
+        assertEquals(listOf(FieldEntry(1, "a"), FieldEntry(3, "b"), FieldEntry(4, "a")), field.neighbors.list)
+        assertEquals(listOf(1, 3, 4), field.neighbors.ids.list)
+        assertEquals(listOf("a", "b", "a"), field.neighbors.values.list)
+    }
+
+    @Test
+    fun `all are the neighbours, then the device itself`() {
+        assertEquals(field.neighbors.list + FieldEntry(2, "own"), field.all.list)
+        assertEquals(listOf(1, 3, 4, 2), field.all.ids.list)
+        assertEquals(listOf("a", "b", "a", "own"), field.all.values.list)
+    }
+
+    @Test
+    fun `sets drop repetition, sequences keep it`() {
+        assertEquals(setOf("a", "b"), field.neighbors.values.set)
+        assertEquals(listOf("a", "b", "a"), field.neighbors.values.sequence.toList())
+    }
+
+    @Test
+    fun `size and contains are those of the elements`() {
+        assertEquals(listOf(3, 4), listOf(field.neighbors.size, field.all.size))
+        assertTrue("own" in field.all.values)
+        assertFalse("own" in field.neighbors.values)
+        assertTrue(FieldEntry(3, "b") in field.neighbors)
+        assertFalse(FieldEntry(3, "a") in field.neighbors)
+    }
+
+    @Test
+    fun `a map has the values by id`() {
+        assertEquals(mapOf(1 to "a", 3 to "b", 4 to "a"), field.neighbors.toMap())
+        assertEquals(listOf(1, 3, 4, 2), field.all.toMap().keys.toList())
+    }
+
+    @Test
+    fun `without neighbours only the device itself is there`() {
+        assertEquals(emptyList(), alone.neighbors.values.list)
+        assertEquals(listOf("own"), alone.all.values.list)
+        assertFailsWith<IndexOutOfBoundsException> { alone.neighbors.list[0] }
+    }
+}

@@ -1,0 +1,41 @@
+package org.collektive.alignment
+
+import it.unibo.collektive.aggregate.StandInDevice
+import it.unibo.collektive.aggregate.toMap
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertNull
+import kotlin.test.assertSame
+
+/** What compiled programs call, on a device that offers no [AlignmentStack]. */
+class CompiledProgramsTest {
+    @Test
+    fun `tokens are pivots of the device's own stack`() {
+        val device = StandInDevice(1)
+        val outer = pushToken(device, "outer")
+        val inner = pushToken(device, "inner")
+        assertEquals(listOf<Any?>("outer", "inner"), device.path)
+        popToken(device, inner)
+        popToken(device, outer)
+        assertEquals(emptyList(), device.path)
+    }
+
+    @Test
+    fun `code without a device has no stack`() = popToken(null, pushToken(null, "outer"))
+
+    @Test
+    fun `a projected field has those that are aligned at the token`() {
+        val device = StandInDevice(1, aligned = listOf(3, 4))
+        val field = device.field(listOf(2, 3, 4), listOf(20, 30, 40), local = 10)
+        assertEquals(mapOf(3 to 30, 4 to 40, 1 to 10), project(field, "branch")?.all?.toMap())
+        assertEquals(emptyList(), device.path)
+    }
+
+    @Test
+    fun `a field of which all are aligned stays what it is`() {
+        val device = StandInDevice(1, aligned = listOf(2, 3))
+        val field = device.field(listOf(2, 3), listOf(20, 30), local = 10)
+        assertSame(field, project(field, "branch"))
+        assertNull(project<Int, Int>(null, "branch"))
+    }
+}
