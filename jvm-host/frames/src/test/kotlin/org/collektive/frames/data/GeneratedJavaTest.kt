@@ -53,6 +53,15 @@ internal class GeneratedJavaTest {
     }
 
     @Test
+    fun `a table without fields is read beside tables with fields`() {
+        val schema = GeneratedSchemas.of(
+            "namespace test.bare; table Nothing {} table SensorData { x: int; nothing: Nothing; } table ActuatorData { x: float; }",
+            "test.bare.UserSchema",
+        )
+        read(schema, SensorFrames.sensors(schema, 3, random))
+    }
+
+    @Test
     fun `the ranges of struct results hold exactly their bytes`() {
         val results = Array<Any?>(3) { Objects.random(GeneratedSchemas.blocks.actuatorType, random) }
         val (bytes, ranges) = write(GeneratedSchemas.blocks, results)

@@ -18,12 +18,18 @@ internal object GeneratedSchemas {
         Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
     }
 
-    private fun load(schema: String, name: String): DataSchema {
+    /** The schema of the text [schema], whose generated code has the class [name]. */
+    fun of(schema: String, name: String): DataSchema =
+        load(Files.writeString(Files.createTempDirectory(work, "schema").resolve("user.fbs"), schema), name)
+
+    private fun load(schema: String, name: String): DataSchema = load(root.resolve("schema/test/$schema"), name)
+
+    private fun load(schema: Path, name: String): DataSchema {
         val java = Files.createTempDirectory(work, "java")
         val classes = Files.createTempDirectory(work, "classes")
         generate(
             arrayOf(
-                "--flatc", System.getProperty("collektive.flatc"), "--schema", root.resolve("schema/test/$schema").toString(),
+                "--flatc", System.getProperty("collektive.flatc"), "--schema", "$schema",
                 "--include", root.resolve("schema").toString(), "--java", java.toString(),
             ),
         )
