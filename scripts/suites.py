@@ -48,6 +48,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint"], quick=True),
         Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers"], quick=True),
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
+        Suite("stress", ["test_stress"], ["build_jvm"]),
         *(Suite("shim", ["test_shim", jdk], ["build_native"], [jdk] == newest, label="shim-on-" + os.path.basename(jdk)) for jdk in jdks),
         Suite("csharp", ["test_unity"], nunit, quick=True, nunit=True, label="unity"),
         *(Suite("csharp", ["test_csharp", jdk], nunit, [jdk] == newest, True, "csharp-on-" + os.path.basename(jdk)) for jdk in jdks),

@@ -5,14 +5,16 @@ PYTHON="$BUILD/python/bin/python"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --sanitize | bare [ROOT]...
+usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES] | bare [ROOT]...
 
-Builds and tests everything, or the suites named: lint, scripts, jvm, shim, csharp, assets, faults, exits, roundtrip, page, acceptance, bench,
-gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
+Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
+bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in under six minutes: most suites on one JDK, and a short acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
+  --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
   --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
+  fuzz        frames of any bytes against open, step and control, 5 minutes each or MINUTES; what it learns stays in build/fuzz
   bare        the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
               as root; one whose packages cannot be had is skipped
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. Results are read from the JUnit XML files of
@@ -24,6 +26,8 @@ H
 cmd_test() {
   case ${1:-} in
     --faults) at_length faults_at_length "${*:2}" ;;
+    --stress) stress_at_length ;;
+    fuzz) test_fuzz "${@:2}" ;;
     --exits | --sanitize)
       [ $# = 1 ] || fail "test: $1 takes no arguments"
       at_length "${1#--}_at_length"

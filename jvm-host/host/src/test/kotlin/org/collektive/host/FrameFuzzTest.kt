@@ -5,6 +5,7 @@ import org.junit.jupiter.api.Timeout
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.random.Random
+import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
@@ -70,20 +71,22 @@ class FrameFuzzTest {
         val session = TestSession(shim).apply { open() }
         val frame = Step(1).bytes()
         for ((offset, length) in listOf(-1 to 8, 0 to frame.capacity() + 1, 4 to frame.capacity(), 0 to 0, Int.MAX_VALUE to 8, 0 to -5)) {
-            val code = Host.step(1_000_000, frame, offset, length, 1, ByteBuffer.allocateDirect(64), 1000)
-            assertTrue(code == -3L, "no such session")
+            assertEquals(-12L, session.step(frame, offset = offset, length = length), shim.error)
+            assertContains(shim.error, "do not lie in its slot of ${frame.capacity()} bytes")
             assertEquals(-12L, Host.open(1_000_000, frame, offset, length, 1, ByteBuffer.allocateDirect(64), 1000))
         }
+        assertTrue(session.step(frame) >= 0, shim.error)
         session.close()
     }
 
     @Test
     fun `damaged open requests`() {
+        Host.shim = shim
         val random = Random(8)
         repeat(500) {
             val bytes = direct(random.nextBytes(random.nextInt(1, 200)))
             val code = Host.open(1_000_001, bytes, 0, bytes.capacity(), 1, ByteBuffer.allocateDirect(64), 1000)
-            assertTrue(code in listOf(-11L, -12L, -13L, -14L), "$code: ${shim.error}")
+            assertEquals(-12L, code, shim.error)
         }
     }
 
@@ -117,7 +120,4 @@ class FrameFuzzTest {
         }
         return direct(bytes)
     }
-
-    private fun direct(bytes: ByteArray): ByteBuffer =
-        ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
 }

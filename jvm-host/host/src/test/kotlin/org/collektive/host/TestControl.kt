@@ -9,6 +9,25 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.test.assertTrue
 
+/** A `ControlRequest`, as C# would write it. */
+internal fun controlFrame(
+    flags: List<String> = emptyList(),
+    recording: Int = RecordingAction.Nothing,
+    settings: String = "default",
+    path: String = "",
+    collect: Boolean = false,
+): ByteBuffer {
+    val builder = FlatBufferBuilder(256)
+    val names = flags.map { builder.createString(it) }
+    builder.finish(
+        ControlRequest.createControlRequest(
+            builder, ControlRequest.createFlagsVector(builder, names.toIntArray()), collect, recording,
+            builder.createString(settings), builder.createString(path),
+        ),
+    )
+    return direct(builder)
+}
+
 /** A separate [Control], called as C# calls it. */
 internal class TestControl(private val shim: TestShim) {
     private val control = Control(shim)
@@ -21,16 +40,9 @@ internal class TestControl(private val shim: TestShim) {
         path: String = "",
         collect: Boolean = false,
     ): ControlResponse {
-        val builder = FlatBufferBuilder(256)
-        val names = flags.map { builder.createString(it) }
-        builder.finish(
-            ControlRequest.createControlRequest(
-                builder, ControlRequest.createFlagsVector(builder, names.toIntArray()), collect, recording,
-                builder.createString(settings), builder.createString(path),
-            ),
-        )
+        val frame = controlFrame(flags, recording, settings, path, collect)
         shim.grown = null
-        val result = control.answer(direct(builder), 7, answer)
+        val result = control.answer(frame, 7, answer)
         shim.grown?.let { answer = it }
         val offset = (result ushr 32).toInt()
         val bytes = answer.duplicate().order(ByteOrder.LITTLE_ENDIAN).clear().position(offset).limit(offset + result.toInt())

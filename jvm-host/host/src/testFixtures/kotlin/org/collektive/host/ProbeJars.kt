@@ -10,6 +10,7 @@ import kotlin.io.path.copyToRecursively
 import kotlin.io.path.createDirectories
 import kotlin.io.path.createTempDirectory
 import kotlin.io.path.extension
+import kotlin.io.path.readText
 import kotlin.io.path.walk
 import kotlin.io.path.writeText
 import org.collektive.generator.main as generate
@@ -25,6 +26,15 @@ internal object ProbeJars {
 
     /** A jar with the schema `probe.ProbeSchema` and the programs "sum" and "probe". */
     val programs: Path by lazy { jar("programs", generated, root.resolve("jvm-host/host/src/test/programs")) }
+
+    /** The same schema, and only the program "sum", which does no harm whatever its sensors say. */
+    val harmless: Path by lazy {
+        val probe = root.resolve("jvm-host/host/src/test/programs/probe/Programs.java").readText()
+        val folder = createTempDirectory(work, "harmless")
+        val end = probe.indexOf("  @Program(name = \"probe\")")
+        folder.resolve("probe").createDirectories().resolve("Programs.java").writeText(probe.substring(0, end) + "}\n")
+        jar("harmless", generated, folder)
+    }
 
     /** [programs] with `other.OtherSchema` added, and [java] as `other/Programs.java`. */
     fun withOtherSchema(java: String): Path {

@@ -105,9 +105,35 @@ internal class Step(val tick: Long) {
     }
 }
 
-internal fun direct(builder: FlatBufferBuilder): ByteBuffer {
-    val bytes = builder.sizedByteArray()
-    return ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
+internal fun direct(builder: FlatBufferBuilder): ByteBuffer = direct(builder.sizedByteArray())
+
+internal fun direct(bytes: ByteArray): ByteBuffer =
+    ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
+
+/** An `OpenRequest`, as C# would write it. */
+internal fun openFrame(
+    jars: List<String>,
+    program: String = "sum",
+    threads: Int = 2,
+    schedule: Int = 0,
+    protocol: Long = 1,
+    schema: String = "probe.ProbeSchema",
+    types: Map<String, Long> = ProbeSchema.types,
+    network: List<Double>? = null,
+    record: String = "",
+): ByteBuffer {
+    val builder = FlatBufferBuilder(1024)
+    val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
+    val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5]) } ?: 0
+    val paths = jars.map { builder.createString(it) }
+    builder.finish(
+        OpenRequest.createOpenRequest(
+            builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
+            builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
+            builder.createString(program), networkTable, builder.createString(record),
+        ),
+    )
+    return direct(builder)
 }
 
 /** A session of the real [Host], called as the shim calls it. */
@@ -124,25 +150,15 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         types: Map<String, Long> = ProbeSchema.types,
         network: List<Double>? = null,
         record: String = "",
-    ): Long {
-        val builder = FlatBufferBuilder(1024)
-        val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
-        val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5]) } ?: 0
-        val paths = jars.map { builder.createString(it) }
-        builder.finish(
-            OpenRequest.createOpenRequest(
-                builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
-                builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
-                builder.createString(program), networkTable, builder.createString(record),
-            ),
-        )
-        return call(direct(builder)) { request -> Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
-    }
+    ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record))
+
+    fun open(request: ByteBuffer): Long =
+        call(request) { Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
 
     fun opened(): OpenResponse = OpenResponse.getRootAsOpenResponse(response)
 
-    fun step(request: ByteBuffer, limitMillis: Int = 10_000): Long =
-        call(request) { Host.step(id, request, 0, request.capacity(), 1, answer, limitMillis) }
+    fun step(request: ByteBuffer, limitMillis: Int = 10_000, offset: Int = 0, length: Int = request.capacity()): Long =
+        call(request) { Host.step(id, request, offset, length, 1, answer, limitMillis) }
 
     /** Runs a step that must succeed, and returns its answer. */
     fun ok(step: Step): StepResponse {

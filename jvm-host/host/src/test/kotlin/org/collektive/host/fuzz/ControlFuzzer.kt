@@ -1,0 +1,55 @@
+package org.collektive.host.fuzz
+
+import org.collektive.frame.ControlResponse
+import org.collektive.frame.RecordingAction
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.frameIn
+import org.collektive.frames.session.controlRequest
+import org.collektive.host.Host
+import org.collektive.host.TestShim
+import org.collektive.host.controlFrame
+import org.collektive.host.direct
+import org.collektive.host.shim.HostError
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+
+/** A `ControlRequest` of any bytes is answered, or refused without an effect on the flight recorder. */
+internal object ControlFuzzer : Fuzzer {
+    private const val ANSWER_BYTES = 1 shl 16
+    private val shim = TestShim()
+    private val refusals = setOf(HostError.FRAME)
+
+    /** What Jazzer calls. */
+    @JvmStatic
+    fun fuzzerTestOneInput(bytes: ByteArray) {
+        run(bytes)
+    }
+
+    override fun run(bytes: ByteArray): Boolean {
+        Host.shim = shim
+        if (actsOnFiles(bytes)) return false
+        val code = Host.control(0, direct(bytes), 0, bytes.size, 1, ByteBuffer.allocateDirect(ANSWER_BYTES), LIMIT_MILLIS)
+        requireRefusal(code, refusals, shim)
+        if (code < 0) requireNoRecording()
+        return code >= 0
+    }
+
+    private fun requireNoRecording() {
+        val frame = controlFrame()
+        val answer = ByteBuffer.allocateDirect(ANSWER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
+        val place = Host.control(0, frame, 0, frame.capacity(), 1, answer, LIMIT_MILLIS)
+        check(place >= 0) { shim.error }
+        val state = ControlResponse.getRootAsControlResponse(answer.position((place ushr Int.SIZE_BITS).toInt()))
+        check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a refused control started a recording" }
+    }
+
+    /** Recordings would be read and written wherever the bytes say, and a collection takes a thousand times as long as all else. */
+    private fun actsOnFiles(bytes: ByteArray): Boolean = try {
+        val request = controlRequest(frameIn(direct(bytes), 0, bytes.size))
+        request.collect() || request.recording() in RecordingAction.Start..RecordingAction.Stop
+    } catch (_: MalformedFrameException) {
+        false
+    }
+
+    private const val LIMIT_MILLIS = 1000
+}

@@ -1,0 +1,34 @@
+package org.collektive.host.fuzz
+
+import org.collektive.host.ProbeJars
+import org.collektive.host.TestShim
+import org.collektive.host.shim.HostError
+import java.nio.file.Files
+import java.nio.file.Path
+import java.nio.file.StandardCopyOption.REPLACE_EXISTING
+
+/** Calls an entry of [org.collektive.host.Host] with bytes from anywhere. One thread. */
+internal fun interface Fuzzer {
+    /**
+     * Runs one input and returns whether it was accepted.
+     *
+     * @throws IllegalStateException when a rule is broken.
+     */
+    fun run(bytes: ByteArray): Boolean
+}
+
+/** A [code] below 0 must be one of [allowed]: all others, [HostError.JAVA] above all, stand for a defect of the host. */
+internal fun requireRefusal(code: Long, allowed: Set<HostError>, shim: TestShim) =
+    check(code >= 0 || allowed.any { it.code.toLong() == code }) { "code $code: ${shim.error}" }
+
+/** The jar that requests of the corpus name: one path on all machines, relative to the module's folder. */
+internal object FuzzedPrograms {
+    const val PATH = "target/fuzzed-programs.jar"
+
+    private val placed by lazy { Files.copy(ProbeJars.harmless, Path.of(PATH), REPLACE_EXISTING) }
+
+    /** Makes sure that it is there. */
+    fun place() {
+        placed
+    }
+}
