@@ -31,6 +31,7 @@ val modules = listOf(
     "tools",
     "programs",
     "bench",
+    "stress",
     "architecture",
 )
 for (module in modules) {

@@ -14,6 +14,7 @@ dependencies {
     generatorPath(project(":generator"))
     kotlinCompilerPluginClasspathMain(project(":compiler-plugin"))
     testImplementation(project(":host"))
+    testImplementation(project(":mailbox"))
 }
 
 val schemaCode = tasks.register<GeneratorJava>("schemaCode") {

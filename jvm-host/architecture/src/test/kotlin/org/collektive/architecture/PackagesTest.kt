@@ -12,7 +12,8 @@ import kotlin.test.assertTrue
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {
-        for (name in listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "host", "tools")) {
+        val names = listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "host", "tools")
+        for (name in names) {
             assertTrue(classes.any { it.packageName.startsWith("org.collektive.$name") }, name)
         }
     }

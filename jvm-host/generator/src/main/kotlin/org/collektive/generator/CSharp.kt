@@ -145,7 +145,8 @@ internal object CSharp {
             !canBeNotFinite(type) -> null
             type is Scalar && !field.default.real.isFinite() -> null
             type is Scalar -> "if ($absent!${csharp(type)}.IsFinite($value)) return \"${field.name}\";"
-            type is StructType -> "if ($absent$value.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
+            type is StructType ->
+                "if ($absent$value.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
             type is TableType -> "if ($member?.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
             type is VectorType -> vectorCheck(type, field, member)
             else -> null

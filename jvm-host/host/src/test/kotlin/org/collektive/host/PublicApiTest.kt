@@ -73,6 +73,7 @@ internal class PublicApiTest {
             setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet(),
         )
 
-        const val UPDATE = "mvn -f jvm-host/pom.xml -pl host -am package -Dtest=PublicApiTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
+        const val UPDATE =
+            "mvn -f jvm-host/pom.xml -pl host -am package -Dtest=PublicApiTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
     }
 }

@@ -23,6 +23,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     override fun getRendererFactory(): BaseDiagnosticRendererFactory = Texts
 
     private object Texts : BaseDiagnosticRendererFactory() {
+        @Suppress("ktlint:standard:property-naming") // The compiler's name.
         override val MAP by KtDiagnosticFactoryToRendererMap("Collektive") { map ->
             map.put(
                 FIELD_FROM_BRANCH,
