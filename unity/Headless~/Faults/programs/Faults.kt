@@ -2,12 +2,12 @@ package faults
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
+import jdk.jfr.Event
 import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
 import probe.ActuatorDataT
 import probe.SensorData
-import jdk.jfr.Event
 import java.lang.Thread.sleep
 import java.nio.ByteBuffer
 import java.util.concurrent.CountDownLatch
@@ -28,40 +28,77 @@ private val hoard = ArrayList<Any>()
 private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
     when (fault) {
         "none" -> {}
+
         "throw" -> error("thirteen")
+
         "throw-without-words" -> throw Speechless()
+
         "record-much" -> repeat(300_000) { Noise(it).commit() }
+
         "assert" -> throw AssertionError("never true")
+
         "no-class" -> throw NoClassDefFoundError("nowhere/Missing")
+
         "loop" -> while (true) Thread.onSpinWait()
-        "wait" -> CountDownLatch(1).let { while (true) try { it.await() } catch (_: InterruptedException) {} }
+
+        "wait" -> CountDownLatch(1).let {
+            while (true) {
+                try {
+                    it.await()
+                } catch (_: InterruptedException) {}
+            }
+        }
+
         "sleep" -> sleep(Long.MAX_VALUE)
+
         "interrupt" -> Thread.currentThread().interrupt()
+
         "recurse" -> recurse(0)
+
         "recurse-aligned" -> recurseAligned()
+
         "heap" -> generateSequence { LongArray(1 shl 20) }.toList()
+
         "heap-kept" -> fillHeap()
+
         "array" -> LongArray(Int.MAX_VALUE)
+
         "direct" -> generateSequence { ByteBuffer.allocateDirect(1 shl 22) }.toList()
+
         "metaspace" -> generateSequence { Copies().make() }.toList()
+
         "exit" -> System.exit(3)
+
         "halt" -> Runtime.getRuntime().halt(3)
+
         "exit-later" -> thread { System.exit(3) }.join()
+
         "exit-hook" -> Runtime.getRuntime().addShutdownHook(Thread { while (true) Thread.onSpinWait() })
+
         "threads" -> repeat(300) { staying { sleep(Long.MAX_VALUE) } }
+
         "thread-pool" -> Executors.newFixedThreadPool(4).also { pool -> repeat(4) { pool.submit {} } }
+
         "busy-thread" -> staying { while (true) Thread.onSpinWait() }
+
         "thread-throws" -> thread { error("in a thread") }.join()
+
         "print" -> while (true) println("printing without end")
+
         "print-much" -> repeat(200_000) { println("line $it") }
+
         "print-one-line" -> repeat(20_000) { print("x".repeat(1000)) }
+
         "take-output" -> {
             System.setOut(null)
             System.setErr(null)
             LogManager.getLogManager().reset()
         }
+
         "share-view" -> neighboring(sensors)
+
         "keep-view" -> evolve<Any>(0) { old -> if (old == 1) old else sensors }
+
         else -> error("there is no fault '$fault'")
     }
 }

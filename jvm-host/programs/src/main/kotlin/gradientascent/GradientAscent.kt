@@ -50,8 +50,7 @@ public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): A
 
 /** What a node shares with its neighbours: its position, and the intensity that it senses there. */
 private class Sample(val x: Float, val y: Float, val z: Float, val intensity: Float) {
-    fun distanceTo(other: Sample): Double =
-        length((other.x - x).toDouble(), (other.y - y).toDouble(), (other.z - z).toDouble())
+    fun distanceTo(other: Sample): Double = length((other.x - x).toDouble(), (other.y - y).toDouble(), (other.z - z).toDouble())
 }
 
 private fun length(x: Double, y: Double, z: Double): Double = sqrt(x * x + y * y + z * z)

@@ -16,7 +16,10 @@ class ChannelTest {
     private val row = (0..4).associateWith { Point2D(10.0 * it, 0.0) } + mapOf(5 to Point2D(20.0, 8.0), 6 to Point2D(10.0, 1.0))
 
     private fun swarm(width: String = "2.0") =
-        Swarm(11.0, mapOf("width" to width), { id, place -> sensors(place, id == 0, id == 4) }, Aggregate<Int>::channel).apply { places += row }
+        Swarm(11.0, mapOf("width" to width), { id, place -> sensors(place, id == 0, id == 4) }, Aggregate<Int>::channel).apply {
+            places +=
+                row
+        }
 
     private fun Map<Int, ActuatorDataT>.marked() = filterValues { it.inChannel }.keys
 
@@ -34,7 +37,16 @@ class ChannelTest {
     @Test
     fun `each node computes its distance to the source`() {
         val answers = swarm().use { it.ticks(STABLE) }
-        for ((id, metres) in listOf(0f, 10f, 20f, 30f, 40f, 28f).withIndex()) assertEquals(metres, answers.getValue(id).distance, 1e-4f, "node $id")
+        for ((id, metres) in listOf(
+            0f,
+            10f,
+            20f,
+            30f,
+            40f,
+            28f,
+        ).withIndex()) {
+            assertEquals(metres, answers.getValue(id).distance, 1e-4f, "node $id")
+        }
     }
 
     @Test

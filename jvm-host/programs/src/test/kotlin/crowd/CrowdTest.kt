@@ -17,7 +17,9 @@ import kotlin.test.assertTrue
 /** Walkers on the ground; those within 6 m of each other are linked. */
 class CrowdTest {
     private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorDataT>) -> T): T =
-        Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place -> sensors(place, walkers.getValue(id)) }, Aggregate<Int>::crowd).use {
+        Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place ->
+            sensors(place, walkers.getValue(id))
+        }, Aggregate<Int>::crowd).use {
             for ((id, walker) in walkers) it.places[id] = walker.place
             use(it)
         }

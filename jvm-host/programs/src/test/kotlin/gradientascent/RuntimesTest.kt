@@ -27,7 +27,11 @@ class RuntimesTest {
             var nextId = 0
             (1..TICKS).map { number ->
                 if (swarm.places.size == NODES) swarm.places.remove(swarm.places.keys.random(random))
-                while (swarm.places.size < NODES - number % 2) swarm.places[nextId++] = Point2D(random.nextDouble() * SIZE, random.nextDouble() * SIZE)
+                while (swarm.places.size <
+                    NODES - number % 2
+                ) {
+                    swarm.places[nextId++] = Point2D(random.nextDouble() * SIZE, random.nextDouble() * SIZE)
+                }
                 swarm.tick().mapValues { (id, answer) ->
                     val target = answer.target
                     swarm.places[id] = Point2D(target.x.toDouble(), target.z.toDouble())

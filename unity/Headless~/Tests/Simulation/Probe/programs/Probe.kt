@@ -31,7 +31,13 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
     val source = sensors.value() == 0f
     val hops = share(unknown) { field ->
         val nearest = field.neighbors.list.map { it.value }.minOrNull() ?: unknown
-        if (source) 0 else if (nearest == unknown) unknown else nearest + 1
+        if (source) {
+            0
+        } else if (nearest == unknown) {
+            unknown
+        } else {
+            nearest + 1
+        }
     }
     return answer(if (hops == unknown) -1f else hops.toFloat())
 }
@@ -70,7 +76,8 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
 /** Combines a field of all neighbours, hidden from projection in a list, with one of those that are here. */
-private fun Aggregate<Int>.misaligned(all: List<Field<Int, Unit>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
+private fun Aggregate<Int>.misaligned(all: List<Field<Int, Unit>>): Int =
+    all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
 
 /** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")

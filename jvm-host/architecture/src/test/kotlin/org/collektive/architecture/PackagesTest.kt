@@ -23,7 +23,13 @@ class PackagesTest {
 
     @Test
     fun `the engine and runtimes do not use FlatBuffers`() = noClasses()
-        .that().resideInAnyPackage("org.collektive.spi..", "org.collektive.engine..", "org.collektive.runtime..", "org.collektive.api..", "it.unibo..")
+        .that().resideInAnyPackage(
+            "org.collektive.spi..",
+            "org.collektive.engine..",
+            "org.collektive.runtime..",
+            "org.collektive.api..",
+            "it.unibo..",
+        )
         .should().dependOnClassesThat().resideInAPackage("com.google.flatbuffers..").check(classes)
 
     @Test
@@ -33,10 +39,18 @@ class PackagesTest {
 
     @Test
     fun `the host and its dependencies do not use the DSL`() = noClasses()
-        .that().resideInAnyPackage("org.collektive.host..", "org.collektive.frames..", "org.collektive.engine..", "org.collektive.spi..", "org.collektive.api..")
+        .that().resideInAnyPackage(
+            "org.collektive.host..",
+            "org.collektive.frames..",
+            "org.collektive.engine..",
+            "org.collektive.spi..",
+            "org.collektive.api..",
+        )
         .should().dependOnClassesThat().resideInAPackage("it.unibo..").check(classes)
 
     private companion object {
-        val classes: JavaClasses = ClassFileImporter().withImportOption(ImportOption.DoNotIncludeTests()).importPackages("org.collektive", "it.unibo")
+        val classes: JavaClasses = ClassFileImporter().withImportOption(
+            ImportOption.DoNotIncludeTests(),
+        ).importPackages("org.collektive", "it.unibo")
     }
 }

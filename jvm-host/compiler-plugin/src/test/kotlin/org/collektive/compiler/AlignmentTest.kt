@@ -33,11 +33,18 @@ class AlignmentTest {
     fun `generic functions`() = assertPaths("generic", "same > neighboring", "same > neighboring")
 
     @Test
-    fun `functions generic in the Aggregate`() = assertPaths("genericReceiver", "bounded > neighboring", "apply > counter > evolve", "also > evolve")
+    fun `functions generic in the Aggregate`() =
+        assertPaths("genericReceiver", "bounded > neighboring", "apply > counter > evolve", "also > evolve")
 
     @Test
-    fun `inline functions with their lambdas`() =
-        assertPaths("inlined", "both > first > evolve", "both > second > evolve", "both > first > evolve", "both > second > pair > evolve", "both > second > pair > evolve")
+    fun `inline functions with their lambdas`() = assertPaths(
+        "inlined",
+        "both > first > evolve",
+        "both > second > evolve",
+        "both > first > evolve",
+        "both > second > pair > evolve",
+        "both > second > pair > evolve",
+    )
 
     @Test
     fun `members of a class, with the Aggregate as receiver or parameter`() =
@@ -54,8 +61,7 @@ class AlignmentTest {
     fun `default arguments`() = assertPaths("defaults", "withDefault > neighboring", "withDefault > neighboring")
 
     @Test
-    fun `delegates`() =
-        assertPaths("delegates", "evolve", "delegated > getValue > evolve", "delegated > getValue > evolve")
+    fun `delegates`() = assertPaths("delegates", "evolve", "delegated > getValue > evolve", "delegated > getValue > evolve")
 
     @Test
     fun `varargs and spreads`() = assertPaths("varargs", "neighboring", "neighboring", "sum > evolve")
@@ -88,15 +94,22 @@ class AlignmentTest {
 
     @Test
     fun `objects that keep the Aggregate, their inner classes, superclasses and subclasses`() = assertPaths(
-        "keeping", "near > neighboring", "both > near > neighboring", "both > near > neighboring", "go > near > neighboring",
-        "inherited > neighboring", "viaMixin > neighboring", "all > neighboring",
+        "keeping",
+        "near > neighboring",
+        "both > near > neighboring",
+        "both > near > neighboring",
+        "go > near > neighboring",
+        "inherited > neighboring",
+        "viaMixin > neighboring",
+        "all > neighboring",
     )
 
     @Test
     fun `context parameters`() = assertPaths("contextual", "inContext > evolve", "inContext > evolve")
 
     @Test
-    fun `functions with only a field as argument`() = assertPaths("onlyField", "neighboring", "spread > neighboring", "spread > neighboring")
+    fun `functions with only a field as argument`() =
+        assertPaths("onlyField", "neighboring", "spread > neighboring", "spread > neighboring")
 
     @Test
     fun `functions of a field are aligned on each entry`() = assertPaths("insideMap", "neighboring", "map > 0 > evolve")
@@ -169,8 +182,7 @@ class AlignmentTest {
         assertFailsWith<AlignmentClashException> { trace(plain.program("row")) }
     }
 
-    private fun assertPaths(program: String, vararg paths: String) =
-        assertEquals(paths.toList(), trace(compiled.program(program)).second)
+    private fun assertPaths(program: String, vararg paths: String) = assertEquals(paths.toList(), trace(compiled.program(program)).second)
 
     private companion object {
         val compiled = Compilation.of(

@@ -34,7 +34,10 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
     /** The top-level function [name] of the source, after its package if it has one, as a program; its further parameters get [arguments]. */
     fun program(name: String, vararg arguments: Any?): Aggregate<Int>.() -> Any? {
         check(succeeded) { "the source does not compile: $reports" }
-        val method = loader.loadClass(name.replaceAfterLast('.', "${FILE}Kt", "${FILE}Kt")).methods.single { it.name == name.substringAfterLast('.') }
+        val method = loader.loadClass(name.replaceAfterLast('.', "${FILE}Kt", "${FILE}Kt")).methods.single {
+            it.name ==
+                name.substringAfterLast('.')
+        }
         return {
             try {
                 method.invoke(null, this, *arguments)
@@ -62,7 +65,10 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             val arguments = K2JVMCompilerArguments().apply {
                 freeArgs = listOf(file.path)
                 destination = folder.resolve("classes").toString()
-                classpath = listOf(Aggregate::class, Point2D::class, KSerializer::class, Unit::class).joinToString(File.pathSeparator) { placeOf(it.java) }
+                classpath =
+                    listOf(Aggregate::class, Point2D::class, KSerializer::class, Unit::class).joinToString(File.pathSeparator) {
+                        placeOf(it.java)
+                    }
                 noStdlib = true
                 noReflect = true
                 moduleName = module

@@ -8,7 +8,8 @@ class ProjectionTest {
     fun `in an arm, a field from outside lacks the devices of other arms`() = assertSeen("inArm", 0 to setOf(2), 1 to setOf(3))
 
     @Test
-    fun `in alignedOn, a field from outside lacks the devices below other pivots`() = assertSeen("inAlignedOn", 0 to setOf(2), 1 to setOf(3))
+    fun `in alignedOn, a field from outside lacks the devices below other pivots`() =
+        assertSeen("inAlignedOn", 0 to setOf(2), 1 to setOf(3))
 
     @Test
     fun `after align, a field from outside lacks the devices below other pivots`() = assertSeen("afterAlign", 0 to setOf(2), 1 to setOf(3))

@@ -84,6 +84,7 @@ internal open class PlainDevice(override val localId: Int, private val network: 
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
         val path = claim()
+
         @Suppress("UNCHECKED_CAST")
         val old = if (path in state) state[path] as Stored else initial
         val (kept, result) = YieldingContext<Stored, Return>().transform(old)
@@ -97,6 +98,7 @@ internal open class PlainDevice(override val localId: Int, private val network: 
         body: YieldingScope<Field<Int, Shared>, Return>,
     ): Return {
         val path = claim()
+
         @Suppress("UNCHECKED_CAST")
         val old = if (path in state) state[path] as Shared else initial
         val (toSend, result) = YieldingContext<Field<Int, Shared>, Return>().body(received(path, old))
@@ -159,7 +161,9 @@ internal open class PlainDevice(override val localId: Int, private val network: 
 }
 
 /** A device with [AlignmentStack], like one of the project's own runtime. */
-internal class ReferenceDevice(id: Int, network: ReferenceDevices) : PlainDevice(id, network), AlignmentStack {
+internal class ReferenceDevice(id: Int, network: ReferenceDevices) :
+    PlainDevice(id, network),
+    AlignmentStack {
     /** All tokens pushed so far, in order. */
     val pushed = mutableListOf<String>()
 

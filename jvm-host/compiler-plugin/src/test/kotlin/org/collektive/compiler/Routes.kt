@@ -103,6 +103,7 @@ private class Inbound(private val messages: List<Message<Int, *>>) : NeighborsDa
         messages.filter { path in it.sharedData }.associate { message ->
             message.senderId to when (message) {
                 is InMemoryMessage -> message.sharedData[path] as Value
+
                 is SerializedMessage -> JSON.decodeFromString(
                     (dataSharingMethod as Serialize<Value>).serializer,
                     message.sharedData.getValue(path).decodeToString(),

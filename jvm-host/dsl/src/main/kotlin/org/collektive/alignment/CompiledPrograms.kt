@@ -1,6 +1,7 @@
 @file:OptIn(DelicateCollektiveApi::class)
 
 // The compiler plugin inserts calls to these functions. Nothing else calls them.
+
 package org.collektive.alignment
 
 import it.unibo.collektive.aggregate.Field

@@ -11,9 +11,12 @@ public class ProgramPlace(public val node: Any, tokens: List<Any?>) {
     /** The readable path, outermost token first. A long path is shortened to its beginning and its end. */
     public val path: String = when {
         tokens.isEmpty() -> "root"
+
         tokens.size <= SHOWN_FIRST + SHOWN_LAST + 1 -> tokens.joinToString(SEPARATOR, transform = ::readable)
+
         else -> (
-            tokens.take(SHOWN_FIRST).map(::readable) + "… (${String.format(java.util.Locale.ROOT, "%,d", tokens.size - SHOWN_FIRST - SHOWN_LAST)} more)" +
+            tokens.take(SHOWN_FIRST).map(::readable) +
+                "… (${String.format(java.util.Locale.ROOT, "%,d", tokens.size - SHOWN_FIRST - SHOWN_LAST)} more)" +
                 tokens.takeLast(SHOWN_LAST).map(::readable)
             ).joinToString(SEPARATOR)
     }

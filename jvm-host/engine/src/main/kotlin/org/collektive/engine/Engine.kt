@@ -87,7 +87,15 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         for (index in 0 until links.size) {
             val from = existing(links.from(index))
             val to = existing(links.to(index))
-            if (to.incoming.put(from, links.length(index), links.attenuation(index), tick.number, validator.place(index), transmitters[0])) {
+            if (to.incoming.put(
+                    from,
+                    links.length(index),
+                    links.attenuation(index),
+                    tick.number,
+                    validator.place(index),
+                    transmitters[0],
+                )
+            ) {
                 from.outgoing.insert(to)
                 linkCount++
                 order.linkChanged()

@@ -1,6 +1,5 @@
 package org.collektive.engine
 
-
 /**
  * Decides loss and delay of messages on one thread, and counts them.
  *

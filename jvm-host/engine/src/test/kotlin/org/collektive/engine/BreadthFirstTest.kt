@@ -47,7 +47,10 @@ class BreadthFirstTest {
             there -= leaving.toSet()
             there += coming
             links.removeIf { it.first !in there || it.second !in there }
-            val new = List(random.nextInt(20)) { there.random(random) to there.random(random) }.filter { (a, b) -> a != b && a to b !in links }.toSet()
+            val new = List(random.nextInt(20)) { there.random(random) to there.random(random) }.filter { (a, b) ->
+                a != b &&
+                    a to b !in links
+            }.toSet()
             links += new
             val due = if (turn % 3 == 0) there.toList() else there.filter { random.nextBoolean() }
             val order = with(engine) {

@@ -31,22 +31,25 @@ class EngineTest {
     }
 
     @Test
-    fun `in sequence each round reads what earlier ones sent in the same tick`() = TestEngine(seen, schedule = Schedule.SEQUENTIAL).use { test ->
-        with(test) {
-            val first = step {
-                add(3, 1, 2)
-                link(1, 2)
-                link(3, 2)
-                due(1, 2, 3)
+    fun `in sequence each round reads what earlier ones sent in the same tick`() =
+        TestEngine(seen, schedule = Schedule.SEQUENTIAL).use { test ->
+            with(test) {
+                val first = step {
+                    add(3, 1, 2)
+                    link(1, 2)
+                    link(3, 2)
+                    due(1, 2, 3)
+                }
+                assertEquals<Map<Int, Any?>>(mapOf(1 to emptyList<Int>(), 2 to listOf(1), 3 to emptyList<Int>()), first.toMap())
             }
-            assertEquals<Map<Int, Any?>>(mapOf(1 to emptyList<Int>(), 2 to listOf(1), 3 to emptyList<Int>()), first.toMap())
         }
-    }
 
     @Test
-    fun `neighbours still read the last messages of nodes that are not due`() = TestEngine(program { device ->
-        neighboring(device.time).neighbors.toMap()
-    }).use { test ->
+    fun `neighbours still read the last messages of nodes that are not due`() = TestEngine(
+        program { device ->
+            neighboring(device.time).neighbors.toMap()
+        },
+    ).use { test ->
         with(test) {
             step {
                 add(1, 2)
@@ -81,10 +84,26 @@ class EngineTest {
     }
 
     @Test
-    fun `programs read the time, and global data once it was sent`() = TestEngine(program { "${it.time} ${it.deltaTime} ${it.globals}" }).use { test ->
+    fun `programs read the time, and global data once it was sent`() = TestEngine(
+        program {
+            "${it.time} ${it.deltaTime} ${it.globals}"
+        },
+    ).use { test ->
         with(test) {
-            assertEquals<Any?>("0.5 0.5 null", step { add(1); due(1) }.answer(0))
-            assertEquals<Any?>("1.0 0.5 wind", step { globals = "wind"; due(1) }.answer(0))
+            assertEquals<Any?>(
+                "0.5 0.5 null",
+                step {
+                    add(1)
+                    due(1)
+                }.answer(0),
+            )
+            assertEquals<Any?>(
+                "1.0 0.5 wind",
+                step {
+                    globals = "wind"
+                    due(1)
+                }.answer(0),
+            )
             assertEquals<Any?>("1.5 0.5 wind", step { due(1) }.answer(0))
         }
     }
@@ -147,11 +166,18 @@ class EngineTest {
     }
 
     @Test
-    fun `an exception whose message throws is still reported`() = TestEngine(program { throw object : RuntimeException() {
-        override fun toString(): String = error("no text")
-    } }).use { test ->
+    fun `an exception whose message throws is still reported`() = TestEngine(
+        program {
+            throw object : RuntimeException() {
+                override fun toString(): String = error("no text")
+            }
+        },
+    ).use { test ->
         with(test) {
-            val result = step { add(1); due(1) }
+            val result = step {
+                add(1)
+                due(1)
+            }
             assertTrue("cannot be described" in result.failure(0).orEmpty())
         }
     }
@@ -181,7 +207,12 @@ class EngineTest {
     }
 
     @Test
-    fun `a program that interrupts its thread harms no later round`() = TestEngine(program { Thread.currentThread().interrupt(); 1 }).use { test ->
+    fun `a program that interrupts its thread harms no later round`() = TestEngine(
+        program {
+            Thread.currentThread().interrupt()
+            1
+        },
+    ).use { test ->
         with(test) {
             step { add(1, 2, 3) }
             repeat(20) { assertEquals(0, step { due(1, 2, 3) }.failureCount) }
@@ -214,7 +245,10 @@ class EngineTest {
                         due(1, 2, 3)
                     }.toMap()
                     assertEquals("java.lang.IllegalStateException: broken [node 1 at outer > inner]", answers[1])
-                    val recursion = Regex("java.lang.StackOverflowError \\[node 2 at outer > deeper > .*deeper > … \\([0-9,]+ more\\) > deeper > deeper]")
+                    val recursion =
+                        Regex(
+                            "java.lang.StackOverflowError \\[node 2 at outer > deeper > .*deeper > … \\([0-9,]+ more\\) > deeper > deeper]",
+                        )
                     assertTrue(recursion.matches(answers[2].toString()), answers[2].toString())
                     assertEquals(true, answers[3])
                 }

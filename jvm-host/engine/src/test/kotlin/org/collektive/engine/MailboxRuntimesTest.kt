@@ -36,7 +36,9 @@ class MailboxRuntimesTest {
         val piece = Pieces(Random(seed)).piece(4)
         return TestEngine(program { piece() }, 2, schedule, runtimes = runtimes).use { test ->
             // The two describe the place of an error differently.
-            Changes.random(seed, 300).map { tick -> test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) "failed" else answer } }
+            Changes.random(seed, 300).map { tick ->
+                test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) "failed" else answer }
+            }
         }
     }
 
@@ -51,13 +53,33 @@ class MailboxRuntimesTest {
             val a = piece(depth - 1)
             val b = piece(depth - 1)
             val body: Aggregate<Int>.() -> Int = when (random.nextInt(7)) {
-                0 -> { { share(a()) { seen -> seen.all.values.list.fold(k, ::mix) } } }
-                1 -> { { sharing(k) { seen -> mix(seen.local.value, k).yielding { mix(b(), seen.neighbors.size) } } } }
-                2 -> { { exchanging(k) { seen -> seen.map { mix(it.id, it.value) }.yielding { seen.all.values.list.fold(k, ::mix) } } } }
-                3 -> { { neighboring(a()).all.list.fold(k) { sum, entry -> mix(mix(sum, entry.id), entry.value) } } }
-                4 -> { { alignedOn((localId + alignedOn("way") { a() }) % k) { b() } } }
-                5 -> { { evolving(k) { old -> mix(old, a()).yielding { mix(this, localId) } } } }
-                else -> { { if (mix(localId, evolve(0) { it + 1 }) % 11 == 0) error("now and then") else mix(a(), b()) } }
+                0 -> {
+                    { share(a()) { seen -> seen.all.values.list.fold(k, ::mix) } }
+                }
+
+                1 -> {
+                    { sharing(k) { seen -> mix(seen.local.value, k).yielding { mix(b(), seen.neighbors.size) } } }
+                }
+
+                2 -> {
+                    { exchanging(k) { seen -> seen.map { mix(it.id, it.value) }.yielding { seen.all.values.list.fold(k, ::mix) } } }
+                }
+
+                3 -> {
+                    { neighboring(a()).all.list.fold(k) { sum, entry -> mix(mix(sum, entry.id), entry.value) } }
+                }
+
+                4 -> {
+                    { alignedOn((localId + alignedOn("way") { a() }) % k) { b() } }
+                }
+
+                5 -> {
+                    { evolving(k) { old -> mix(old, a()).yielding { mix(this, localId) } } }
+                }
+
+                else -> {
+                    { if (mix(localId, evolve(0) { it + 1 }) % 11 == 0) error("now and then") else mix(a(), b()) }
+                }
             }
             return { alignedOn(place) { body() } }
         }
@@ -84,7 +106,12 @@ class MailboxRuntimesTest {
                     due(4)
                 }
                 val answers = step { due(0, 1, 2, 3, 4) }.toMap()
-                for (id in 0..3) assertContains(answers[id].toString(), "a builder changes; it cannot be shared, kept or a pivot [node $id at ")
+                for (id in 0..3) {
+                    assertContains(
+                        answers[id].toString(),
+                        "a builder changes; it cannot be shared, kept or a pivot [node $id at ",
+                    )
+                }
                 assertEquals(4, answers[4])
             }
         }

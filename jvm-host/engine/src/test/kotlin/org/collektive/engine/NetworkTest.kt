@@ -17,23 +17,27 @@ class NetworkTest {
     private val received = program { device -> neighboring(device.time).neighbors.toMap() }
 
     /** What node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
-    private fun receivedFrom1(network: NetworkModel, ticks: Int, sending: IntRange = 1..ticks, schedule: Schedule = Schedule.LOCKSTEP): List<Double?> =
-        TestEngine(received, schedule = schedule, network = network).use { test ->
-            with(test) {
-                (1..ticks).map { number ->
-                    val result = step {
-                        if (number == 1) {
-                            add(1, 2)
-                            link(1, 2)
-                        }
-                        if (number in sending) due(1)
-                        due(2)
+    private fun receivedFrom1(
+        network: NetworkModel,
+        ticks: Int,
+        sending: IntRange = 1..ticks,
+        schedule: Schedule = Schedule.LOCKSTEP,
+    ): List<Double?> = TestEngine(received, schedule = schedule, network = network).use { test ->
+        with(test) {
+            (1..ticks).map { number ->
+                val result = step {
+                    if (number == 1) {
+                        add(1, 2)
+                        link(1, 2)
                     }
-                    @Suppress("UNCHECKED_CAST")
-                    (result.toMap().getValue(2) as Map<Int, Double>)[1]
+                    if (number in sending) due(1)
+                    due(2)
                 }
+                @Suppress("UNCHECKED_CAST")
+                (result.toMap().getValue(2) as Map<Int, Double>)[1]
             }
         }
+    }
 
     @Test
     fun `without delay a message arrives at the next tick, in sequence at the same one`() {
@@ -101,7 +105,13 @@ class NetworkTest {
     @Test
     fun `loss grows with the link's length and attenuation`() {
         val network = NetworkModel(loss = 0.1, lossPerMetre = 0.02, lossPerAttenuation = 0.05)
-        for ((length, attenuation, expected) in listOf(Triple(0f, 0f, 0.1), Triple(10f, 0f, 0.3), Triple(0f, 4f, 0.3), Triple(10f, 8f, 0.7), Triple(99f, 0f, 1.0))) {
+        for ((length, attenuation, expected) in listOf(
+            Triple(0f, 0f, 0.1),
+            Triple(10f, 0f, 0.3),
+            Triple(0f, 4f, 0.3),
+            Triple(10f, 8f, 0.7),
+            Triple(99f, 0f, 1.0),
+        )) {
             // Four standard deviations of a proportion of 10,500.
             assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "$length m, $attenuation")
         }
@@ -112,7 +122,16 @@ class NetworkTest {
         TestEngine(received, network = NetworkModel(delay = 0.6, retention = 0.7)).use { test ->
             with(test) {
                 fun counts(fill: Tick.() -> Unit) = step(fill = fill).network.run { listOf(sent, dropped, delayed, expired) }
-                assertEquals(listOf(2L, 0, 2, 0), counts { add(1, 2, 3); link(1, 2); link(1, 3); due(1) }, "one round, two links; time 0.5")
+                assertEquals(
+                    listOf(2L, 0, 2, 0),
+                    counts {
+                        add(1, 2, 3)
+                        link(1, 2)
+                        link(1, 3)
+                        due(1)
+                    },
+                    "one round, two links; time 0.5",
+                )
                 assertEquals(listOf(0L, 0, 0, 0), counts { })
                 assertEquals(listOf(0L, 0, 0, 0), counts { }, "arrived at 1.1")
                 assertEquals(listOf(0L, 0, 0, 2), counts { }, "valid until 1.8, and it is 2.0")
@@ -120,7 +139,11 @@ class NetworkTest {
         }
         TestEngine(received, network = NetworkModel(loss = 1.0)).use { test ->
             with(test) {
-                val counts = step { add(1, 2); link(1, 2); due(1) }.network
+                val counts = step {
+                    add(1, 2)
+                    link(1, 2)
+                    due(1)
+                }.network
                 assertEquals(listOf(1L, 1L, 0L, 0L), counts.run { listOf(sent, dropped, delayed, expired) })
             }
         }
@@ -130,7 +153,13 @@ class NetworkTest {
     fun `an ideal network counts the messages of successful rounds`() {
         TestEngine(program { device -> if (device.id == 3) error("broken") else device.id }).use { test ->
             with(test) {
-                val first = step { add(1, 2, 3); link(1, 2); link(2, 1); link(3, 1); due(1, 2, 3) }
+                val first = step {
+                    add(1, 2, 3)
+                    link(1, 2)
+                    link(2, 1)
+                    link(3, 1)
+                    due(1, 2, 3)
+                }
                 assertEquals(listOf(2L, 0L, 0L, 0L), first.network.run { listOf(sent, dropped, delayed, expired) })
                 assertEquals(1, step { due(1) }.network.sent)
                 assertEquals(0, step { }.network.sent)
@@ -143,8 +172,15 @@ class NetworkTest {
         val network = NetworkModel(lossPerMetre = 0.01, retention = 10.0)
         TestEngine(received, network = network).use { test ->
             with(test) {
-                step { add(1, 2, 3); due(1) }
-                val result = step { link(1, 2, 0f); link(1, 3, 100f); due(2, 3) }
+                step {
+                    add(1, 2, 3)
+                    due(1)
+                }
+                val result = step {
+                    link(1, 2, 0f)
+                    link(1, 3, 100f)
+                    due(2, 3)
+                }
                 assertEquals<Map<Int, Any?>>(mapOf(2 to mapOf(1 to 0.5), 3 to emptyMap<Int, Double>()), result.toMap())
                 assertEquals(listOf(2L, 1L), result.network.run { listOf(sent, dropped) })
             }
@@ -156,13 +192,26 @@ class NetworkTest {
         val program = program { exchanging("to all") { seen -> seen.map { "to ${it.id}" }.yielding { seen.neighbors.toMap() } } }
         TestEngine(program, network = NetworkModel(delay = 1.0)).use { test ->
             with(test) {
-                step { add(1, 2, 3); link(1, 2); link(2, 1); link(3, 1); due(2, 3) }
+                step {
+                    add(1, 2, 3)
+                    link(1, 2)
+                    link(2, 1)
+                    link(3, 1)
+                    due(2, 3)
+                }
                 step { }
                 step { due(1) }
-                val fourth = step { link(1, 3); due(2, 3) }.toMap()
+                val fourth = step {
+                    link(1, 3)
+                    due(2, 3)
+                }.toMap()
                 assertEquals<Map<Int, Any?>>(mapOf(2 to emptyMap<Int, String>(), 3 to emptyMap<Int, String>()), fourth)
                 val fifth = step { due(2, 3) }.toMap()
-                assertEquals<Map<Int, Any?>>(mapOf(2 to mapOf(1 to "to 2"), 3 to mapOf(1 to "to 1")), fifth, "3 was not linked: it gets the default")
+                assertEquals<Map<Int, Any?>>(
+                    mapOf(2 to mapOf(1 to "to 2"), 3 to mapOf(1 to "to 1")),
+                    fifth,
+                    "3 was not linked: it gets the default",
+                )
             }
         }
     }
@@ -172,15 +221,30 @@ class NetworkTest {
         val network = NetworkModel(delay = 1.0)
         val ways = listOf<TestEngine.(Tick) -> Unit>(
             { it.unlink(1, 2) },
-            { it.unlink(1, 2); it.link(1, 2) },
-            { it.nodesRemoved.add(1); it.add(1); it.link(1, 2) },
-            { it.nodesRemoved.add(2); it.add(2); it.link(1, 2) },
+            {
+                it.unlink(1, 2)
+                it.link(1, 2)
+            },
+            {
+                it.nodesRemoved.add(1)
+                it.add(1)
+                it.link(1, 2)
+            },
+            {
+                it.nodesRemoved.add(2)
+                it.add(2)
+                it.link(1, 2)
+            },
         )
         val expected = listOf(emptyMap(), mapOf(1 to 0.5), emptyMap(), mapOf(1 to 0.5))
         for ((way, received) in ways.zip(expected)) {
             TestEngine(this.received, network = network).use { test ->
                 with(test) {
-                    step { add(1, 2); link(1, 2); due(1) }
+                    step {
+                        add(1, 2)
+                        link(1, 2)
+                        due(1)
+                    }
                     step { way(this) }
                     assertEquals<Map<Int, Any?>>(mapOf(2 to received), step { due(2) }.toMap())
                 }
@@ -203,7 +267,9 @@ class NetworkTest {
             "retention must be greater than 0, but is NaN" to { NetworkModel(retention = nan) },
         )
         return cases.map { (message, make) ->
-            DynamicTest.dynamicTest(message) { assertEquals("the network's $message", assertFailsWith<IllegalArgumentException> { make() }.message) }
+            DynamicTest.dynamicTest(message) {
+                assertEquals("the network's $message", assertFailsWith<IllegalArgumentException> { make() }.message)
+            }
         }
     }
 }

@@ -21,7 +21,13 @@ class RoundDigestTest {
             sha.update(little(8).putLong(0, tick).array())
             digest.begin(tick)
             for (node in 0 until random.nextInt(2000)) {
-                val length = if (node % 5 == 0) -1 else if (node == 7) 20_000 else random.nextInt(40)
+                val length = if (node % 5 == 0) {
+                    -1
+                } else if (node == 7) {
+                    20_000
+                } else {
+                    random.nextInt(40)
+                }
                 sha.update(little(8).putInt(0, node).putInt(4, length).array())
                 if (length < 0) {
                     digest.failure(node)

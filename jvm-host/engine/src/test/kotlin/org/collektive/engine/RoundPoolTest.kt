@@ -20,7 +20,9 @@ class RoundPoolTest {
                 val count = random.nextInt(1, 500)
                 val range = random.nextInt(1, 60)
                 val done = AtomicIntegerArray(count)
-                val task = RoundPool.Task<AtomicIntegerArray> { counts, _, _, begin, end -> for (index in begin until end) counts.incrementAndGet(index) }
+                val task = RoundPool.Task<AtomicIntegerArray> { counts, _, _, begin, end ->
+                    for (index in begin until end) counts.incrementAndGet(index)
+                }
                 assertTrue(pool.run(task, done, count, range, farOff))
                 for (index in 0 until count) assertEquals(1, done[index], "index $index of $count in ranges of $range on $threads threads")
             }

@@ -83,7 +83,13 @@ public class FrameChecker(private val policy: FramePolicy) {
         val vtableBytes = frame.getShort(vtable.toInt()).toInt()
         if (vtableBytes < VTABLE_HEADER_BYTES || vtableBytes % 2 != 0) fail("has a damaged vtable")
         inside(vtable, vtableBytes.toLong())
-        val tableBytes = if (policy.checksTableSize) frame.getShort((vtable + TABLE_SIZE_ENTRY).toInt()).toInt() and USHORT else Int.MAX_VALUE
+        val tableBytes = if (policy.checksTableSize) {
+            frame.getShort(
+                (vtable + TABLE_SIZE_ENTRY).toInt(),
+            ).toInt() and USHORT
+        } else {
+            Int.MAX_VALUE
+        }
         if (policy.checksTableSize) inside(position, tableBytes.toLong())
         depth++
         val list = layout.fields
@@ -97,6 +103,7 @@ public class FrameChecker(private val policy: FramePolicy) {
                     if (place < OFFSET_BYTES || place + field.bytesInTable > tableBytes) fail("has a damaged vtable")
                     field(field, position + place)
                 }
+
                 field.required -> fail("is required and absent")
             }
         }

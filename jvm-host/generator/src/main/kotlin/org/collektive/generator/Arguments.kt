@@ -38,7 +38,12 @@ internal class Arguments(
 
             fun required(option: String) = values[option] ?: throw GeneratorException("$option is missing\n$USAGE")
             val arguments = Arguments(
-                required("--flatc"), required("--schema"), required("--include"), values["--csharp"], values["--java"], values["--layouts"],
+                required("--flatc"),
+                required("--schema"),
+                required("--include"),
+                values["--csharp"],
+                values["--java"],
+                values["--layouts"],
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
             if (!Files.isRegularFile(arguments.schema)) throw GeneratorException("no schema file at ${arguments.schema}")

@@ -52,7 +52,9 @@ internal object CSharp {
 
     private fun shapeCall(field: Field, tables: List<TableType>): String? = when (val type = field.type) {
         is StringType -> "Text(${field.id})"
+
         is TableType -> "Table(${field.id}, shape${tables.indexOf(type)})"
+
         is VectorType -> when (val element = type.element) {
             is StringType -> "Texts(${field.id})"
             is TableType -> "Tables(${field.id}, shape${tables.indexOf(element)})"
@@ -61,6 +63,7 @@ internal object CSharp {
             is Scalar -> "Values(${field.id}, ${element.bytes})"
             is VectorType -> error("${field.name} is a vector of vectors")
         }
+
         is Scalar, is EnumType, is StructType -> null
     }
 
@@ -111,7 +114,10 @@ internal object CSharp {
         "childIds" to type.fields.filter { isChild(it.type) }.map(Field::id),
         "absences" to type.fields.mapNotNull { absence(type, it) },
         "fills" to type.fields.map { "row.Field${it.id} = ${rowValue(it, member(type, it), places.offsets.getValue(it))};" },
-        "places" to places.offsets.map { (field, offset) -> mapOf("type" to rowType(field.type), "place" to "Field${field.id}", "offset" to offset) },
+        "places" to
+            places.offsets.map { (field, offset) ->
+                mapOf("type" to rowType(field.type), "place" to "Field${field.id}", "offset" to offset)
+            },
     )
 
     private fun declaration(owner: TableType, field: Field): String {
@@ -143,12 +149,18 @@ internal object CSharp {
         val type = field.type
         return when {
             !canBeNotFinite(type) -> null
+
             type is Scalar && !field.default.real.isFinite() -> null
+
             type is Scalar -> "if ($absent!${csharp(type)}.IsFinite($value)) return \"${field.name}\";"
+
             type is StructType ->
                 "if ($absent$value.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
+
             type is TableType -> "if ($member?.FindNotFinite() is string path${field.id}) return \"${field.name}.\" + path${field.id};"
+
             type is VectorType -> vectorCheck(type, field, member)
+
             else -> null
         }
     }
@@ -181,12 +193,15 @@ internal object CSharp {
         val member = member(owner, field)
         val write = when (val type = field.type) {
             is StringType -> "writer.String($member)"
+
             is TableType -> "$member == null ? 0 : $member.Write(writer)"
+
             is VectorType -> when (type.element) {
                 is StringType -> "writer.Strings($member, ${field.required}, \"${owner.name.simple}.${field.name}\")"
                 is TableType -> "writer.Tables($member, ${field.required})"
                 else -> "writer.Values($member, ${field.required}, ${RowPlaces.alignment(type.element)})"
             }
+
             else -> return null
         }
         return "child${field.id} = $write;"

@@ -14,16 +14,20 @@ internal object Fingerprint {
     private fun StringBuilder.append(type: Type, outer: List<Composite>) {
         when (type) {
             is Scalar -> append(type.text)
+
             is StringType -> append("string")
+
             is EnumType -> {
                 append("enum ").append(type.underlying.text)
                 type.values.joinTo(this, ",", "{", "}") { (name, value) -> "$name=$value" }
             }
+
             is VectorType -> {
                 append('[')
                 append(type.element, outer)
                 append(']')
             }
+
             is Composite -> {
                 val distance = outer.asReversed().indexOf(type)
                 if (distance >= 0) append("^").append(distance) else appendFields(type, outer + type)

@@ -66,8 +66,11 @@ internal object Java {
         val present = owner is StructType || field.required
         return when (val type = field.type) {
             is Scalar, is EnumType -> null
+
             is StringType -> fault("ResultRules.string($value, $name, $present)")
+
             is Composite -> if (!present && !ruled(type)) null else fault("ResultRules.object($value, $name, $present, ${nested(type)})")
+
             is VectorType -> when (val element = type.element) {
                 is StringType -> fault("ResultRules.strings($value, $name, $present)")
                 is Composite -> fault("ResultRules.objects($value, $name, $present, ${nested(element)})")

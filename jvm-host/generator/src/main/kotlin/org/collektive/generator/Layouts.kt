@@ -30,8 +30,11 @@ internal object Layouts {
         val end = "${field.required})"
         return when (val type = field.type) {
             is Scalar, is EnumType, is StructType -> "inline($start, ${bytes(type)}, $end"
+
             is StringType -> "string($start, $end"
+
             is TableType -> "table($start, ${constant(type)}, $end"
+
             is VectorType -> when (val element = type.element) {
                 is StringType -> "strings($start, $end"
                 is TableType -> "tables($start, ${constant(element)}, $end"

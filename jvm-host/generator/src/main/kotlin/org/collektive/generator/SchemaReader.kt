@@ -34,8 +34,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val user = UserSchema(
             file.fileName.toString(),
             TypeName(sensor.name.namespace, upperCamel(file.fileName.toString().removeSuffix(".fbs")) + "Schema"),
-            sensor, actuator, global,
-            reached.filterIsInstance<StructType>(), reached.filterIsInstance<TableType>(),
+            sensor,
+            actuator,
+            global,
+            reached.filterIsInstance<StructType>(),
+            reached.filterIsInstance<TableType>(),
         )
         checkGeneratedNames(user)
         return user
@@ -92,7 +95,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private fun slots(table: TypeName, fields: List<BinaryField>): Int {
         val slots = (fields.maxOfOrNull { it.id() } ?: -1) + 1
-        if (slots > MAX_SLOTS) throw error("${table.simple}: it has $slots fields, more than $MAX_SLOTS; put some into a table of their own")
+        if (slots >
+            MAX_SLOTS
+        ) {
+            throw error("${table.simple}: it has $slots fields, more than $MAX_SLOTS; put some into a table of their own")
+        }
         return slots
     }
 
@@ -117,24 +124,37 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val index = type.index()
         return when (type.baseType()) {
             BaseType.String -> StringType
+
             BaseType.Obj -> composite(index)
+
             BaseType.Vector -> VectorType(element(owner, field, type))
+
             // The hidden type field of a union precedes it; the error names the union.
             BaseType.UType -> throw unsupported(owner, field.name().removeSuffix("_type"), UNION)
+
             BaseType.Union -> throw unsupported(owner, field.name(), UNION)
+
             BaseType.Array -> throw unsupported(
-                owner, field.name(), "fixed arrays are not supported; use one field for each element, or a vector in a table",
+                owner,
+                field.name(),
+                "fixed arrays are not supported; use one field for each element, or a vector in a table",
             )
+
             BaseType.Vector64 -> throw unsupported(owner, field.name(), "64-bit vectors are not supported; use a plain vector")
+
             else -> plainOrEnum(type.baseType(), index) ?: throw unsupported(owner, field.name(), "its type is not supported")
         }
     }
 
     private fun element(owner: BinaryObject, field: BinaryField, type: BinaryType): Type = when (type.element()) {
         BaseType.String -> StringType
+
         BaseType.Obj -> composite(type.index())
+
         BaseType.UType -> throw unsupported(owner, field.name().removeSuffix("_type"), UNION)
+
         BaseType.Union -> throw unsupported(owner, field.name(), UNION)
+
         else -> plainOrEnum(type.element(), type.index())
             ?: throw unsupported(owner, field.name(), "vectors of this type are not supported; use a vector of tables")
     }

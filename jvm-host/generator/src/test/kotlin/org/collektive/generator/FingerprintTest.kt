@@ -15,7 +15,11 @@ internal class FingerprintTest {
 
     @Test
     fun `the text contains nested types inline, and a recursive table as a distance`() {
-        val schema = read("struct P { x: float; on: bool; } enum E : ubyte { A, B = 4 } table N { next: N; all: [N]; }", "p: P; e: E = B; n: N; s: string (required); o: int = null;")
+        val schema =
+            read(
+                "struct P { x: float; on: bool; } enum E : ubyte { A, B = 4 } table N { next: N; all: [N]; }",
+                "p: P; e: E = B; n: N; s: string (required); o: int = null;",
+            )
         assertEquals(
             "table{0 p:struct 8{0 x:float;4 on:bool;};1 e:enum ubyte{A=0,B=4}=4;2 n:table{0 next:^0;1 all:[^0];};3 s:string required;4 o:int=null;}",
             Fingerprint.text(schema.sensor),

@@ -22,31 +22,58 @@ internal class RefusalTest {
 
     @Test
     fun `a schema without a namespace is refused`() {
-        assertContains(refusal("struct SensorData { x: float; } struct ActuatorData { x: float; }"), "lies in no namespace; write `namespace yours;`")
+        assertContains(
+            refusal("struct SensorData { x: float; } struct ActuatorData { x: float; }"),
+            "lies in no namespace; write `namespace yours;`",
+        )
     }
 
     @Test
     fun `an unsupported type is refused with its field and an alternative`() {
-        assertEquals("user.fbs: SensorData.shape: unions are not supported; use one optional table field for each case", refusal(user("table A {} table B {} union Shape { A, B }", "shape: Shape;")))
-        assertEquals("user.fbs: SensorData.shapes: unions are not supported; use one optional table field for each case", refusal(user("table A {} table B {} union Shape { A, B }", "shapes: [Shape];")))
-        assertEquals("user.fbs: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table", refusal(user("struct Grid { cells: [float:4]; }", "grid: Grid;")))
+        assertEquals(
+            "user.fbs: SensorData.shape: unions are not supported; use one optional table field for each case",
+            refusal(user("table A {} table B {} union Shape { A, B }", "shape: Shape;")),
+        )
+        assertEquals(
+            "user.fbs: SensorData.shapes: unions are not supported; use one optional table field for each case",
+            refusal(user("table A {} table B {} union Shape { A, B }", "shapes: [Shape];")),
+        )
+        assertEquals(
+            "user.fbs: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table",
+            refusal(user("struct Grid { cells: [float:4]; }", "grid: Grid;")),
+        )
         assertContains(refusal(user("", "huge: [ubyte] (vector64);")), "SensorData.huge")
         val many = (0..64).joinToString(" ") { "f$it: int;" }
-        assertEquals("user.fbs: Wide: it has 65 fields, more than 64; put some into a table of their own", refusal(user("table Wide { $many }", "wide: Wide;")))
-        assertEquals("user.fbs: Odd: force_align is not supported; remove it", refusal(user("struct Odd (force_align: 16) { x: float; }", "odd: Odd;")))
+        assertEquals(
+            "user.fbs: Wide: it has 65 fields, more than 64; put some into a table of their own",
+            refusal(user("table Wide { $many }", "wide: Wide;")),
+        )
+        assertEquals(
+            "user.fbs: Odd: force_align is not supported; remove it",
+            refusal(user("struct Odd (force_align: 16) { x: float; }", "odd: Odd;")),
+        )
     }
 
     @Test
     fun `names that collide with generated code are refused`() {
         for (name in listOf("class", "to_string", "wait", "byte_buffer")) {
-            assertEquals("user.fbs: SensorData.$name: C# or Java has a member of this name in every class; rename the field", refusal(user("", "$name: int;")))
+            assertEquals(
+                "user.fbs: SensorData.$name: C# or Java has a member of this name in every class; rename the field",
+                refusal(user("", "$name: int;")),
+            )
         }
-        assertEquals("user.fbs: SensorDataDraft is a name that the generator gives; rename the type", refusal(user("table SensorDataDraft {}", "x: int;")))
+        assertEquals(
+            "user.fbs: SensorDataDraft is a name that the generator gives; rename the type",
+            refusal(user("table SensorDataDraft {}", "x: int;")),
+        )
     }
 
     @Test
     fun `numbers beyond 63 bits are refused, since the binary schema loses them`() {
-        assertEquals("user.fbs:2: 9223372036854775808 is too large; numbers go up to 9223372036854775807", refusal("namespace a;\ntable SensorData { x: ulong = 9223372036854775808; }\nstruct ActuatorData { x: float; }"))
+        assertEquals(
+            "user.fbs:2: 9223372036854775808 is too large; numbers go up to 9223372036854775807",
+            refusal("namespace a;\ntable SensorData { x: ulong = 9223372036854775808; }\nstruct ActuatorData { x: float; }"),
+        )
     }
 
     @Test
@@ -56,8 +83,16 @@ internal class RefusalTest {
 
     @Test
     fun `two types of one name, or in two namespaces, are refused`() {
-        assertContains(refusal("namespace a; struct SensorData { x: float; } namespace b; struct SensorData { x: float; } struct ActuatorData { x: float; }"), "SensorData is defined twice: a.SensorData and b.SensorData")
-        assertContains(refusal("namespace a; struct SensorData { x: float; } namespace b; struct ActuatorData { x: float; }"), "SensorData lies in namespace a, ActuatorData in b: use one")
+        assertContains(
+            refusal(
+                "namespace a; struct SensorData { x: float; } namespace b; struct SensorData { x: float; } struct ActuatorData { x: float; }",
+            ),
+            "SensorData is defined twice: a.SensorData and b.SensorData",
+        )
+        assertContains(
+            refusal("namespace a; struct SensorData { x: float; } namespace b; struct ActuatorData { x: float; }"),
+            "SensorData lies in namespace a, ActuatorData in b: use one",
+        )
     }
 
     @Test
@@ -91,6 +126,5 @@ internal class RefusalTest {
 
     private fun user(before: String, fields: String) = "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }"
 
-    private fun refusal(text: String): String =
-        assertFailsWith<GeneratorException> { Workshop.generate(text) }.message.orEmpty()
+    private fun refusal(text: String): String = assertFailsWith<GeneratorException> { Workshop.generate(text) }.message.orEmpty()
 }

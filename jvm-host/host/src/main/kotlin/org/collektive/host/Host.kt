@@ -43,44 +43,30 @@ public object Host {
 
     /** Opens the session of the `OpenRequest` in [request]. */
     @JvmStatic
-    public fun open(
-        session: Long,
-        request: ByteBuffer,
-        offset: Int,
-        length: Int,
-        slot: Long,
-        answer: ByteBuffer,
-        limitMillis: Int,
-    ): Long = answering {
-        requireLimit(limitMillis)
-        if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
-        log?.install()
-        val opened = SessionOpening.open(frame(request, offset, length), shim)
-        try {
-            opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
-        } catch (e: Throwable) {
-            opened.close()
-            throw e
+    public fun open(session: Long, request: ByteBuffer, offset: Int, length: Int, slot: Long, answer: ByteBuffer, limitMillis: Int): Long =
+        answering {
+            requireLimit(limitMillis)
+            if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
+            log?.install()
+            val opened = SessionOpening.open(frame(request, offset, length), shim)
+            try {
+                opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
+            } catch (e: Throwable) {
+                opened.close()
+                throw e
+            }
         }
-    }
 
     /** Runs the tick of the `StepRequest` in [request]. */
     @JvmStatic
-    public fun step(
-        session: Long,
-        request: ByteBuffer,
-        offset: Int,
-        length: Int,
-        slot: Long,
-        answer: ByteBuffer,
-        limitMillis: Int,
-    ): Long = answering {
-        val begin = System.nanoTime()
-        requireLimit(limitMillis)
-        val index = indexOf(session)
-        if (index < 0) throw HostException(HostError.HANDLE, "there is no session $session")
-        sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
-    }
+    public fun step(session: Long, request: ByteBuffer, offset: Int, length: Int, slot: Long, answer: ByteBuffer, limitMillis: Int): Long =
+        answering {
+            val begin = System.nanoTime()
+            requireLimit(limitMillis)
+            val index = indexOf(session)
+            if (index < 0) throw HostException(HostError.HANDLE, "there is no session $session")
+            sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
+        }
 
     /** Answers the `ControlRequest` in [request]. It concerns the JVM, not a session: [session] must be 0. */
     @JvmStatic
@@ -122,7 +108,12 @@ public object Host {
         for (thread in left) {
             val wait = TimeUnit.NANOSECONDS.toMillis(deadline - System.nanoTime())
             if (wait > 0) thread.join(wait)
-            if (thread.isAlive) shim.log(LogLevel.WARNING, "thread \"${thread.name}\" of a program does not end, and is halted with the JVM")
+            if (thread.isAlive) {
+                shim.log(
+                    LogLevel.WARNING,
+                    "thread \"${thread.name}\" of a program does not end, and is halted with the JVM",
+                )
+            }
         }
         return left.none(Thread::isAlive)
     }

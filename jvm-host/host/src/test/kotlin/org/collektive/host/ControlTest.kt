@@ -38,7 +38,10 @@ class ControlTest {
     @Test
     fun `a control that names a session is refused`() {
         Host.shim = shim
-        assertEquals(HostError.ARGUMENT.code.toLong(), Host.control(3, ByteBuffer.allocateDirect(8), 0, 8, 7, ByteBuffer.allocateDirect(8), 1000))
+        assertEquals(
+            HostError.ARGUMENT.code.toLong(),
+            Host.control(3, ByteBuffer.allocateDirect(8), 0, 8, 7, ByteBuffer.allocateDirect(8), 1000),
+        )
         assertContains(shim.error, "belongs to no session")
     }
 

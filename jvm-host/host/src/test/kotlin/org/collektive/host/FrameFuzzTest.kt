@@ -27,7 +27,12 @@ class FrameFuzzTest {
             assertEquals(code < 0, expected < 0, text)
             if (code >= 0) tick++
         }
-        both(Step(1).apply { added = (0 until 10).map { Step.Added(it) }; due = (0 until 10).toList() }.bytes())
+        both(
+            Step(1).apply {
+                added = (0 until 10).map { Step.Added(it) }
+                due = (0 until 10).toList()
+            }.bytes(),
+        )
         var refused = 0
         repeat(6000) { round ->
             val damaged = damage(valid(tick, random, round), random)
@@ -110,11 +115,21 @@ class FrameFuzzTest {
             val at = random.nextInt(bytes.size)
             when (random.nextInt(5)) {
                 0 -> bytes[at] = random.nextInt().toByte()
+
                 1 -> bytes[at] = (bytes[at].toInt() xor (1 shl random.nextInt(8))).toByte()
+
                 2 -> bytes = bytes.copyOf(maxOf(1, at))
-                3 -> if (at + 4 <= bytes.size) ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(at and 3.inv(), random.nextInt())
+
+                3 -> if (at + 4 <=
+                    bytes.size
+                ) {
+                    ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(at and 3.inv(), random.nextInt())
+                }
+
                 else -> if (at + 4 <= bytes.size) {
-                    ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(at and 3.inv(), listOf(0, -1, Int.MAX_VALUE, Int.MIN_VALUE, 4).random(random))
+                    ByteBuffer.wrap(
+                        bytes,
+                    ).order(ByteOrder.LITTLE_ENDIAN).putInt(at and 3.inv(), listOf(0, -1, Int.MAX_VALUE, Int.MIN_VALUE, 4).random(random))
                 }
             }
         }

@@ -23,7 +23,12 @@ class HostAllocationTest {
     }
 
     private fun assertNoneIn(session: TestSession) {
-        session.ok(Step(1).apply { added = (0 until 200).map { Step.Added(it) }; due = (0 until 200).toList() })
+        session.ok(
+            Step(1).apply {
+                added = (0 until 200).map { Step.Added(it) }
+                due = (0 until 200).toList()
+            },
+        )
         val frame = Step(2).apply { due = (0 until 200).toList() }.bytes()
         val tickAt = frame.tickPosition()
         var tick = 2L

@@ -36,11 +36,13 @@ internal class HostLogTest {
         val session = TestSession(shim)
         assertEquals(true, session.open(program = "probe") >= 0, shim.error)
         val nodes = labels.indices.map { it + 4 }
-        session.ok(Step(1).apply {
-            added = nodes.map { Step.Added(it) }
-            due = nodes
-            sensors = labels.map { Step.Sensor(0, it) }
-        })
+        session.ok(
+            Step(1).apply {
+                added = nodes.map { Step.Added(it) }
+                due = nodes
+                sensors = labels.map { Step.Sensor(0, it) }
+            },
+        )
         session.close()
     }
 

@@ -55,7 +55,13 @@ internal class PublicApiTest {
     /** Inline functions with reified types: they are API of Kotlin but not of the JVM, so the dump omits them. */
     private fun reified(place: File): String {
         val loader = URLClassLoader(arrayOf(place.toURI().toURL()), javaClass.classLoader)
-        val names = if (place.isFile) JarFile(place).use { jar -> jar.entries().toList().map { it.name } } else place.walk().map { it.relativeTo(place).path }.toList()
+        val names = if (place.isFile) {
+            JarFile(place).use { jar ->
+                jar.entries().toList().map { it.name }
+            }
+        } else {
+            place.walk().map { it.relativeTo(place).path }.toList()
+        }
         return names.filter { it.endsWith("Kt.class") }.sorted().joinToString("") { name ->
             val facade = loader.loadClass(name.removeSuffix(".class").replace('/', '.')).getAnnotation(Metadata::class.java)
             val functions = (KotlinClassMetadata.readStrict(facade) as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
@@ -66,11 +72,20 @@ internal class PublicApiTest {
 
     private companion object {
         /** The modules that programs use, each with one of its classes. */
-        val MODULES = mapOf("dsl" to Field::class, "runtime" to Collektive::class, "stdlib" to Maybe::class, "api" to Program::class, "frames" to Vector3::class)
+        val MODULES = mapOf(
+            "dsl" to Field::class,
+            "runtime" to Collektive::class,
+            "stdlib" to Maybe::class,
+            "api" to Program::class,
+            "frames" to Vector3::class,
+        )
 
         /** The packages that programs use, and those that the compiler plugin makes them call. */
         val NAMES = AbiFilters(
-            setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"), emptySet(), emptySet(), emptySet(),
+            setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"),
+            emptySet(),
+            emptySet(),
+            emptySet(),
         )
 
         const val UPDATE =

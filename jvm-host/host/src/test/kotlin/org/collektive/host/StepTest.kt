@@ -31,7 +31,13 @@ class StepTest {
     @Test
     fun `answers come in id order, with counts and times`() {
         val session = session()
-        session.ok(Step(1).apply { added = nodes(5, 2, 9); linked = listOf(2 to 5, 9 to 5); due = listOf(2, 5, 9) })
+        session.ok(
+            Step(1).apply {
+                added = nodes(5, 2, 9)
+                linked = listOf(2 to 5, 9 to 5)
+                due = listOf(2, 5, 9)
+            },
+        )
         val answer = session.ok(Step(2).apply { due = listOf(2, 5, 9) })
         assertEquals(2, answer.tick())
         assertEquals(3, answer.nodeCount())
@@ -69,7 +75,11 @@ class StepTest {
                 val expected = digests(session(threads = 1, schedule = schedule, network = network))
                 for (threads in listOf(1, 2, 4, 8)) {
                     val session = session(threads = threads, schedule = schedule, network = network)
-                    assertEquals(expected, digests(session, order = Random(threads)), "$threads threads, schedule $schedule, network $network")
+                    assertEquals(
+                        expected,
+                        digests(session, order = Random(threads)),
+                        "$threads threads, schedule $schedule, network $network",
+                    )
                 }
                 digests += expected
             }
@@ -80,10 +90,22 @@ class StepTest {
     @Test
     fun `the answer counts messages`() {
         val session = session(network = listOf(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-        val answer = session.ok(Step(1).apply { added = nodes(1, 2, 3); linked = listOf(1 to 2, 1 to 3); due = listOf(1) })
+        val answer = session.ok(
+            Step(1).apply {
+                added = nodes(1, 2, 3)
+                linked = listOf(1 to 2, 1 to 3)
+                due = listOf(1)
+            },
+        )
         assertEquals(listOf(2, 2, 0, 0), listOf(answer.sent(), answer.dropped(), answer.delayed(), answer.expired()))
         val slow = session(network = listOf(0.0, 0.0, 0.0, 0.06, 0.0, 0.05))
-        slow.ok(Step(1).apply { added = nodes(1, 2); linked = listOf(1 to 2); due = listOf(1) })
+        slow.ok(
+            Step(1).apply {
+                added = nodes(1, 2)
+                linked = listOf(1 to 2)
+                due = listOf(1)
+            },
+        )
         val counts = (2L..5L).map { tick -> slow.ok(Step(tick).apply { sensors = emptyList() }).expired() }
         assertEquals(listOf(0, 0, 1, 0), counts)
     }
@@ -115,11 +137,43 @@ class StepTest {
     fun `global data stays until the next, and a refused tick does not change it`() {
         val session = session()
         fun texts(step: Step) = session.answers(session.ok(step)).getValue(1).second.orEmpty().substringAfterLast('/')
-        assertEquals("calm", texts(Step(1).apply { added = nodes(1); due = listOf(1) }))
-        assertEquals("2.5", texts(Step(2).apply { wind = 2.5f; due = listOf(1) }))
-        assertEquals(-12, session.step(Step(3).apply { wind = 9f; due = listOf(8) }.bytes()))
+        assertEquals(
+            "calm",
+            texts(
+                Step(1).apply {
+                    added = nodes(1)
+                    due = listOf(1)
+                },
+            ),
+        )
+        assertEquals(
+            "2.5",
+            texts(
+                Step(2).apply {
+                    wind = 2.5f
+                    due = listOf(1)
+                },
+            ),
+        )
+        assertEquals(
+            -12,
+            session.step(
+                Step(3).apply {
+                    wind = 9f
+                    due = listOf(8)
+                }.bytes(),
+            ),
+        )
         assertEquals("2.5", texts(Step(3).apply { due = listOf(1) }))
-        assertEquals("3.5", texts(Step(4).apply { wind = 3.5f; due = listOf(1) }))
+        assertEquals(
+            "3.5",
+            texts(
+                Step(4).apply {
+                    wind = 3.5f
+                    due = listOf(1)
+                },
+            ),
+        )
     }
 
     @Test
@@ -135,13 +189,20 @@ class StepTest {
             "keep-view" to "a probe.SensorData is a view of this tick's memory",
         )
         val session = session(program = "probe")
-        session.ok(Step(1).apply { added = nodes(1, 2, 3); due = listOf(1, 2, 3) })
+        session.ok(
+            Step(1).apply {
+                added = nodes(1, 2, 3)
+                due = listOf(1, 2, 3)
+            },
+        )
         var tick = 2L
         for ((label, message) in labels) {
-            val answer = session.ok(Step(tick++).apply {
-                due = listOf(1, 2, 3)
-                sensors = listOf(Step.Sensor(0), Step.Sensor(0, label), Step.Sensor(0))
-            })
+            val answer = session.ok(
+                Step(tick++).apply {
+                    due = listOf(1, 2, 3)
+                    sensors = listOf(Step.Sensor(0), Step.Sensor(0, label), Step.Sensor(0))
+                },
+            )
             assertEquals(listOf(1, 3), List(answer.nodesLength()) { answer.nodes(it) }, label)
             assertEquals(1, answer.errorsLength())
             assertEquals("probe", answer.errors(0).program())
@@ -155,11 +216,20 @@ class StepTest {
     @Test
     fun `an answer too large for its slot grows it, and no round runs twice`() {
         val session = session(program = "probe")
-        session.ok(Step(1).apply { added = nodes(1, 2); due = listOf(1, 2) })
-        val answers = session.answers(session.ok(Step(2).apply {
-            due = listOf(1, 2)
-            sensors = listOf(Step.Sensor(0, "text:100000"), Step.Sensor(0))
-        }))
+        session.ok(
+            Step(1).apply {
+                added = nodes(1, 2)
+                due = listOf(1, 2)
+            },
+        )
+        val answers = session.answers(
+            session.ok(
+                Step(2).apply {
+                    due = listOf(1, 2)
+                    sensors = listOf(Step.Sensor(0, "text:100000"), Step.Sensor(0))
+                },
+            ),
+        )
         assertEquals(2L to "x".repeat(100_000), answers[1])
         assertEquals(2L, answers.getValue(2).first)
         assertEquals(3L, session.answers(session.ok(Step(3).apply { due = listOf(1, 2) })).getValue(1).first)
@@ -168,9 +238,17 @@ class StepTest {
     @Test
     fun `without memory for the answer the session fails with a message that says so`() {
         val session = session(program = "probe")
-        session.ok(Step(1).apply { added = nodes(1); due = listOf(1) })
+        session.ok(
+            Step(1).apply {
+                added = nodes(1)
+                due = listOf(1)
+            },
+        )
         shim.memoryLeft = 4096
-        val step = Step(2).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "text:100000")) }
+        val step = Step(2).apply {
+            due = listOf(1)
+            sensors = listOf(Step.Sensor(0, "text:100000"))
+        }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(step.bytes()))
         assertContains(shim.error, "no native memory")
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(3).bytes()))
@@ -179,24 +257,46 @@ class StepTest {
     @Test
     fun `a round that never ends fails the session, and the next one runs`() {
         val session = session(program = "probe")
-        session.ok(Step(1).apply { added = nodes(1, 2); due = listOf(1, 2) })
-        val endless = Step(2).apply { due = listOf(1, 2); sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop")) }
+        session.ok(
+            Step(1).apply {
+                added = nodes(1, 2)
+                due = listOf(1, 2)
+            },
+        )
+        val endless = Step(2).apply {
+            due = listOf(1, 2)
+            sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop"))
+        }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(endless.bytes(), limitMillis = 300))
         assertContains(shim.error, "tick 2: rounds did not finish within the limit")
         assertTrue(shim.logs.any { "in the round of node 2" in it.second })
         assertTrue(shim.logs.any { "probe.Programs.probe(Programs.java:" in it.second })
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(2).bytes()))
-        session().ok(Step(1).apply { added = nodes(1); due = listOf(1) })
+        session().ok(
+            Step(1).apply {
+                added = nodes(1)
+                due = listOf(1)
+            },
+        )
     }
 
     @Test
     fun `a bad request is refused, and the message names the reason`() {
         val session = session()
-        session.ok(Step(1).apply { added = nodes(1, 2); linked = listOf(1 to 2); due = listOf(1, 2) })
+        session.ok(
+            Step(1).apply {
+                added = nodes(1, 2)
+                linked = listOf(1 to 2)
+                due = listOf(1, 2)
+            },
+        )
         val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
             Triple(-12, "tick 2: node 7 cannot be removed: there is none") { removed = listOf(7) },
             Triple(-12, "tick 2: due node 7: there is no such node") { due = listOf(7) },
-            Triple(-12, "sensor data of 1 nodes, but 2 are due") { due = listOf(1, 2); sensors = listOf(Step.Sensor(1)) },
+            Triple(-12, "sensor data of 1 nodes, but 2 are due") {
+                due = listOf(1, 2)
+                sensors = listOf(Step.Sensor(1))
+            },
             Triple(-12, "tick 2: the time is NaN") { time = Double.NaN },
             Triple(-14, "node 3 wants the program 'smu', which is in none of the jars") { added = listOf(Step.Added(3, "smu")) },
             Triple(-14, "node 3 sets the parameter 'speed', which program 'sum' does not declare") {
@@ -217,10 +317,14 @@ class StepTest {
         val session = session(program = "")
         assertEquals(HostError.PROGRAM.code.toLong(), session.step(Step(1).apply { added = nodes(1) }.bytes()))
         assertContains(shim.error, "node 1 names no program, and the session has none either")
-        val answers = session.answers(session.ok(Step(1).apply {
-            added = listOf(Step.Added(1, "sum"), Step.Added(2, "probe"))
-            due = listOf(1, 2)
-        }))
+        val answers = session.answers(
+            session.ok(
+                Step(1).apply {
+                    added = listOf(Step.Added(1, "sum"), Step.Added(2, "probe"))
+                    due = listOf(1, 2)
+                },
+            ),
+        )
         assertEquals(listOf(true, false), listOf(1, 2).map { answers.getValue(it).second != null })
     }
 }

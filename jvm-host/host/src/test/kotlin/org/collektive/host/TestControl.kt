@@ -21,8 +21,12 @@ internal fun controlFrame(
     val names = flags.map { builder.createString(it) }
     builder.finish(
         ControlRequest.createControlRequest(
-            builder, ControlRequest.createFlagsVector(builder, names.toIntArray()), collect, recording,
-            builder.createString(settings), builder.createString(path),
+            builder,
+            ControlRequest.createFlagsVector(builder, names.toIntArray()),
+            collect,
+            recording,
+            builder.createString(settings),
+            builder.createString(path),
         ),
     )
     return direct(builder)

@@ -56,8 +56,14 @@ internal object ProbeJars {
         for (schema in schemas) {
             generate(
                 arrayOf(
-                    "--flatc", System.getProperty("collektive.flatc"), "--schema", root.resolve("jvm-host/host/src/test/schema/$schema").toString(),
-                    "--include", root.resolve("schema").toString(), "--java", output.createDirectories().toString(),
+                    "--flatc",
+                    System.getProperty("collektive.flatc"),
+                    "--schema",
+                    root.resolve("jvm-host/host/src/test/schema/$schema").toString(),
+                    "--include",
+                    root.resolve("schema").toString(),
+                    "--java",
+                    output.createDirectories().toString(),
                 ),
             )
         }

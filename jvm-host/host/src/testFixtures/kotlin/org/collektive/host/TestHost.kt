@@ -107,8 +107,7 @@ internal class Step(val tick: Long) {
 
 internal fun direct(builder: FlatBufferBuilder): ByteBuffer = direct(builder.sizedByteArray())
 
-internal fun direct(bytes: ByteArray): ByteBuffer =
-    ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
+internal fun direct(bytes: ByteArray): ByteBuffer = ByteBuffer.allocateDirect(bytes.size).order(ByteOrder.LITTLE_ENDIAN).put(bytes).flip()
 
 /** An `OpenRequest`, as C# would write it. */
 internal fun openFrame(
@@ -152,8 +151,7 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         record: String = "",
     ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record))
 
-    fun open(request: ByteBuffer): Long =
-        call(request) { Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
+    fun open(request: ByteBuffer): Long = call(request) { Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
 
     fun opened(): OpenResponse = OpenResponse.getRootAsOpenResponse(response)
 

@@ -3,8 +3,6 @@ package org.collektive.mailbox
 import it.unibo.collektive.Collektive
 import it.unibo.collektive.aggregate.AggregateResult
 import it.unibo.collektive.aggregate.api.DataSharingMethod
-import org.collektive.alignment.ProgramPlace
-import org.collektive.alignment.withPlace
 import it.unibo.collektive.networking.Mailbox
 import it.unibo.collektive.networking.Message
 import it.unibo.collektive.networking.NeighborsData
@@ -12,6 +10,8 @@ import it.unibo.collektive.networking.OutboundEnvelope
 import it.unibo.collektive.path.FullPath
 import it.unibo.collektive.path.Path
 import it.unibo.collektive.state.State
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.Export

@@ -65,9 +65,8 @@ public class Collektive<ID : Any, R>(
             previousState: State = emptyMap(),
             pathFactory: PathFactory = pathsFor(network.inMemory),
             compute: Aggregate<ID>.() -> R,
-        ): AggregateResult<ID, R> =
-            aggregate(localId, previousState, network.currentInbound(), network.inMemory, pathFactory, compute)
-                .also { network.deliverableFor(it.toSend) }
+        ): AggregateResult<ID, R> = aggregate(localId, previousState, network.currentInbound(), network.inMemory, pathFactory, compute)
+            .also { network.deliverableFor(it.toSend) }
 
         private fun pathsFor(inMemory: Boolean): PathFactory = if (inMemory) FullPathFactory else DigestHashingFactory
     }

@@ -9,12 +9,12 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.dataSharingMethod
-import org.collektive.alignment.withPlace
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.Path
 import it.unibo.collektive.path.PathFactory
 import it.unibo.collektive.state.State
+import org.collektive.alignment.withPlace
 
 /** One round of a device that reaches its neighbours through messages. */
 internal class MailboxRound<ID : Any>(
@@ -100,7 +100,14 @@ internal class MailboxRound<ID : Any>(
         val aligned = inbound.dataAt(path, sharing).keys as Set<*>
         val kept = field.neighbors.list.filter { it.id in aligned }
         if (kept.size == field.neighbors.size) return field
-        return Field.make(field.context, Array<Any>(kept.size) { kept[it].id }, Array<Any?>(kept.size) { kept[it].value }, field.local.value)
+        return Field.make(
+            field.context,
+            Array<Any>(kept.size) {
+                kept[it].id
+            },
+            Array<Any?>(kept.size) { kept[it].value },
+            field.local.value,
+        )
     }
 
     private companion object {

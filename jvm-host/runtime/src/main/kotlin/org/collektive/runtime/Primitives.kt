@@ -66,8 +66,10 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** The reason why [pivot] cannot align devices; `null` when it can. */
     protected fun pivotFault(pivot: Any?): String? = when {
         pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: each device has another one"
+
         pivot is Function<*> || pivot != null && pivot.javaClass.isArray ->
             "a ${pivot.javaClass.simpleName} cannot be a pivot: it equals no other one; use a number, a string, a list or a data class"
+
         else -> null
     }
 

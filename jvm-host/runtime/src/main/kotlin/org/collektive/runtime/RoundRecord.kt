@@ -89,10 +89,22 @@ internal class RoundRecord : Export() {
     }
 
     /** The value stored at [path], or [Nothing]. */
-    fun keptAt(path: PathNode): Any? = if (path === path0) kept0 else if (path === path1) kept1 else at(path, KEPT)
+    fun keptAt(path: PathNode): Any? = if (path === path0) {
+        kept0
+    } else if (path === path1) {
+        kept1
+    } else {
+        at(path, KEPT)
+    }
 
     /** The value sent at [path], or [Nothing]. */
-    fun sentAt(path: PathNode): Any? = if (path === path0) sent0 else if (path === path1) sent1 else at(path, SENT)
+    fun sentAt(path: PathNode): Any? = if (path === path0) {
+        sent0
+    } else if (path === path1) {
+        sent1
+    } else {
+        at(path, SENT)
+    }
 
     fun forEachPath(action: (PathNode) -> Unit) {
         path0?.let(action)

@@ -4,7 +4,6 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchange
 import it.unibo.collektive.aggregate.api.exchanging
-import org.collektive.alignment.project
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
@@ -13,6 +12,7 @@ import it.unibo.collektive.aggregate.api.sharing
 import it.unibo.collektive.aggregate.ids
 import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.aggregate.values
+import org.collektive.alignment.project
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
@@ -167,7 +167,9 @@ class PrimitivesTest {
         val network = TestNetwork(1, 2, 3, 4).line(1, 2, 3).line(2, 4)
         val program: Aggregate<Int>.() -> Any? = {
             val now = alignedOn("now") { listOf(neighborhood()) }.single()
-            alignedOn("then") { evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef")?.neighbors?.ids?.list } } }
+            alignedOn("then") {
+                evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef")?.neighbors?.ids?.list } }
+            }
         }
         repeat(3) { network.values(program = program) }
         assertEquals(listOf(1, 3, 4), network.values(program = program)[2])

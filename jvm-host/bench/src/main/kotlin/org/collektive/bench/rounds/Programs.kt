@@ -34,8 +34,7 @@ internal fun Aggregate<Int>.gradientAscent(senses: Senses): Heading {
 }
 
 /** Program b: the distance from the source, by the self-stabilising `distanceTo`. */
-internal fun Aggregate<Int>.distanceFromSource(senses: Senses): Double =
-    distanceTo(senses.isSource, euclideanDistance2D(senses.position))
+internal fun Aggregate<Int>.distanceFromSource(senses: Senses): Double = distanceTo(senses.isSource, euclideanDistance2D(senses.position))
 
 /** Program b2: the distance from the source, by `bellmanFordGradientCast`. */
 internal fun Aggregate<Int>.bellmanFordFromSource(senses: Senses): Double = bellmanFordGradientCast(

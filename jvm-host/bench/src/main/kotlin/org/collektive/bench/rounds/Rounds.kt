@@ -1,7 +1,5 @@
 package org.collektive.bench.rounds
 
-import java.io.File
-import java.util.Locale
 import org.openjdk.jmh.profile.GCProfiler
 import org.openjdk.jmh.results.RunResult
 import org.openjdk.jmh.runner.Runner
@@ -9,6 +7,8 @@ import org.openjdk.jmh.runner.options.Options
 import org.openjdk.jmh.runner.options.OptionsBuilder
 import org.openjdk.jmh.runner.options.TimeValue
 import org.openjdk.jmh.runner.options.VerboseMode
+import java.io.File
+import java.util.Locale
 
 /**
  * `./collektive bench rounds [--quick]`: measures all programs on both topologies, prints a table and writes the JSON file that the

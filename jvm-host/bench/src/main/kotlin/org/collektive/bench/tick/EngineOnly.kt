@@ -19,7 +19,9 @@ import org.collektive.schema.Vector3
 import java.nio.ByteBuffer
 
 /** The rounds of the case study alone, without C#, frames and answers; the sensor data is prepared in memory. */
-internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, RoundData {
+internal class EngineOnly(private val grid: Grid, threads: Int) :
+    Workload,
+    RoundData {
     private val engine = Engine(EngineSettings(SEED, threads), AggregateRuntimes())
     private val schema = GradientAscentSchema()
     private val frames = List(FRAMES) { sensors(it.toLong()) }
@@ -53,7 +55,9 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
     private fun sensors(tick: Long): ByteBuffer {
         val builder = FlatBufferBuilder(1 shl 16)
         val elements = IntArray(grid.size) { node ->
-            val obstacles = if (node % Grid.OBSTACLE_EVERY != 0) 0 else {
+            val obstacles = if (node % Grid.OBSTACLE_EVERY != 0) {
+                0
+            } else {
                 SensorData.startObstaclesVector(builder, 1)
                 Vector3.createVector3(builder, Grid.OBSTACLE_X, 0f, Grid.OBSTACLE_Z)
                 builder.endVector()
@@ -68,7 +72,9 @@ internal class EngineOnly(private val grid: Grid, threads: Int) : Workload, Roun
         builder.startTable(1)
         builder.addOffset(0, data, 0)
         builder.finish(builder.endTable())
-        return ByteBuffer.allocateDirect(builder.sizedByteArray().size).order(java.nio.ByteOrder.LITTLE_ENDIAN).put(builder.sizedByteArray()).flip()
+        return ByteBuffer.allocateDirect(
+            builder.sizedByteArray().size,
+        ).order(java.nio.ByteOrder.LITTLE_ENDIAN).put(builder.sizedByteArray()).flip()
     }
 
     private object GradientAscent : NodeProgram {

@@ -48,15 +48,22 @@ private class Server(private val client: SocketChannel) : ShimCalls {
             if (!read(REQUEST_HEADER + length)) return
             val reply = when (kind) {
                 OPEN -> framed(Host.open(id.toLong(), request, REQUEST_HEADER, length, 0, answer, LIMIT_MILLIS))
+
                 STEP -> framed(Host.step(id.toLong(), request, REQUEST_HEADER, length, 0, answer, LIMIT_MILLIS))
+
                 CLOSE -> numbers().also {
                     Host.close(id.toLong())
                     workloads.remove(id)?.close()
                 }
+
                 ENGINE -> numbers().also { workloads[id] = EngineOnly(Grid(number(0)), number(1)) }
+
                 LOOPS -> numbers().also { workloads[id] = Loops(Grid(number(0))) }
+
                 RUN -> run(checkNotNull(workloads[id]) { "no workload $id" }, number(0))
+
                 REPORT -> numbers(allocatedBytes())
+
                 else -> throw IllegalArgumentException("no request $kind")
             }
             while (reply.hasRemaining()) client.write(reply)

@@ -1,10 +1,10 @@
 package org.collektive.bench.rounds
 
+import org.collektive.engine.TickResult
 import java.util.PriorityQueue
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
-import org.collektive.engine.TickResult
 
 /** Checks that the benchmarked programs compute correct results. */
 class ProgramsTest {

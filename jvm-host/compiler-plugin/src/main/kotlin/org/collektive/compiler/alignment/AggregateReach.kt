@@ -42,12 +42,17 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         val callee = call.symbol.owner
         return when {
             dsl.isManualAlignment(callee) || callee.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR -> false
+
             // The code of an object literal is part of the enclosing function.
             callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
+
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionArguments(call).any()
+
             // These call no primitives themselves, but may call a function that does.
             dsl.isFieldMember(callee) || isKotlins(callee) -> functionArguments(call).any(::carries)
+
             callee.isLocal && leadsToPrimitive(callee) -> true
+
             else -> call.arguments.any { it != null && carries(it) }
         }
     }
@@ -60,12 +65,18 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
     private fun carries(value: IrExpression): Boolean = when (value) {
         is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)
+
         is IrFunctionExpression -> leadsToPrimitive(value.function)
+
         is IrFunctionReference -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) } ||
             value.symbol.owner.let { it.isLocal && leadsToPrimitive(it) }
+
         is IrCallableReference<*> -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) }
+
         is IrVararg -> value.elements.any { carries(if (it is IrSpreadElement) it.expression else it as IrExpression) }
+
         is IrGetValue -> functionIn(value)?.let(::leadsToPrimitive) ?: mayCarry(value)
+
         else -> mayCarry(value)
     }
 

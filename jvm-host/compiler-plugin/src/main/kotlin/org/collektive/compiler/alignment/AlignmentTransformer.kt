@@ -10,6 +10,7 @@ import org.jetbrains.kotlin.backend.common.lower.irCatch
 import org.jetbrains.kotlin.backend.common.lower.irThrow
 import org.jetbrains.kotlin.ir.IrStatement
 import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
+import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
 import org.jetbrains.kotlin.ir.builders.irBlock
 import org.jetbrains.kotlin.ir.builders.irCall
 import org.jetbrains.kotlin.ir.builders.irGet
@@ -17,7 +18,6 @@ import org.jetbrains.kotlin.ir.builders.irGetField
 import org.jetbrains.kotlin.ir.builders.irString
 import org.jetbrains.kotlin.ir.builders.irTemporary
 import org.jetbrains.kotlin.ir.builders.irTry
-import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
 import org.jetbrains.kotlin.ir.declarations.IrAnnotationContainer
 import org.jetbrains.kotlin.ir.declarations.IrAnonymousInitializer
 import org.jetbrains.kotlin.ir.declarations.IrClass
@@ -95,8 +95,7 @@ internal class AlignmentTransformer(
     /** Whether the current arm contains something aligned or projected, so that it needs a token. */
     private var dependsOnPath = false
 
-    override fun visitFileNew(declaration: IrFile): IrFile =
-        if (isIgnored(declaration)) declaration else super.visitFileNew(declaration)
+    override fun visitFileNew(declaration: IrFile): IrFile = if (isIgnored(declaration)) declaration else super.visitFileNew(declaration)
 
     override fun visitClassNew(declaration: IrClass): IrStatement =
         if (isIgnored(declaration)) declaration else super.visitClassNew(declaration)
@@ -272,17 +271,24 @@ internal class AlignmentTransformer(
     /** Generates `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }`. */
     private fun IrBlockBuilder.noteAndRethrow(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
         val failure = buildVariable(
-            scope.getLocalDeclarationParent(), startOffset, endOffset,
-            IrDeclarationOrigin.CATCH_PARAMETER, Name.identifier("failure"), plugin.irBuiltIns.throwableType,
+            scope.getLocalDeclarationParent(),
+            startOffset,
+            endOffset,
+            IrDeclarationOrigin.CATCH_PARAMETER,
+            Name.identifier("failure"),
+            plugin.irBuiltIns.throwableType,
         )
         val note = irCall(dsl.noteFailure).apply {
             arguments[0] = aggregate()
             arguments[1] = irGet(failure)
         }
-        return irCatch(failure, irBlock(resultType = plugin.irBuiltIns.nothingType) {
-            +note
-            +irThrow(irGet(failure))
-        })
+        return irCatch(
+            failure,
+            irBlock(resultType = plugin.irBuiltIns.nothingType) {
+                +note
+                +irThrow(irGet(failure))
+            },
+        )
     }
 
     /** Reads the Aggregate of the enclosing function. */
@@ -355,8 +361,7 @@ internal class AlignmentTransformer(
         else -> "?:"
     }
 
-    private fun token(what: String, at: IrExpression): String =
-        tokens.next(what, at.startOffset, currentScopeOwner())
+    private fun token(what: String, at: IrExpression): String = tokens.next(what, at.startOffset, currentScopeOwner())
 
     private fun currentScopeOwner() = checkNotNull(currentScope).scope.scopeOwnerSymbol.owner as IrDeclaration
 

@@ -34,15 +34,21 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
         for (element in context.containingElements.asReversed()) {
             when (element) {
                 expression -> Unit
+
                 is FirLoop -> return true
+
                 // A separate program, as in a test that runs one per device.
                 is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
+
                 is FirFunction, is FirClass -> return false
+
                 is FirFunctionCall -> {
                     if (lambda == null || element.parameterOf(lambda) == null) continue
                     when {
                         isAlignedOn(element) -> return false
+
                         isPerElement(element) -> return true
+
                         // The outer call is the one to report.
                         isAggregateCall(element) -> return false
                     }
@@ -71,7 +77,9 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
                 if (callee.isDsl(DslNames.align) || callee.isDsl(DslNames.dealign) || isAlignedOn(call)) return false
                 listOfNotNull(call.dispatchReceiver) + call.arguments
             }
+
             is FirPropertyAccessExpression -> emptyList()
+
             else -> return false
         }
         given.any { it.resolvedType.isAggregate() }
@@ -88,7 +96,12 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
     }
 
     private val COLLECTIONS = setOf(
-        "kotlin.collections", "kotlin.sequences", "kotlin.text", "java.lang", "java.util", "java.util.stream",
+        "kotlin.collections",
+        "kotlin.sequences",
+        "kotlin.text",
+        "java.lang",
+        "java.util",
+        "java.util.stream",
         "it.unibo.collektive.stdlib.collapse",
     )
 

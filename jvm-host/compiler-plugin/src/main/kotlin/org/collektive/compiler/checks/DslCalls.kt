@@ -32,8 +32,12 @@ internal fun ConeKotlinType.isAggregate(): Boolean = isOf(DslNames.aggregate)
 context(session: FirSession)
 private fun ConeKotlinType.isOf(type: ClassId): Boolean = when (val expanded = fullyExpandedType(session)) {
     is ConeTypeParameterType -> expanded.lookupTag.typeParameterSymbol.resolvedBounds.any { it.coneType.isOf(type) }
+
     is ConeDefinitelyNotNullType -> expanded.original.isOf(type)
+
     is ConeFlexibleType -> expanded.upperBound.isOf(type)
-    else -> expanded.classId == type ||
-        expanded.toRegularClassSymbol(session)?.resolvedSuperTypes?.any { it.isOf(type) } == true
+
+    else ->
+        expanded.classId == type ||
+            expanded.toRegularClassSymbol(session)?.resolvedSuperTypes?.any { it.isOf(type) } == true
 }

@@ -104,11 +104,14 @@ private fun reportField(result: FirStatement?) {
     when (result) {
         // Their arms are checked separately.
         is FirWhenExpression, is FirElvisExpression -> Unit
+
         is FirBlock -> reportField(result.statements.lastOrNull())
+
         is FirTryExpression -> {
             reportField(result.tryBlock)
             for (catch in result.catches) reportField(catch.block)
         }
+
         is FirExpression ->
             if (isAggregateCode() && result.isField()) reporter.reportOn(result.source, AggregateDiagnostics.FIELD_FROM_BRANCH)
     }

@@ -13,7 +13,11 @@ import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
 internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {
-        if (expression.callee?.callableId?.classId != DslNames.yieldingContext || expression.calleeReference.name != DslNames.yielding) return
+        if (expression.callee?.callableId?.classId != DslNames.yieldingContext ||
+            expression.calleeReference.name != DslNames.yielding
+        ) {
+            return
+        }
         val lambda = expression.lambda ?: return
         val returned = lambda.onlyExpression ?: return
         val kept = expression.extensionReceiver?.readVariable

@@ -35,13 +35,20 @@ internal fun isValueTaken(expression: FirExpression): Boolean {
         val outer = outwards.next()
         when (outer) {
             is FirBlock -> if (outer.statements.last() !== inner) return false
+
             // An `if` without `else` has no value even at the end of a lambda.
             is FirWhenExpression -> if (outer.resolvedType.isUnit) return false
+
             is FirWhenBranch -> if (outer.result !== inner) return true
+
             is FirTryExpression -> if (outer.finallyBlock === inner) return false
+
             is FirSafeCallExpression -> if (outer.selector !== inner) return true
+
             is FirElvisExpression, is FirCatch -> Unit
+
             is FirLoop -> return outer.block !== inner
+
             is FirReturnExpression -> {
                 val function = outer.target.labeledElement
                 if (function !is FirAnonymousFunction) return true
@@ -49,10 +56,14 @@ internal fun isValueTaken(expression: FirExpression): Boolean {
                 inner = function
                 continue
             }
+
             // A function that ends with a value ends with a `return`, explicit or implicit.
             is FirFunction, is FirAnonymousInitializer -> return false
+
             is FirArgumentList -> if (inner is FirAnonymousFunction) continue else return true
+
             is FirFunctionCall -> if (inner !is FirAnonymousFunction || !outer.returnsValueOf(inner)) return true
+
             else -> return true
         }
         inner = outer

@@ -11,9 +11,4 @@ import it.unibo.collektive.state.State
  * @property toSend the messages for the neighbours.
  * @property newState the state for the next round.
  */
-public data class AggregateResult<ID : Any, out R>(
-    val localId: ID,
-    val result: R,
-    val toSend: OutboundEnvelope<ID>,
-    val newState: State,
-)
+public data class AggregateResult<ID : Any, out R>(val localId: ID, val result: R, val toSend: OutboundEnvelope<ID>, val newState: State)

@@ -103,12 +103,7 @@ public class Field<ID : Any, out T> private constructor(
     }
 
     /** [alignedMap] over four fields. */
-    public fun <A, B, C, R> alignedMap(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        transform: (ID, T, A, B, C) -> R,
-    ): Field<ID, R> {
+    public fun <A, B, C, R> alignedMap(a: Field<ID, A>, b: Field<ID, B>, c: Field<ID, C>, transform: (ID, T, A, B, C) -> R): Field<ID, R> {
         requireAligned(a)
         requireAligned(b)
         requireAligned(c)
@@ -167,7 +162,14 @@ public class Field<ID : Any, out T> private constructor(
         requireAligned(f)
         return build {
             transform(
-                idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it), e.valueAt(it), f.valueAt(it),
+                idAt(it),
+                valueAt(it),
+                a.valueAt(it),
+                b.valueAt(it),
+                c.valueAt(it),
+                d.valueAt(it),
+                e.valueAt(it),
+                f.valueAt(it),
             )
         }
     }
@@ -216,8 +218,7 @@ public class Field<ID : Any, out T> private constructor(
         e: Field<ID, E>,
         f: Field<ID, F>,
         transform: (T, A, B, C, D, E, F) -> R,
-    ): Field<ID, R> =
-        alignedMap(a, b, c, d, e, f) { _, value, va, vb, vc, vd, ve, vf -> transform(value, va, vb, vc, vd, ve, vf) }
+    ): Field<ID, R> = alignedMap(a, b, c, d, e, f) { _, value, va, vb, vc, vd, ve, vf -> transform(value, va, vb, vc, vd, ve, vf) }
 
     override fun equals(other: Any?): Boolean = this === other || other is Field<*, *> && all.toMap() == other.all.toMap()
 
@@ -278,12 +279,7 @@ public class Field<ID : Any, out T> private constructor(
          * @throws IllegalStateException when a value is itself a [Field].
          */
         @DelicateCollektiveApi
-        public fun <ID : Any, T> make(
-            context: Aggregate<ID>,
-            ids: Array<out Any>,
-            values: Array<out Any?>,
-            local: T,
-        ): Field<ID, T> {
+        public fun <ID : Any, T> make(context: Aggregate<ID>, ids: Array<out Any>, values: Array<out Any?>, local: T): Field<ID, T> {
             for (value in values) refuseField(context, value)
             refuseField(context, local)
             return Field(context, ids, values, local)

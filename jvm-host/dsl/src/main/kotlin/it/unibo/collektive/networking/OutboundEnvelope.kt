@@ -19,10 +19,7 @@ public interface OutboundEnvelope<ID : Any> {
     public fun isNotEmpty(): Boolean = !isEmpty()
 
     /** The message for [receiverId], made by [factory]. A receiver that was no neighbour during the round gets the default values. */
-    public fun prepareMessageFor(
-        receiverId: ID,
-        factory: MessageFactory<ID, *> = InMemoryMessageFactory(),
-    ): Message<ID, Any?>
+    public fun prepareMessageFor(receiverId: ID, factory: MessageFactory<ID, *> = InMemoryMessageFactory()): Message<ID, Any?>
 
     /**
      * The values to send at one path.
@@ -32,7 +29,6 @@ public interface OutboundEnvelope<ID : Any> {
     public data class SharedData<ID : Any, Value>(val default: Value, val overrides: Map<ID, Value> = emptyMap()) {
         /** The value for [receiverId]. */
         @Suppress("UNCHECKED_CAST")
-        public operator fun get(receiverId: ID): Value =
-            if (receiverId in overrides) overrides[receiverId] as Value else default
+        public operator fun get(receiverId: ID): Value = if (receiverId in overrides) overrides[receiverId] as Value else default
     }
 }

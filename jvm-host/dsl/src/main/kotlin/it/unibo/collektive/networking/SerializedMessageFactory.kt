@@ -2,8 +2,6 @@ package it.unibo.collektive.networking
 
 import it.unibo.collektive.aggregate.api.InMemory
 import it.unibo.collektive.aggregate.api.Serialize
-import org.collektive.alignment.ProgramPlace
-import org.collektive.alignment.withPlace
 import it.unibo.collektive.path.Path
 import it.unibo.collektive.path.tokens
 import kotlinx.serialization.BinaryFormat
@@ -11,6 +9,8 @@ import kotlinx.serialization.KSerializer
 import kotlinx.serialization.SerialFormat
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.StringFormat
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.withPlace
 
 /**
  * Makes [SerializedMessage]s.

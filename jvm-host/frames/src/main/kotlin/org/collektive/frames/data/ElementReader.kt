@@ -7,11 +7,8 @@ import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
 /** Reads the table `Sensors` or `Actuators` of any schema. Generated code makes it. */
-public class ElementReader private constructor(
-    private val element: TableLayout?,
-    private val bytes: Int,
-    private val view: View,
-) : DataReader {
+public class ElementReader private constructor(private val element: TableLayout?, private val bytes: Int, private val view: View) :
+    DataReader {
     private val outline = TableLayout().vector("data", DATA_ENTRY, bytes, false)
     private val whole = if (element == null) outline else TableLayout().tables("data", DATA_ENTRY, element, false)
     private val checker = FrameChecker(FramePolicy.USER_DATA)

@@ -35,8 +35,7 @@ public abstract class ElementWriter private constructor(private val type: Class<
 
     internal abstract fun writeElements(builder: FlatBufferBuilder, results: Array<Any?>, count: Int, ranges: IntArray): Int
 
-    internal fun result(results: Array<Any?>, index: Int): Any =
-        results[index] ?: throw IllegalArgumentException("result $index is null")
+    internal fun result(results: Array<Any?>, index: Int): Any = results[index] ?: throw IllegalArgumentException("result $index is null")
 
     private class Structs(
         type: Class<*>,

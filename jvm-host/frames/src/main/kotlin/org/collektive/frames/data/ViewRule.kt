@@ -80,13 +80,20 @@ public object ViewRule : SharingRule {
 
     private fun shapeOf(type: Class<*>, open: Set<Class<*>>): Shape = when {
         VIEWS.any { it.isAssignableFrom(type) } -> View
+
         type.isPrimitive || type.isEnum || type.componentType?.isPrimitive == true -> Plain
+
         type.isArray -> Slots
+
         type == Pair::class.java -> Two
+
         Iterable::class.java.isAssignableFrom(type) -> Elements
+
         Map::class.java.isAssignableFrom(type) -> Entries
+
         // Reflection cannot read the fields of other JDK classes.
         type.name.startsWith("java.") -> Plain
+
         else -> {
             val fields = fieldsOf(type).filter { mayHoldView(it.type, open + type) && it.trySetAccessible() }
             if (fields.isEmpty()) Plain else Fields(fields.toTypedArray())

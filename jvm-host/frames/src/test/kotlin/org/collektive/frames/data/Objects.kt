@@ -25,12 +25,19 @@ internal object Objects {
                 }
                 append(']')
             }
+
             data == null -> append("null")
+
             data is String -> append('"').append(data).append('"')
+
             data is Boolean -> append(data.toString())
+
             data is Float -> append('f').append(java.lang.Float.floatToRawIntBits(data))
+
             data is Double -> append('d').append(java.lang.Double.doubleToRawLongBits(data))
+
             data is Number -> append(data.toLong())
+
             else -> {
                 append('{')
                 for ((name, getter) in getters(data.javaClass)) {

@@ -36,7 +36,13 @@ class ViewRuleTest {
     @Test
     fun `a value that contains a view is refused`() {
         val holders = listOf(
-            1 to view, view to 1, Triple(1, 2, view), listOf(1, view), arrayListOf<Any>(view), setOf(view), mapOf(1 to view), mapOf(view to 1), arrayOf(view),
+            1 to view, view to 1,
+            Triple(
+                1,
+                2,
+                view,
+            ),
+            listOf(1, view), arrayListOf<Any>(view), setOf(view), mapOf(1 to view), mapOf(view to 1), arrayOf(view),
             Reading(view), Named("now", view), Chain(Chain(null, view), null), Derived(view), Maybe.Some(view), sequenceOf(view),
             listOf(1 to listOf(Named("deep", view))), { view },
         )

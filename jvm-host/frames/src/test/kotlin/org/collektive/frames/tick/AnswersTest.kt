@@ -2,20 +2,20 @@ package org.collektive.frames.tick
 
 import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.api.Parameters
-import org.collektive.frames.data.DataReader
-import org.collektive.frames.data.DataSchema
-import org.collektive.frames.data.ElementWriter
-import org.collektive.frames.data.GlobalReader
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
 import org.collektive.engine.NewNode
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundData
 import org.collektive.engine.RoundDevice
-import org.collektive.frames.AnswerBuffer
 import org.collektive.engine.RoundDigest
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
+import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.data.DataReader
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.ElementWriter
+import org.collektive.frames.data.GlobalReader
 import org.collektive.runtime.AggregateRuntimes
 import org.junit.jupiter.api.Test
 import java.nio.ByteBuffer
@@ -110,7 +110,9 @@ class AnswersTest {
 
         override fun globalReader(): GlobalReader? = null
 
-        override fun actuatorWriter() = ElementWriter.structs(Answer::class.java, BYTES, 4, ::pack) { if ((it as Answer).isGood) null else "is bad" }
+        override fun actuatorWriter() = ElementWriter.structs(Answer::class.java, BYTES, 4, ::pack) {
+            if ((it as Answer).isGood) null else "is bad"
+        }
 
         private fun pack(builder: FlatBufferBuilder, answer: Any): Int {
             answer as Answer

@@ -94,7 +94,8 @@ internal class Recorder(private val shim: ShimCalls) {
             orders++
             state = busy
         }
-        val worker = worker ?: Executors.newSingleThreadExecutor { Thread(it, "collektive-jfr").apply { isDaemon = true } }.also { worker = it }
+        val worker =
+            worker ?: Executors.newSingleThreadExecutor { Thread(it, "collektive-jfr").apply { isDaemon = true } }.also { worker = it }
         worker.execute {
             val begin = System.nanoTime()
             error = null

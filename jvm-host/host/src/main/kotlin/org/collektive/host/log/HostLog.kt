@@ -64,7 +64,9 @@ internal class HostLog(private val shim: ShimCalls) {
             val line = lines.get()
             when (byte.toChar()) {
                 '\n' -> end(line)
+
                 '\r' -> {}
+
                 else -> {
                     line.write(byte)
                     if (line.size() == MAX_LINE) end(line)

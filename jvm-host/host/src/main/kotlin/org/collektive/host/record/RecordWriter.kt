@@ -1,8 +1,8 @@
 package org.collektive.host.record
 
+import org.collektive.host.programs.JarBytes
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
-import org.collektive.host.programs.JarBytes
 import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.ByteOrder

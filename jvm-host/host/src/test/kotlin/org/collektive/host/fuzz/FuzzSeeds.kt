@@ -38,8 +38,14 @@ internal object FuzzSeeds {
             due = listOf(1, 3)
             sensors = listOf(Step.Sensor(7, "label", 3), Step.Sensor(-1, "", 0))
         },
-        "step-globals" to Step(TICK).apply { wind = 2.5f; due = listOf(1) },
-        "step-links" to Step(TICK).apply { unlinked = listOf(0 to 1, 3 to 4); linked = listOf(1 to 2, 2 to 0) },
+        "step-globals" to Step(TICK).apply {
+            wind = 2.5f
+            due = listOf(1)
+        },
+        "step-links" to Step(TICK).apply {
+            unlinked = listOf(0 to 1, 3 to 4)
+            linked = listOf(1 to 2, 2 to 0)
+        },
         "step-nodes" to Step(TICK).apply {
             removed = listOf(0, 4)
             added = listOf(Step.Added(4), Step.Added(9, "sum"))

@@ -86,8 +86,13 @@ internal object StepFuzzer : Fuzzer {
             tick++
         }
 
-        private fun outcome(answer: StepResponse) =
-            listOf(answer.digest(), answer.nodeCount().toLong(), answer.linkCount().toLong(), answer.sent().toLong(), answer.errorsLength().toLong())
+        private fun outcome(answer: StepResponse) = listOf(
+            answer.digest(),
+            answer.nodeCount().toLong(),
+            answer.linkCount().toLong(),
+            answer.sent().toLong(),
+            answer.errorsLength().toLong(),
+        )
 
         private fun opened() = TestSession(shim).also {
             check(it.open(openFrame(listOf(FuzzedPrograms.PATH), threads = 1)) >= 0) { shim.error }

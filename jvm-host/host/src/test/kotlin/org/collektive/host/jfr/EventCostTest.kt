@@ -15,7 +15,12 @@ class EventCostTest {
         val asking = (1..5).minOf { nanosPer(ASKS) { repeat(ASKS) { if (ProgramRounds.begin() != null) wanted++ } } }
         val session = TestSession(TestShim()).apply { open(program = "probe", threads = 1) }
         val nodes = (0 until NODES).toList()
-        session.ok(Step(1).apply { added = nodes.map { Step.Added(it) }; due = nodes })
+        session.ok(
+            Step(1).apply {
+                added = nodes.map { Step.Added(it) }
+                due = nodes
+            },
+        )
         var tick = 2L
         val round = (1..5).minOf { nanosPer(TICKS * NODES) { repeat(TICKS) { session.ok(Step(tick++).apply { due = nodes }) } } }
         session.close()

@@ -43,11 +43,23 @@ class RecorderTest {
         val session = TestSession(shim, answerBytes = 128)
         session.open(program = "sum", threads = 1)
         val nodes = (0 until NODES).toList()
-        session.ok(Step(1).apply { added = nodes.map { Step.Added(it) }; linked = listOf(1 to 2, 2 to 3); due = nodes })
+        session.ok(
+            Step(1).apply {
+                added = nodes.map { Step.Added(it) }
+                linked = listOf(1 to 2, 2 to 3)
+                due = nodes
+            },
+        )
         for (tick in 2..TICKS) session.ok(Step(tick).apply { due = nodes })
         session.close()
         val failing = TestSession(shim).apply { open(program = "probe") }
-        failing.ok(Step(1).apply { added = listOf(Step.Added(5)); due = listOf(5); sensors = listOf(Step.Sensor(0, "throw")) })
+        failing.ok(
+            Step(1).apply {
+                added = listOf(Step.Added(5))
+                due = listOf(5)
+                sensors = listOf(Step.Sensor(0, "throw"))
+            },
+        )
         failing.close()
         control.record(RecordingAction.Stop)
 
@@ -116,7 +128,11 @@ class RecorderTest {
         )
         val file = folder.resolve("few.jfr")
         start(file, settings.toString())
-        TestSession(shim).apply { open(); ok(Step(1)); close() }
+        TestSession(shim).apply {
+            open()
+            ok(Step(1))
+            close()
+        }
         control.record(RecordingAction.Stop)
         val events = read(file)
         assertNull(events["collektive.Tick"])

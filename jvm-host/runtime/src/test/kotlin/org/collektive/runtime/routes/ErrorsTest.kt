@@ -6,12 +6,12 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import org.collektive.alignment.noteFailure
-import org.collektive.alignment.popToken
-import org.collektive.alignment.pushToken
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import kotlinx.serialization.SerializationException
+import org.collektive.alignment.noteFailure
+import org.collektive.alignment.popToken
+import org.collektive.alignment.pushToken
 import org.junit.jupiter.api.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -46,7 +46,13 @@ class ErrorsTest {
             graph.now += 2
             val results = route.round(graph, listOf(0, 1, 2)) {
                 val count = call("count", 1) { evolve(0) { it + 1 } }
-                if (fails && localId == 1) call("helper", 7) { program() } else count to call("near", 2) { neighboring(count).neighbors.list.size }
+                if (fails &&
+                    localId == 1
+                ) {
+                    call("helper", 7) { program() }
+                } else {
+                    count to call("near", 2) { neighboring(count).neighbors.list.size }
+                }
             }
             graph.sent(results.filterValues { it.isSuccess }.keys)
             return results
@@ -55,7 +61,13 @@ class ErrorsTest {
         round(fails = false)
         val failed = round(fails = true)
         assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the others, on ${route.name}")
-        assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), round(fails = false).values.map { it.getOrThrow() }, "afterwards, on ${route.name}")
+        assertEquals(
+            listOf<Any?>(4 to 1, 3 to 2, 4 to 1),
+            round(fails = false).values.map {
+                it.getOrThrow()
+            },
+            "afterwards, on ${route.name}",
+        )
         return failed.getValue(1).exceptionOrNull() ?: error("nothing failed on ${route.name}")
     }
 
@@ -63,11 +75,12 @@ class ErrorsTest {
         for (route in listOf(fast, MailboxRoute(inMemory = true), MailboxRoute(inMemory = false))) check(route)
     }
 
-    private inline fun <reified E : Throwable> assertMessage(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) = onAll { route ->
-        val error = assertIs<E>(failure(route, program), route.name)
-        assertContains(error.message.orEmpty(), what, message = route.name)
-        assertTrue(error.message.orEmpty().endsWith(" [$place]"), "${route.name}: ${error.message}")
-    }
+    private inline fun <reified E : Throwable> assertMessage(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) =
+        onAll { route ->
+            val error = assertIs<E>(failure(route, program), route.name)
+            assertContains(error.message.orEmpty(), what, message = route.name)
+            assertTrue(error.message.orEmpty().endsWith(" [$place]"), "${route.name}: ${error.message}")
+        }
 
     @Test
     fun `two primitives at one path`() =
@@ -105,7 +118,9 @@ class ErrorsTest {
     fun `a pivot that cannot be a key`() {
         val place = "node 1 at helper (Swarm.kt:7)"
         for (pivot in listOf(intArrayOf(1), arrayOf("a"), { 1 })) {
-            assertMessage<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) { alignedOn(pivot) { evolve(0) { it } } }
+            assertMessage<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) {
+                alignedOn(pivot) { evolve(0) { it } }
+            }
         }
         assertMessage<IllegalArgumentException>("a Field cannot be a pivot", place) {
             val field = call("near", 2) { neighboring(1) }
@@ -141,7 +156,10 @@ class ErrorsTest {
         fun Aggregate<Int>.deeper(): Int = call("deeper", 3) { alignedOn("key") { deeper() } } + 1
         for (inMemory in listOf(true, false)) {
             val error = assertIs<StackOverflowError>(failure(MailboxRoute(inMemory)) { deeper() })
-            val expected = Regex("the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]")
+            val expected =
+                Regex(
+                    "the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]",
+                )
             assertTrue(expected.matches(error.message.orEmpty()), error.message)
         }
     }

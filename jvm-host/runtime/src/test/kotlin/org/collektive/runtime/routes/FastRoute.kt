@@ -10,7 +10,9 @@ import java.util.concurrent.Callable
 import java.util.concurrent.Executors
 
 /** The route of simulations: [threads] threads read messages in place at the same time. */
-internal class FastRoute(private val threads: Int) : Route, AutoCloseable {
+internal class FastRoute(private val threads: Int) :
+    Route,
+    AutoCloseable {
     override val name = "in place, $threads threads"
     private val runtimes = AggregateRuntimes()
     private val devices = sortedMapOf<Int, DeviceRuntime>()

@@ -91,6 +91,7 @@ internal class MailboxRoute(private val inMemory: Boolean) : Route {
             messages.filter { path in it.sharedData }.associate { message ->
                 message.senderId to when (message) {
                     is InMemoryMessage -> message.sharedData[path] as Value
+
                     is SerializedMessage -> Json.decodeFromString(
                         (dataSharingMethod as Serialize<Value>).serializer,
                         message.sharedData.getValue(path).decodeToString(),

@@ -2,13 +2,13 @@ package org.collektive.runtime.routes
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchanging
-import org.collektive.alignment.project
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import it.unibo.collektive.aggregate.api.sharing
 import it.unibo.collektive.aggregate.values
+import org.collektive.alignment.project
 import kotlin.random.Random
 
 /** A part of a program; returns a number or `null`. */
@@ -27,9 +27,13 @@ internal class RandomPrograms(private val random: Random) {
         val k = random.nextInt(1, 6)
         return when (random.nextInt(14)) {
             0 -> at { evolve<Int?>(k) { old -> if (old == null) k else mix(old, alignedOn("inside") { a() }) } }
+
             1 -> at { evolving<Int?, Int?>(null) { old -> mix(old, k).yielding { mix(this, alignedOn("inside") { b() }) } } }
+
             2 -> at { share<Int, Int?>(a()) { seen -> seen.neighbors.values.list.fold(k as Int?, ::mix) } }
+
             3 -> at { sharing<Int, Int?, Int?>(k) { seen -> mix(seen.local.value, k).yielding { seen.all.values.list.fold(null, ::mix) } } }
+
             4 -> {
                 val field: Piece = {
                     exchanging<Int, Int?, Int?>(k) { seen ->
@@ -38,18 +42,29 @@ internal class RandomPrograms(private val random: Random) {
                 }
                 at { mix(field(), alignedOn("after") { a() }) }
             }
+
             5 -> at { neighboring(a()).all.list.fold(null as Int?) { sum, entry -> mix(mix(sum, entry.id), entry.value) } }
+
             6 -> at { if ((alignedOn("condition") { a() } ?: 0) % 2 == 0) alignedOn(true) { b() } else alignedOn(false) { leaf(this) } }
+
             7 -> at { alignedOn(alignedOn("pivot") { a() }) { b() } }
+
             8 -> at { mapNeighborhood { id -> mix(id, neighboring(id).neighbors.values.list.size) }.all.values.list.fold(null, ::mix) }
+
             9 -> at { recursion(localId % 3 + k % 3, a) }
+
             10 -> at { runCatching { alignedOn("risky") { if ((localId + k) % 3 == 0) error("caught") else a() } }.getOrDefault(-k) }
+
             11 -> at {
                 val field = neighboring<Int, Int?>(k)
                 val way = (localId + (alignedOn("way") { a() } ?: 1)) % 2
-                alignedOn(way) { project(field, "field@Test.kt:1#0123456789abcdef")?.all?.list?.fold(null as Int?) { s, e -> mix(mix(s, e.id), e.value) } }
+                alignedOn(way) {
+                    project(field, "field@Test.kt:1#0123456789abcdef")?.all?.list?.fold(null as Int?) { s, e -> mix(mix(s, e.id), e.value) }
+                }
             }
+
             12 -> at { mix(neighborhood().neighbors.list.size, alignedOn("b") { b() }) }
+
             else -> at {
                 val first = evolve(k) { it + 1 }
                 // A second primitive at the same path, on some devices.
@@ -59,9 +74,16 @@ internal class RandomPrograms(private val random: Random) {
     }
 
     private fun leaf(): Piece = when (random.nextInt(4)) {
-        0 -> { { localId } }
-        1 -> { { null } }
+        0 -> {
+            { localId }
+        }
+
+        1 -> {
+            { null }
+        }
+
         2 -> at { evolve(0) { it + 1 } }
+
         else -> at { neighboring(localId).neighbors.values.list.sum() }
     }
 

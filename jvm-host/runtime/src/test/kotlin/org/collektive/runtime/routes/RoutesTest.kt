@@ -54,7 +54,11 @@ class RoutesTest {
                         val expected = reference.round(graph, due, program)
                         for (route in others) {
                             val seen = route.round(graph, due, program)
-                            assertEquals(expected.mapValues(::shown), seen.mapValues(::shown), "${route.name}, seed $seed, time ${graph.now}")
+                            assertEquals(
+                                expected.mapValues(::shown),
+                                seen.mapValues(::shown),
+                                "${route.name}, seed $seed, time ${graph.now}",
+                            )
                         }
                         for (id in graph.ids) {
                             assertEquals(
@@ -71,7 +75,10 @@ class RoutesTest {
                 }
             }
         }
-        assertTrue(rounds > 5000 && clashes in 1..rounds / 3 && values.size > 200, "$rounds rounds, $clashes clashes, ${values.size} results")
+        assertTrue(
+            rounds > 5000 && clashes in 1..rounds / 3 && values.size > 200,
+            "$rounds rounds, $clashes clashes, ${values.size} results",
+        )
     }
 
     private fun shown(entry: Map.Entry<Int, Result<Any?>>): Any? =

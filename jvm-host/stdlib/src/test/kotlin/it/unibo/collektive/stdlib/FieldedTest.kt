@@ -62,29 +62,73 @@ class FieldedTest {
     }
 
     private fun bits(name: String, a: Any, b: Any): Any = when {
-        a is Int && b is Int -> when (name) { "and" -> a and b; "or" -> a or b; else -> a xor b }
-        a is Long && b is Long -> when (name) { "and" -> a and b; "or" -> a or b; else -> a xor b }
+        a is Int && b is Int -> when (name) {
+            "and" -> a and b
+            "or" -> a or b
+            else -> a xor b
+        }
+
+        a is Long && b is Long -> when (name) {
+            "and" -> a and b
+            "or" -> a or b
+            else -> a xor b
+        }
+
         else -> error("no bits in $a, $b")
     }
 
     private fun unary(name: String, a: Number): Any = when (name) {
         "unaryPlus" -> a
+
         "unaryMinus" -> binary("times", a, -1)
+
         "inc" -> binary("plus", a, 1)
+
         "dec" -> binary("minus", a, 1)
+
         "inv" -> if (a is Int) a.inv() else a.toLong().inv()
+
         "toByte" -> a.toByte()
+
         "toShort" -> a.toShort()
-        "toInt" -> if (a is Double) a.toInt() else if (a is Float) a.toInt() else a.toInt()
-        "toLong" -> if (a is Double) a.toLong() else if (a is Float) a.toLong() else a.toLong()
+
+        "toInt" -> if (a is Double) {
+            a.toInt()
+        } else if (a is Float) {
+            a.toInt()
+        } else {
+            a.toInt()
+        }
+
+        "toLong" -> if (a is Double) {
+            a.toLong()
+        } else if (a is Float) {
+            a.toLong()
+        } else {
+            a.toLong()
+        }
+
         "toFloat" -> a.toFloat()
+
         "toDouble" -> a.toDouble()
+
         else -> error("unknown operator $name")
     }
 
     private fun shift(name: String, a: Number, bits: Int): Any = when {
-        a is Int -> when (name) { "shl" -> a shl bits; "shr" -> a shr bits; else -> a ushr bits }
-        else -> a.toLong().let { when (name) { "shl" -> it shl bits; "shr" -> it shr bits; else -> it ushr bits } }
+        a is Int -> when (name) {
+            "shl" -> a shl bits
+            "shr" -> a shr bits
+            else -> a ushr bits
+        }
+
+        else -> a.toLong().let {
+            when (name) {
+                "shl" -> it shl bits
+                "shr" -> it shr bits
+                else -> it ushr bits
+            }
+        }
     }
 
     private fun Method.typeNamed(index: Int, receiver: String): String = when {
@@ -100,7 +144,9 @@ class FieldedTest {
         swarm.round { mapNeighborhood { it } }
         var called = 0
         for ((receiver, lifted) in objects) {
-            for (method in lifted.javaClass.declaredMethods.filter { java.lang.reflect.Modifier.isPublic(it.modifiers) && !it.isSynthetic }) {
+            for (method in lifted.javaClass.declaredMethods.filter {
+                java.lang.reflect.Modifier.isPublic(it.modifiers) && !it.isSynthetic
+            }) {
                 val operator = method.name.substringBefore("Field").removePrefix(receiver.lowercase()).replaceFirstChar(Char::lowercase)
                 swarm.round {
                     if (localId != 1) return@round mapNeighborhood { it }.let { }
@@ -108,9 +154,18 @@ class FieldedTest {
                     val kinds = method.parameterTypes.indices.map { method.typeNamed(it, receiver) }
                     val isShift = operator in setOf("shl", "shr", "ushr")
                     val arguments = kinds.mapIndexed { index, kind ->
-                        if (method.parameterTypes[index] == Field::class.java) shape.mapValues { number(kind) } else if (isShift) 5 else number(kind)
+                        if (method.parameterTypes[index] ==
+                            Field::class.java
+                        ) {
+                            shape.mapValues { number(kind) }
+                        } else if (isShift) {
+                            5
+                        } else {
+                            number(kind)
+                        }
                     }
-                    fun at(index: Int, id: Int) = arguments[index].let { if (it is Field<*, *>) (it.all.list.first { e -> e.id == id }.value) else it } as Number
+                    fun at(index: Int, id: Int) =
+                        arguments[index].let { if (it is Field<*, *>) (it.all.list.first { e -> e.id == id }.value) else it } as Number
                     val result = method.invoke(lifted, *arguments.toTypedArray()) as Field<*, *>
                     for (entry in result.all.list) {
                         val id = entry.id as Int

@@ -47,14 +47,17 @@ class SerializedDeliveryTest {
         }
     }
 
-    private class Box(val id: Int) : Mailbox<Int>, NeighborsData<Int> {
+    private class Box(val id: Int) :
+        Mailbox<Int>,
+        NeighborsData<Int> {
         private val form = SerializedMessage.serializer(Int.serializer())
         private var sent: OutboundEnvelope<Int>? = null
         var inbound = emptyList<String>()
         private var messages = emptyList<SerializedMessage<Int>>()
 
-        fun textFor(receiver: Int): String? =
-            sent?.prepareMessageFor(receiver, SerializedMessageFactory<Int, Any?>(Json))?.let { Json.encodeToString(form, it as SerializedMessage<Int>) }
+        fun textFor(receiver: Int): String? = sent?.prepareMessageFor(receiver, SerializedMessageFactory<Int, Any?>(Json))?.let {
+            Json.encodeToString(form, it as SerializedMessage<Int>)
+        }
 
         override val inMemory get() = false
 
@@ -70,7 +73,8 @@ class SerializedDeliveryTest {
 
         override fun <Value> dataAt(path: Path, dataSharingMethod: DataSharingMethod<Value>): Map<Int, Value> =
             messages.filter { path in it.sharedData }.associate {
-                it.senderId to Json.decodeFromString((dataSharingMethod as Serialize).serializer, it.sharedData.getValue(path).decodeToString())
+                it.senderId to
+                    Json.decodeFromString((dataSharingMethod as Serialize).serializer, it.sharedData.getValue(path).decodeToString())
             }
     }
 

@@ -89,8 +89,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
     }
 
     /** The lengths of the links, as a field of a program. */
-    fun Aggregate<Int>.lengths(): Field<Int, Double> =
-        mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
+    fun Aggregate<Int>.lengths(): Field<Int, Double> = mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
 
     private class Link(val since: Int) {
         var length = 1.0

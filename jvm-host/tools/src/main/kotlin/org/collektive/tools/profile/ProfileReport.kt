@@ -29,14 +29,19 @@ internal class ProfileReport {
     private fun add(event: RecordedEvent) {
         when (event.eventType.name) {
             "collektive.Tick" -> ticks += event
+
             "collektive.ProgramRound" -> {
                 val program = programs.getOrPut(event.getString("program")) { Program(event.getString("function")) }
                 program.rounds += event.duration
                 program.exports += event.getInt("exports")
             }
+
             "collektive.ProgramError" -> errors++
+
             "jdk.ExecutionSample" -> samples += event
+
             "jdk.ObjectAllocationSample" -> allocations.add(event.getClass("objectClass").name.readable(), event.getLong("weight"))
+
             "jdk.GCPhasePause" -> pauses += event.duration
         }
     }
@@ -83,7 +88,10 @@ internal class ProfileReport {
             line("\nprogram %s (%s)", name, program.function)
             line(
                 "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports a round",
-                rounds.size, ProgramRounds.EVERY, rounds.middle(), rounds[(rounds.size * 99 / 100).coerceAtMost(rounds.lastIndex)],
+                rounds.size,
+                ProgramRounds.EVERY,
+                rounds.middle(),
+                rounds[(rounds.size * 99 / 100).coerceAtMost(rounds.lastIndex)],
                 program.exports.toDouble() / rounds.size,
             )
             writeTop(program.methods, "of %d samples")
@@ -99,8 +107,11 @@ internal class ProfileReport {
 
     private fun StringBuilder.writePauses() {
         val sorted = pauses.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
-        if (sorted.isEmpty()) line("\nno pauses for garbage collection")
-        else line("\n%d pauses for garbage collection: %.2f ms in all, %.2f ms the longest", sorted.size, sorted.sum(), sorted.last())
+        if (sorted.isEmpty()) {
+            line("\nno pauses for garbage collection")
+        } else {
+            line("\n%d pauses for garbage collection: %.2f ms in all, %.2f ms the longest", sorted.size, sorted.sum(), sorted.last())
+        }
     }
 
     private fun StringBuilder.writeTop(counter: Counter, of: String) {
@@ -155,7 +166,14 @@ internal class ProfileReport {
         }
 
         private val PRIMITIVES = mapOf(
-            'Z' to "boolean", 'B' to "byte", 'C' to "char", 'S' to "short", 'I' to "int", 'J' to "long", 'F' to "float", 'D' to "double",
+            'Z' to "boolean",
+            'B' to "byte",
+            'C' to "char",
+            'S' to "short",
+            'I' to "int",
+            'J' to "long",
+            'F' to "float",
+            'D' to "double",
         )
 
         /** Prints the report of the recording whose path is the only argument. */

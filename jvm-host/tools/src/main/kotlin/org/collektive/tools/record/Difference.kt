@@ -1,15 +1,15 @@
 package org.collektive.tools.record
 
-import org.collektive.frames.data.DataReader
-import org.collektive.frames.data.DataSchema
-import org.collektive.frames.FrameChecker
-import org.collektive.frames.FramePolicy
-import org.collektive.frames.MalformedFrameException
-import org.collektive.frames.target
-import org.collektive.frames.tick.StepResponseReader
 import org.collektive.frame.FrameLayouts
 import org.collektive.frame.OpenRequest
 import org.collektive.frame.StepRequest
+import org.collektive.frames.FrameChecker
+import org.collektive.frames.FramePolicy
+import org.collektive.frames.MalformedFrameException
+import org.collektive.frames.data.DataReader
+import org.collektive.frames.data.DataSchema
+import org.collektive.frames.target
+import org.collektive.frames.tick.StepResponseReader
 import java.nio.ByteBuffer
 
 /** One difference of two frames: whose data ("node 3", or empty), which field (or empty), and both values. */

@@ -7,10 +7,15 @@ internal object ObjectDifference {
     /** The first difference of [left] and [right]; ignores the fields of these two objects that [except] names. */
     fun first(left: Any?, right: Any?, whose: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
         left == null && right == null -> null
+
         left == null || right == null -> Difference(whose, field, text(left), text(right))
+
         left is IntArray && right is IntArray && field in ID_LISTS -> ofIds(left.toSet(), right.toSet(), field)
+
         left.javaClass.isArray -> ofArrays(items(left), items(right), whose, field)
+
         isLeaf(left) -> if (left == right) null else Difference(whose, field, text(left), text(right))
+
         else -> fields(left).filter { it.name !in except }.firstNotNullOfOrNull {
             first(it.get(left), it.get(right), whose, if (field.isEmpty()) it.name else "$field.${it.name}")
         }

@@ -62,11 +62,13 @@ internal class Record private constructor(private val path: Path, private val ch
         val outcome = chunk()
         return when (outcome.kind) {
             Chunk.FAIL -> RecordedStep(step.payload, null, text(outcome))
+
             Chunk.DONE -> {
                 val answer = verified(outcome) { StepResponseReader(outcome.payload) }
                 tick = answer.response.tick()
                 RecordedStep(step.payload, answer, null)
             }
+
             else -> throw damaged(outcome.offset, "a chunk ${outcome.name} stands where a step's outcome must come")
         }
     }

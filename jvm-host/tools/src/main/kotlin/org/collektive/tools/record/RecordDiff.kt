@@ -61,8 +61,11 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
         val y = b.answer
         return when {
             x == null && y == null -> null
+
             x == null -> "it failed in A (${a.failure}), and not in B"
+
             y == null -> "it failed in B (${b.failure}), and not in A"
+
             else -> Difference.ofAnswers(schema, x, y)?.let { "output of ${it.line(names)}" }
                 ?: if (x.response.digest() == y.response.digest()) null else "the digests differ, but no field does"
         }
@@ -81,5 +84,4 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
     }
 }
 
-internal fun sha256(jar: JarBytes): String =
-    MessageDigest.getInstance("SHA-256").digest(jar.bytes).joinToString("") { "%02x".format(it) }
+internal fun sha256(jar: JarBytes): String = MessageDigest.getInstance("SHA-256").digest(jar.bytes).joinToString("") { "%02x".format(it) }

@@ -1,8 +1,8 @@
 package org.collektive.tools.record
 
 import org.collektive.frames.MalformedFrameException
-import org.collektive.host.shim.HostException
 import org.collektive.host.programs.JarBytes
+import org.collektive.host.shim.HostException
 import java.io.IOException
 import java.io.PrintStream
 import java.nio.file.InvalidPathException

@@ -1,11 +1,11 @@
 package org.collektive.tools.record
 
 import org.collektive.frames.tick.StepResponseReader
-import org.collektive.host.shim.HostException
 import org.collektive.host.programs.JarBytes
-import org.collektive.host.shim.LogLevel
 import org.collektive.host.session.Session
 import org.collektive.host.session.SessionOpening
+import org.collektive.host.shim.HostException
+import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
 import java.io.PrintStream
 import java.nio.ByteBuffer
@@ -79,8 +79,11 @@ internal class Replay(private val record: Record, private val programs: List<Jar
         val then = step.answer
         return when {
             then == null -> if (now is StepResponseReader) "It failed in the record (${step.failure}), and not now" else null
+
             now !is StepResponseReader -> "It fails now, and not in the record: $now"
+
             then.response.digest() == now.response.digest() -> null
+
             else -> "Digest ${hex(then.response.digest())} in the record, ${hex(now.response.digest())} now. " +
                 (Difference.ofAnswers(session.schema, then, now)?.line("the record" to "the replay") ?: "No field of its answers differs")
         }

@@ -47,7 +47,10 @@ class RecordTest {
 
     private fun step(number: Int) = Step(number.toLong()).apply {
         added = if (number == 1) List(NODES) { Step.Added(it) } else listOf(Step.Added(NODES + number))
-        linked = listOf(number % NODES to (number + 1) % NODES, 0 to NODES + number).filter { (_, to) -> added.any { it.id == to } || to < NODES }
+        linked =
+            listOf(number % NODES to (number + 1) % NODES, 0 to NODES + number).filter { (_, to) ->
+                added.any { it.id == to } || to < NODES
+            }
         due = (0 until NODES).toList()
         sensors = due.map { Step.Sensor(100 * number + it, points = it % 3) }
         wind = if (number % 4 == 0) number.toFloat() else null
@@ -93,7 +96,8 @@ class RecordTest {
 
     @Test
     fun `a program that fails only in the replay is a difference`() {
-        val result = run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
+        val result =
+            run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
         assertEquals(1, result.code)
         assertContains(result.results, "tick 1 is the first that differs")
         assertContains(result.results, "1 rounds failed; in the record 0")
@@ -114,18 +118,105 @@ class RecordTest {
             assertEquals(1, result.code)
             return result.results
         }
-        assertContains(first { if (tick == 3L) sensors = sensors?.map { Step.Sensor(it.value + if (it.value == 302) 1 else 0, points = it.points) } }, "tick 3: input of node 2, sensors.value: 302 in A, 303 in B")
-        assertContains(first { if (tick == 2L) sensors = sensors?.map { Step.Sensor(it.value, "x".takeIf { _ -> it.value == 204 }, it.points) } }, "tick 2: input of node 4, sensors.label: absent in A, \"x\" in B")
-        assertContains(first { if (tick == 2L) sensors = sensors?.map { Step.Sensor(it.value, points = it.points + if (it.value == 204) 1 else 0) } }, "tick 2: input of node 4, sensors.points[0].x: ")
-        assertContains(first { if (tick == 5L) linked = linked + (3 to 1) }, "tick 5: input of link 3 -> 1, links: absent in A, present in B")
-        assertContains(first { if (tick == 5L) added = added + Step.Added(77, "probe") }, "tick 5: input of node 77, nodesAdded: absent in A, present in B")
+        assertContains(
+            first {
+                if (tick ==
+                    3L
+                ) {
+                    sensors = sensors?.map {
+                        Step.Sensor(
+                            it.value + if (it.value ==
+                                302
+                            ) {
+                                1
+                            } else {
+                                0
+                            },
+                            points = it.points,
+                        )
+                    }
+                }
+            },
+            "tick 3: input of node 2, sensors.value: 302 in A, 303 in B",
+        )
+        assertContains(
+            first {
+                if (tick ==
+                    2L
+                ) {
+                    sensors = sensors?.map { Step.Sensor(it.value, "x".takeIf { _ -> it.value == 204 }, it.points) }
+                }
+            },
+            "tick 2: input of node 4, sensors.label: absent in A, \"x\" in B",
+        )
+        assertContains(
+            first {
+                if (tick ==
+                    2L
+                ) {
+                    sensors = sensors?.map {
+                        Step.Sensor(
+                            it.value,
+                            points = it.points + if (it.value ==
+                                204
+                            ) {
+                                1
+                            } else {
+                                0
+                            },
+                        )
+                    }
+                }
+            },
+            "tick 2: input of node 4, sensors.points[0].x: ",
+        )
+        assertContains(
+            first {
+                if (tick ==
+                    5L
+                ) {
+                    linked = linked + (3 to 1)
+                }
+            },
+            "tick 5: input of link 3 -> 1, links: absent in A, present in B",
+        )
+        assertContains(
+            first {
+                if (tick ==
+                    5L
+                ) {
+                    added = added + Step.Added(77, "probe")
+                }
+            },
+            "tick 5: input of node 77, nodesAdded: absent in A, present in B",
+        )
         assertContains(first { if (tick == 4L) wind = 5f }, "tick 4: input of globals.wind: 4.0 in A, 5.0 in B")
-        assertContains(first { if (tick == 6L) { due = due - 2; sensors = sensors?.filter { it.value != 602 } } }, "tick 6: input of node 2, due: present in A, absent in B")
+        assertContains(
+            first {
+                if (tick ==
+                    6L
+                ) {
+                    due = due - 2
+                    sensors = sensors?.filter { it.value != 602 }
+                }
+            },
+            "tick 6: input of node 2, due: present in A, absent in B",
+        )
     }
 
     @Test
     fun `the order of changes is no difference`() {
-        assertEquals(0, run("diff", record("a"), record("b") { linked = linked.reversed(); added = added.reversed() }).code)
+        assertEquals(
+            0,
+            run(
+                "diff",
+                record("a"),
+                record("b") {
+                    linked = linked.reversed()
+                    added = added.reversed()
+                },
+            ).code,
+        )
     }
 
     @Test
@@ -148,10 +239,23 @@ class RecordTest {
         val file = folder.resolve("failed.clkrec")
         val session = TestSession(shim)
         check(session.open(program = "probe", record = file.toString()) >= 0)
-        session.ok(Step(1).apply { added = listOf(Step.Added(1)); due = listOf(1) })
+        session.ok(
+            Step(1).apply {
+                added = listOf(Step.Added(1))
+                due = listOf(1)
+            },
+        )
         assertEquals(HostError.FRAME.code.toLong(), session.step(Step(2).apply { removed = listOf(5) }.bytes()))
-        session.ok(Step(2).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "throw")) })
-        val hung = Step(3).apply { due = listOf(1); sensors = listOf(Step.Sensor(0, "loop")) }
+        session.ok(
+            Step(2).apply {
+                due = listOf(1)
+                sensors = listOf(Step.Sensor(0, "throw"))
+            },
+        )
+        val hung = Step(3).apply {
+            due = listOf(1)
+            sensors = listOf(Step.Sensor(0, "loop"))
+        }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(hung.bytes(), 200))
         session.close()
         Record.open(file).use { record ->
@@ -184,13 +288,21 @@ class RecordTest {
         for ((index, chunk) in chunks.withIndex()) {
             if (index == 0) continue
             val ticks = maxOf(0, (index - firstStep) / 2)
-            for (length in listOf(chunk.offset, chunk.offset + 5, chunk.offset + Chunk.HEADER_BYTES, chunk.offset + Chunk.HEADER_BYTES + chunk.payload.remaining() / 2)) {
+            for (length in listOf(
+                chunk.offset,
+                chunk.offset + 5,
+                chunk.offset + Chunk.HEADER_BYTES,
+                chunk.offset + Chunk.HEADER_BYTES + chunk.payload.remaining() / 2,
+            )) {
                 // The last chunk has no payload, so this is the whole record.
                 if (length == bytes.size.toLong()) continue
                 val cut = folder.resolve("cut").also { it.writeBytes(bytes.copyOf(length.toInt())) }
                 val result = run("replay", cut)
                 assertEquals(2, result.code)
-                assertContains(result.messages, "damaged at byte ${chunk.offset}, " + if (ticks == 0) "before the first tick" else "after tick $ticks")
+                assertContains(
+                    result.messages,
+                    "damaged at byte ${chunk.offset}, " + if (ticks == 0) "before the first tick" else "after tick $ticks",
+                )
                 if (index >= firstStep) assertContains(result.results, "$ticks ticks replayed, every digest is that of the record")
             }
         }

@@ -3,10 +3,10 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
-import org.collektive.alignment.withPlace
 import kotlinx.serialization.KSerializer
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.serializer
+import org.collektive.alignment.withPlace
 import kotlin.reflect.KType
 import kotlin.reflect.typeOf
 

@@ -6,8 +6,7 @@ public typealias YieldingScope<Stored, Return> = YieldingContext<Stored, Return>
 /** Provides [yielding] in the body of `evolving`, `exchanging` and `sharing`. */
 public class YieldingContext<Stored, Return> {
     /** Stores or sends the receiver, and returns the result of [toReturn]. */
-    public fun Stored.yielding(toReturn: Stored.() -> Return): YieldingResult<Stored, Return> =
-        YieldingResult(this, toReturn())
+    public fun Stored.yielding(toReturn: Stored.() -> Return): YieldingResult<Stored, Return> = YieldingResult(this, toReturn())
 }
 
 /** The value that a primitive stores or sends, and the one that it returns. */

@@ -17,6 +17,11 @@ class YieldingTest {
     }
 
     @Test
-    fun `the last yielding of a step counts`() =
-        assertEquals(YieldingResult(2, 20), step(0) { 1.yielding { 10 }; 2.yielding { 20 } })
+    fun `the last yielding of a step counts`() = assertEquals(
+        YieldingResult(2, 20),
+        step(0) {
+            1.yielding { 10 }
+            2.yielding { 20 }
+        },
+    )
 }

@@ -8,24 +8,19 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
-    local: Int,
-    potential: Field<ID, P>,
-): Int = convergeCast(local, potential, accumulateData = Int::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Int, potential: Field<ID, P>): Int =
+    convergeCast(local, potential, accumulateData = Int::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Int, potential: P): Int =
     convergeCast(local, potential, accumulateData = Int::plus)
 
 /** The sum of [local] over all devices whose nearest sink is this one, by [convergeCast]. */
-public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Int, sink: Boolean): Int =
-    convergeCast(local, sink, Int::plus)
+public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Int, sink: Boolean): Int = convergeCast(local, sink, Int::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
-    local: Double,
-    potential: Field<ID, P>,
-): Double = convergeCast(local, potential, accumulateData = Double::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Double, potential: Field<ID, P>): Double =
+    convergeCast(local, potential, accumulateData = Double::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Double, potential: P): Double =
@@ -54,12 +49,10 @@ public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.co
     convergeSum(1, potential)
 
 /** The number of devices uphill, this one included, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(potential: P): Int =
-    convergeSum(1, potential)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(potential: P): Int = convergeSum(1, potential)
 
 /** The number of devices whose nearest sink is this one, itself included, by [convergeCast]. */
 public inline fun <reified ID : Any> Aggregate<ID>.countDevices(sink: Boolean): Int = convergeSum(1, sink)
 
 @PublishedApi
-internal fun addPairs(a: Pair<Double, Int>, b: Pair<Double, Int>): Pair<Double, Int> =
-    a.first + b.first to a.second + b.second
+internal fun addPairs(a: Pair<Double, Int>, b: Pair<Double, Int>): Pair<Double, Int> = a.first + b.first to a.second + b.second

@@ -18,14 +18,12 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 ): ID? = maxBy(selector)?.id
 
 /** The device whose entry's [selector] is greatest. */
-public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMaxBy(
-    selector: (FieldEntry<ID, T>) -> C,
-): ID = maxBy(selector).id
+public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMaxBy(selector: (FieldEntry<ID, T>) -> C): ID =
+    maxBy(selector).id
 
 /** The neighbour whose entry is greatest in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(
-    comparator: Comparator<in FieldEntry<ID, T>>,
-): ID? = maxWith(comparator)?.id
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): ID? =
+    maxWith(comparator)?.id
 
 /** The device whose entry is greatest in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): ID =
@@ -37,14 +35,12 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 ): T? = maxBy(selector)?.value
 
 /** The value of the entry whose [selector] is greatest. */
-public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMaxBy(
-    selector: (FieldEntry<ID, T>) -> C,
-): T = maxBy(selector).value
+public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMaxBy(selector: (FieldEntry<ID, T>) -> C): T =
+    maxBy(selector).value
 
 /** The value of the neighbour's entry that is greatest in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(
-    comparator: Comparator<in FieldEntry<ID, T>>,
-): T? = maxWith(comparator)?.value
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): T? =
+    maxWith(comparator)?.value
 
 /** The value of the entry that is greatest in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): T =
@@ -62,14 +58,12 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 ): ID? = minBy(selector)?.id
 
 /** The device whose entry's [selector] is least. */
-public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMinBy(
-    selector: (FieldEntry<ID, T>) -> C,
-): ID = minBy(selector).id
+public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMinBy(selector: (FieldEntry<ID, T>) -> C): ID =
+    minBy(selector).id
 
 /** The neighbour whose entry is least in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(
-    comparator: Comparator<in FieldEntry<ID, T>>,
-): ID? = minWith(comparator)?.id
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): ID? =
+    minWith(comparator)?.id
 
 /** The device whose entry is least in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): ID =
@@ -81,14 +75,12 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 ): T? = minBy(selector)?.value
 
 /** The value of the entry whose [selector] is least. */
-public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMinBy(
-    selector: (FieldEntry<ID, T>) -> C,
-): T = minBy(selector).value
+public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMinBy(selector: (FieldEntry<ID, T>) -> C): T =
+    minBy(selector).value
 
 /** The value of the neighbour's entry that is least in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(
-    comparator: Comparator<in FieldEntry<ID, T>>,
-): T? = minWith(comparator)?.value
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): T? =
+    minWith(comparator)?.value
 
 /** The value of the entry that is least in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): T =

@@ -44,7 +44,12 @@ public inline fun <reified ID : Any, reified S : Comparable<S>, reified D : Comp
     noinline accumulateDistance: (D, D) -> D,
     noinline selectBest: Reducer<Candidacy<ID, D, S>> = { a, b -> maxOf(a, b) },
 ): ID = elect(
-    Candidacy(localId, bottom, strength), bound, metric, dataSharingMethod<Candidacy<ID, D, S>>(), accumulateDistance, selectBest,
+    Candidacy(localId, bottom, strength),
+    bound,
+    metric,
+    dataSharingMethod<Candidacy<ID, D, S>>(),
+    accumulateDistance,
+    selectBest,
 )
 
 /** [boundedElection] over distances of 0.0 or greater. */
@@ -68,10 +73,8 @@ public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bo
     boundedElection(localId, bound, metric)
 
 /** [boundedElection] where the greatest id wins, by default in hops. */
-public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
-    bound: Int,
-    metric: Field<ID, Int> = hops(),
-): ID = boundedElection(localId, bound, metric)
+public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bound: Int, metric: Field<ID, Int> = hops()): ID =
+    boundedElection(localId, bound, metric)
 
 @PublishedApi
 internal fun <ID : Any, S : Comparable<S>, D : Comparable<D>> Aggregate<ID>.elect(

@@ -155,8 +155,7 @@ public object FieldedFloats {
 
     /** Each value [/][Float.div] [other]'s. */
     @JvmName("divFieldInt")
-    public operator fun <ID : Any> Field<ID, Float>.div(other: Field<ID, Int>): Field<ID, Float> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Float>.div(other: Field<ID, Int>): Field<ID, Float> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Float.div] [other]. */
     public operator fun <ID : Any> Field<ID, Float>.div(other: Int): Field<ID, Float> = mapValues { it / other }
@@ -203,8 +202,7 @@ public object FieldedFloats {
 
     /** Each value [%][Float.rem] [other]'s. */
     @JvmName("remFieldInt")
-    public operator fun <ID : Any> Field<ID, Float>.rem(other: Field<ID, Int>): Field<ID, Float> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Float>.rem(other: Field<ID, Int>): Field<ID, Float> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Float.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Float>.rem(other: Int): Field<ID, Float> = mapValues { it % other }

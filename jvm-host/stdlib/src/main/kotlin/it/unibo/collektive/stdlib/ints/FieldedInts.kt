@@ -11,8 +11,7 @@ import it.unibo.collektive.aggregate.Field
 public object FieldedInts {
     /** Each value [+][Int.plus] [other]'s. */
     @JvmName("plusFieldInt")
-    public operator fun <ID : Any> Field<ID, Int>.plus(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a + b }
+    public operator fun <ID : Any> Field<ID, Int>.plus(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a + b }
 
     /** Each value [+][Int.plus] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.plus(other: Int): Field<ID, Int> = mapValues { it + other }
@@ -23,8 +22,7 @@ public object FieldedInts {
 
     /** Each value [+][Int.plus] [other]'s. */
     @JvmName("plusFieldLong")
-    public operator fun <ID : Any> Field<ID, Int>.plus(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a + b }
+    public operator fun <ID : Any> Field<ID, Int>.plus(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a + b }
 
     /** Each value [+][Int.plus] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.plus(other: Long): Field<ID, Long> = mapValues { it + other }
@@ -59,8 +57,7 @@ public object FieldedInts {
 
     /** Each value [-][Int.minus] [other]'s. */
     @JvmName("minusFieldInt")
-    public operator fun <ID : Any> Field<ID, Int>.minus(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a - b }
+    public operator fun <ID : Any> Field<ID, Int>.minus(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a - b }
 
     /** Each value [-][Int.minus] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.minus(other: Int): Field<ID, Int> = mapValues { it - other }
@@ -71,8 +68,7 @@ public object FieldedInts {
 
     /** Each value [-][Int.minus] [other]'s. */
     @JvmName("minusFieldLong")
-    public operator fun <ID : Any> Field<ID, Int>.minus(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a - b }
+    public operator fun <ID : Any> Field<ID, Int>.minus(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a - b }
 
     /** Each value [-][Int.minus] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.minus(other: Long): Field<ID, Long> = mapValues { it - other }
@@ -107,8 +103,7 @@ public object FieldedInts {
 
     /** Each value [*][Int.times] [other]'s. */
     @JvmName("timesFieldInt")
-    public operator fun <ID : Any> Field<ID, Int>.times(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a * b }
+    public operator fun <ID : Any> Field<ID, Int>.times(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a * b }
 
     /** Each value [*][Int.times] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.times(other: Int): Field<ID, Int> = mapValues { it * other }
@@ -119,8 +114,7 @@ public object FieldedInts {
 
     /** Each value [*][Int.times] [other]'s. */
     @JvmName("timesFieldLong")
-    public operator fun <ID : Any> Field<ID, Int>.times(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a * b }
+    public operator fun <ID : Any> Field<ID, Int>.times(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a * b }
 
     /** Each value [*][Int.times] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.times(other: Long): Field<ID, Long> = mapValues { it * other }
@@ -155,8 +149,7 @@ public object FieldedInts {
 
     /** Each value [/][Int.div] [other]'s. */
     @JvmName("divFieldInt")
-    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Int.div] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.div(other: Int): Field<ID, Int> = mapValues { it / other }
@@ -167,8 +160,7 @@ public object FieldedInts {
 
     /** Each value [/][Int.div] [other]'s. */
     @JvmName("divFieldLong")
-    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Int.div] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.div(other: Long): Field<ID, Long> = mapValues { it / other }
@@ -179,8 +171,7 @@ public object FieldedInts {
 
     /** Each value [/][Int.div] [other]'s. */
     @JvmName("divFieldFloat")
-    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Float>): Field<ID, Float> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Int>.div(other: Field<ID, Float>): Field<ID, Float> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Int.div] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.div(other: Float): Field<ID, Float> = mapValues { it / other }
@@ -203,8 +194,7 @@ public object FieldedInts {
 
     /** Each value [%][Int.rem] [other]'s. */
     @JvmName("remFieldInt")
-    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Int.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.rem(other: Int): Field<ID, Int> = mapValues { it % other }
@@ -215,8 +205,7 @@ public object FieldedInts {
 
     /** Each value [%][Int.rem] [other]'s. */
     @JvmName("remFieldLong")
-    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Int.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.rem(other: Long): Field<ID, Long> = mapValues { it % other }
@@ -227,8 +216,7 @@ public object FieldedInts {
 
     /** Each value [%][Int.rem] [other]'s. */
     @JvmName("remFieldFloat")
-    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Float>): Field<ID, Float> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Int>.rem(other: Field<ID, Float>): Field<ID, Float> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Int.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Int>.rem(other: Float): Field<ID, Float> = mapValues { it % other }
@@ -309,22 +297,19 @@ public object FieldedInts {
     public fun <ID : Any> Field<ID, Int>.toDouble(): Field<ID, Double> = mapValues { it.toDouble() }
 
     /** Each value [and][Int.and] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Int>.and(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a and b }
+    public infix fun <ID : Any> Field<ID, Int>.and(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a and b }
 
     /** Each value [and][Int.and] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Int>.and(other: Int): Field<ID, Int> = mapValues { it and other }
 
     /** Each value [or][Int.or] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Int>.or(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a or b }
+    public infix fun <ID : Any> Field<ID, Int>.or(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a or b }
 
     /** Each value [or][Int.or] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Int>.or(other: Int): Field<ID, Int> = mapValues { it or other }
 
     /** Each value [xor][Int.xor] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Int>.xor(other: Field<ID, Int>): Field<ID, Int> =
-        alignedMapValues(other) { a, b -> a xor b }
+    public infix fun <ID : Any> Field<ID, Int>.xor(other: Field<ID, Int>): Field<ID, Int> = alignedMapValues(other) { a, b -> a xor b }
 
     /** Each value [xor][Int.xor] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Int>.xor(other: Int): Field<ID, Int> = mapValues { it xor other }

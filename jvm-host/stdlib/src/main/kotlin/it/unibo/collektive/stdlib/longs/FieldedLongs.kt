@@ -11,8 +11,7 @@ import it.unibo.collektive.aggregate.Field
 public object FieldedLongs {
     /** Each value [+][Long.plus] [other]'s. */
     @JvmName("plusFieldInt")
-    public operator fun <ID : Any> Field<ID, Long>.plus(other: Field<ID, Int>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a + b }
+    public operator fun <ID : Any> Field<ID, Long>.plus(other: Field<ID, Int>): Field<ID, Long> = alignedMapValues(other) { a, b -> a + b }
 
     /** Each value [+][Long.plus] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.plus(other: Int): Field<ID, Long> = mapValues { it + other }
@@ -23,8 +22,7 @@ public object FieldedLongs {
 
     /** Each value [+][Long.plus] [other]'s. */
     @JvmName("plusFieldLong")
-    public operator fun <ID : Any> Field<ID, Long>.plus(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a + b }
+    public operator fun <ID : Any> Field<ID, Long>.plus(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a + b }
 
     /** Each value [+][Long.plus] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.plus(other: Long): Field<ID, Long> = mapValues { it + other }
@@ -59,8 +57,7 @@ public object FieldedLongs {
 
     /** Each value [-][Long.minus] [other]'s. */
     @JvmName("minusFieldInt")
-    public operator fun <ID : Any> Field<ID, Long>.minus(other: Field<ID, Int>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a - b }
+    public operator fun <ID : Any> Field<ID, Long>.minus(other: Field<ID, Int>): Field<ID, Long> = alignedMapValues(other) { a, b -> a - b }
 
     /** Each value [-][Long.minus] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.minus(other: Int): Field<ID, Long> = mapValues { it - other }
@@ -107,8 +104,7 @@ public object FieldedLongs {
 
     /** Each value [*][Long.times] [other]'s. */
     @JvmName("timesFieldInt")
-    public operator fun <ID : Any> Field<ID, Long>.times(other: Field<ID, Int>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a * b }
+    public operator fun <ID : Any> Field<ID, Long>.times(other: Field<ID, Int>): Field<ID, Long> = alignedMapValues(other) { a, b -> a * b }
 
     /** Each value [*][Long.times] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.times(other: Int): Field<ID, Long> = mapValues { it * other }
@@ -155,8 +151,7 @@ public object FieldedLongs {
 
     /** Each value [/][Long.div] [other]'s. */
     @JvmName("divFieldInt")
-    public operator fun <ID : Any> Field<ID, Long>.div(other: Field<ID, Int>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Long>.div(other: Field<ID, Int>): Field<ID, Long> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Long.div] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.div(other: Int): Field<ID, Long> = mapValues { it / other }
@@ -167,8 +162,7 @@ public object FieldedLongs {
 
     /** Each value [/][Long.div] [other]'s. */
     @JvmName("divFieldLong")
-    public operator fun <ID : Any> Field<ID, Long>.div(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a / b }
+    public operator fun <ID : Any> Field<ID, Long>.div(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a / b }
 
     /** Each value [/][Long.div] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.div(other: Long): Field<ID, Long> = mapValues { it / other }
@@ -203,8 +197,7 @@ public object FieldedLongs {
 
     /** Each value [%][Long.rem] [other]'s. */
     @JvmName("remFieldInt")
-    public operator fun <ID : Any> Field<ID, Long>.rem(other: Field<ID, Int>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Long>.rem(other: Field<ID, Int>): Field<ID, Long> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Long.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.rem(other: Int): Field<ID, Long> = mapValues { it % other }
@@ -215,8 +208,7 @@ public object FieldedLongs {
 
     /** Each value [%][Long.rem] [other]'s. */
     @JvmName("remFieldLong")
-    public operator fun <ID : Any> Field<ID, Long>.rem(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a % b }
+    public operator fun <ID : Any> Field<ID, Long>.rem(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a % b }
 
     /** Each value [%][Long.rem] [other]. */
     public operator fun <ID : Any> Field<ID, Long>.rem(other: Long): Field<ID, Long> = mapValues { it % other }
@@ -303,22 +295,19 @@ public object FieldedLongs {
     public fun <ID : Any> Field<ID, Long>.toDouble(): Field<ID, Double> = mapValues { it.toDouble() }
 
     /** Each value [and][Long.and] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Long>.and(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a and b }
+    public infix fun <ID : Any> Field<ID, Long>.and(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a and b }
 
     /** Each value [and][Long.and] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Long>.and(other: Long): Field<ID, Long> = mapValues { it and other }
 
     /** Each value [or][Long.or] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Long>.or(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a or b }
+    public infix fun <ID : Any> Field<ID, Long>.or(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a or b }
 
     /** Each value [or][Long.or] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Long>.or(other: Long): Field<ID, Long> = mapValues { it or other }
 
     /** Each value [xor][Long.xor] [other]'s, bit by bit. */
-    public infix fun <ID : Any> Field<ID, Long>.xor(other: Field<ID, Long>): Field<ID, Long> =
-        alignedMapValues(other) { a, b -> a xor b }
+    public infix fun <ID : Any> Field<ID, Long>.xor(other: Field<ID, Long>): Field<ID, Long> = alignedMapValues(other) { a, b -> a xor b }
 
     /** Each value [xor][Long.xor] [other], bit by bit. */
     public infix fun <ID : Any> Field<ID, Long>.xor(other: Long): Field<ID, Long> = mapValues { it xor other }

@@ -7,9 +7,9 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.share
 import it.unibo.collektive.stdlib.time.localDeltaTime
 import it.unibo.collektive.stdlib.util.aligned
+import kotlinx.serialization.Serializable
 import kotlin.time.Duration
 import kotlin.time.Instant
-import kotlinx.serialization.Serializable
 
 /**
  * Runs several overlapping replicas of [process] and returns the result of the oldest. A process that never forgets, such as
@@ -25,12 +25,7 @@ import kotlinx.serialization.Serializable
  * @param timeToSpawn the time between the starts of two replicas; positive.
  * @throws IllegalArgumentException when [maxReplicas] or [timeToSpawn] is out of range.
  */
-public fun <ID : Any, T> Aggregate<ID>.timeReplicated(
-    currentTime: Instant,
-    maxReplicas: Int,
-    timeToSpawn: Duration,
-    process: () -> T,
-): T {
+public fun <ID : Any, T> Aggregate<ID>.timeReplicated(currentTime: Instant, maxReplicas: Int, timeToSpawn: Duration, process: () -> T): T {
     require(maxReplicas >= 1) { "maxReplicas is $maxReplicas; one run at least is needed" }
     require(timeToSpawn.isPositive()) { "timeToSpawn is $timeToSpawn; it must be positive" }
     return aligned("timeReplicated") {
@@ -43,15 +38,14 @@ public fun <ID : Any, T> Aggregate<ID>.timeReplicated(
 }
 
 /** The number of the youngest replica in the component. */
-private fun <ID : Any> Aggregate<ID>.youngestRun(passed: Duration, timeToSpawn: Duration): Long =
-    share(Run(0, Duration.ZERO)) { seen ->
-        val mine = seen.local.value
-        var known = Run(mine.number, mine.age + passed)
-        for (neighbor in seen.neighbors.list) {
-            if (neighbor.value.number > known.number) known = Run(neighbor.value.number, Duration.ZERO)
-        }
-        if (known.age >= timeToSpawn) Run(known.number + 1, Duration.ZERO) else known
-    }.number
+private fun <ID : Any> Aggregate<ID>.youngestRun(passed: Duration, timeToSpawn: Duration): Long = share(Run(0, Duration.ZERO)) { seen ->
+    val mine = seen.local.value
+    var known = Run(mine.number, mine.age + passed)
+    for (neighbor in seen.neighbors.list) {
+        if (neighbor.value.number > known.number) known = Run(neighbor.value.number, Duration.ZERO)
+    }
+    if (known.age >= timeToSpawn) Run(known.number + 1, Duration.ZERO) else known
+}.number
 
 /** A replica's [number], and the [age]: time since this device first saw it. */
 @Serializable

@@ -43,7 +43,14 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     noinline accumulateDistance: (D, D) -> D,
     metric: Field<ID, D>,
 ): V = bellmanFordGradientCast(
-    source, local, bottom, top, dataSharingMethod<Pair<D, V>?>(), accumulateData, accumulateDistance, metric,
+    source,
+    local,
+    bottom,
+    top,
+    dataSharingMethod<Pair<D, V>?>(),
+    accumulateData,
+    accumulateDistance,
+    metric,
 )
 
 /** [bellmanFordGradientCast] over distances in `0.0..POSITIVE_INFINITY`. */

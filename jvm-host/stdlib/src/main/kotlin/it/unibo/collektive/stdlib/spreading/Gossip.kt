@@ -36,16 +36,12 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.gossip(
 ): V = gossip(local, maxDiameter, dataSharingMethod<GossipValue<ID, V>>(), { _, value -> value }, reducer)
 
 /** The greatest of all devices' [local] values, by [gossip]. */
-public inline fun <reified ID : Any, reified V : Comparable<V>> Aggregate<ID>.gossipMax(
-    local: V,
-    maxDiameter: Int = Int.MAX_VALUE,
-): V = gossip(local, maxDiameter) { a, b -> maxOf(a, b) }
+public inline fun <reified ID : Any, reified V : Comparable<V>> Aggregate<ID>.gossipMax(local: V, maxDiameter: Int = Int.MAX_VALUE): V =
+    gossip(local, maxDiameter) { a, b -> maxOf(a, b) }
 
 /** The least of all devices' [local] values, by [gossip]. */
-public inline fun <reified ID : Any, reified V : Comparable<V>> Aggregate<ID>.gossipMin(
-    local: V,
-    maxDiameter: Int = Int.MAX_VALUE,
-): V = gossip(local, maxDiameter) { a, b -> minOf(a, b) }
+public inline fun <reified ID : Any, reified V : Comparable<V>> Aggregate<ID>.gossipMin(local: V, maxDiameter: Int = Int.MAX_VALUE): V =
+    gossip(local, maxDiameter) { a, b -> minOf(a, b) }
 
 /** The [local] value of all devices for which [selector] returns the greatest result, by [gossip]. */
 public inline fun <reified ID : Any, reified V, C : Comparable<C>> Aggregate<ID>.gossipMaxBy(

@@ -90,16 +90,15 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     private val accumulateData: (D, D, V) -> V,
     private val accumulateDistance: (D, D) -> D,
 ) {
-    fun run(source: Boolean, local: V, sharing: DataSharingMethod<PathValue<ID, D, V>?>): V =
-        metric.context.aligned("gradientCast") {
-            metric.context.exchanging<PathValue<ID, D, V>?, V>(null, sharing) { received ->
-                if (source) {
-                    received.mapToConstant(PathValue(bottom, local, HopPath.empty<ID>())).yielding { local }
-                } else {
-                    spread(received).yielding { this.local.value.let { if (it == null) local else it.data } }
-                }
+    fun run(source: Boolean, local: V, sharing: DataSharingMethod<PathValue<ID, D, V>?>): V = metric.context.aligned("gradientCast") {
+        metric.context.exchanging<PathValue<ID, D, V>?, V>(null, sharing) { received ->
+            if (source) {
+                received.mapToConstant(PathValue(bottom, local, HopPath.empty<ID>())).yielding { local }
+            } else {
+                spread(received).yielding { this.local.value.let { if (it == null) local else it.data } }
             }
         }
+    }
 
     /** The field to send; its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, D, V>?>): Field<ID, PathValue<ID, D, V>?> {

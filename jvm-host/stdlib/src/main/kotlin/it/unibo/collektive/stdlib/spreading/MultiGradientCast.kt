@@ -42,8 +42,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiGradientCast(
     maxDiameter: Int = Int.MAX_VALUE,
     noinline accumulateData: (fromSource: Double, toNeighbor: Double, data: V) -> V = { _, _, data -> data },
     noinline accumulateDistance: (Double, Double) -> Double = Double::plus,
-): Map<ID, V> =
-    multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, accumulateDistance)
+): Map<ID, V> = multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, accumulateDistance)
 
 /** [multiGradientCast] over distances in `0..Int.MAX_VALUE`, by default in hops. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiIntGradientCast(

@@ -20,24 +20,19 @@ import it.unibo.collektive.stdlib.util.aligned
  * @param value this device's value.
  * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is: a value arrives often.
  */
-public inline fun <reified ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(
-    value: V,
-    noinline reducer: Reducer<V>,
-): V = nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
+public inline fun <reified ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(value: V, noinline reducer: Reducer<V>): V =
+    nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
 
 /** Whether [condition] ever held on a device from which a message chain led here. Once `true`, it stays `true`. */
 public inline fun <reified ID : Any> Aggregate<ID>.everHappened(condition: () -> Boolean): Boolean =
     nonStabilizingGossip(condition()) { a, b -> a || b }
 
 @PublishedApi
-internal fun <ID : Any, V> Aggregate<ID>.nonStabilizingGossip(
-    value: V,
-    sharing: DataSharingMethod<V>,
-    reducer: Reducer<V>,
-): V = aligned("nonStabilizingGossip") {
-    exchanging(value, sharing) { received ->
-        var merged = reducer(received.local.value, value)
-        for (neighbor in received.neighbors.list) merged = reducer(merged, neighbor.value)
-        received.mapToConstant(merged).yielding { merged }
+internal fun <ID : Any, V> Aggregate<ID>.nonStabilizingGossip(value: V, sharing: DataSharingMethod<V>, reducer: Reducer<V>): V =
+    aligned("nonStabilizingGossip") {
+        exchanging(value, sharing) { received ->
+            var merged = reducer(received.local.value, value)
+            for (neighbor in received.neighbors.list) merged = reducer(merged, neighbor.value)
+            received.mapToConstant(merged).yielding { merged }
+        }
     }
-}

@@ -16,8 +16,7 @@ public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: Pair<Double, D
     euclideanDistance2D(Point2D(position.first, position.second))
 
 /** [euclideanDistance2D] for the position that [position] returns; called once. */
-public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: () -> Point2D): Field<ID, Double> =
-    euclideanDistance2D(position())
+public fun <ID : Any> Aggregate<ID>.euclideanDistance2D(position: () -> Point2D): Field<ID, Double> = euclideanDistance2D(position())
 
 /** The distance from this device's [position] to each neighbour's position in its last round; 0 to itself. In the unit of [position]. */
 public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: Point3D): Field<ID, Double> =
@@ -28,5 +27,4 @@ public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: Triple<Double,
     euclideanDistance3D(Point3D(position.first, position.second, position.third))
 
 /** [euclideanDistance3D] for the position that [position] returns; called once. */
-public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: () -> Point3D): Field<ID, Double> =
-    euclideanDistance3D(position())
+public fun <ID : Any> Aggregate<ID>.euclideanDistance3D(position: () -> Point3D): Field<ID, Double> = euclideanDistance3D(position())

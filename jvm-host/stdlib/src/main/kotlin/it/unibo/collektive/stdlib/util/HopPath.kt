@@ -31,7 +31,11 @@ internal class HopPath<ID : Any> private constructor(
             val before = mine.previous ?: return true
             val id = mine.hop ?: return true
             val found = rest.prefixUpTo(id)
-            if (found != null) rest = found.previous ?: return true else if (id in other) return false
+            if (found != null) {
+                rest = found.previous ?: return true
+            } else if (id in other) {
+                return false
+            }
             mine = before
         }
         return true

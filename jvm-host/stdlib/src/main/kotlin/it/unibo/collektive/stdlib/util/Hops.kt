@@ -8,5 +8,4 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.neighborhood
 
 /** The distance in hops: 1 to each neighbour, 0 to itself. */
-public fun <ID : Any> Aggregate<ID>.hops(): Field<ID, Int> =
-    aligned("hops") { neighborhood().map { if (it.id == localId) 0 else 1 } }
+public fun <ID : Any> Aggregate<ID>.hops(): Field<ID, Int> = aligned("hops") { neighborhood().map { if (it.id == localId) 0 else 1 } }

@@ -1,7 +1,7 @@
 package it.unibo.collektive.stdlib.util
 
-import kotlin.math.sqrt
 import kotlinx.serialization.Serializable
+import kotlin.math.sqrt
 
 /** A point in the plane. */
 @Serializable

@@ -50,7 +50,8 @@ class ConvergeCastTest {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         val seen = swarm.rounds(12) {
             listOf(
-                alignedOn(1) { countDevices(localId == 0) }, alignedOn(2) { convergeSum(localId.toDouble(), localId == 0) },
+                alignedOn(1) { countDevices(localId == 0) },
+                alignedOn(2) { convergeSum(localId.toDouble(), localId == 0) },
                 alignedOn(3) { convergeMean(localId.toDouble(), localId == 0) },
                 alignedOn(4) { convergeCast(setOf(localId), localId == 0) { a, b -> a + b } },
             )
@@ -71,7 +72,15 @@ class ConvergeCastTest {
         val potential = mapOf(0 to 5, 1 to 2, 2 to 2, 3 to 4)
         val seen = swarm.rounds(2) {
             val field = mapNeighborhood(potential::getValue)
-            listOf(findParent(field), findParent(field, compareByDescending { it.value }), findParents(field), findParents(field) { it.value == 5 })
+            listOf(
+                findParent(field),
+                findParent(field, compareByDescending { it.value }),
+                findParents(field),
+                findParents(field) {
+                    it.value ==
+                        5
+                },
+            )
         }
         assertEquals(listOf<Any>(1, 0, setOf(1, 2), setOf(0)), seen.getValue(3))
         assertEquals(1, seen.getValue(1).first(), "the bottom is its own parent")

@@ -53,6 +53,11 @@ class BellmanFordGradientCastTest {
     @Test
     fun `without a source the result is the local value`() {
         val swarm = Swarm(3).line(1.0, 1.0)
-        assertEquals(mapOf(0 to 0, 1 to 1, 2 to 2), swarm.rounds(5) { bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() }) })
+        assertEquals(
+            mapOf(0 to 0, 1 to 1, 2 to 2),
+            swarm.rounds(5) {
+                bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() })
+            },
+        )
     }
 }

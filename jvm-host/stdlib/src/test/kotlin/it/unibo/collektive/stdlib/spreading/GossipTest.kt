@@ -28,7 +28,11 @@ class GossipTest {
     }
 
     @Test
-    fun `a condition that holds anywhere is true everywhere, and false again when it ends`() = perturbed(0 until 4) { swarm, atOnce, random ->
+    fun `a condition that holds anywhere is true everywhere, and false again when it ends`() = perturbed(0 until 4) {
+            swarm,
+            atOnce,
+            random,
+        ->
         val happening = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
         val seen = swarm.rounds(2 * swarm.size, atOnce) { isHappeningAnywhere { localId in happening } }
         assertEquals(swarm.ids.associateWith { id -> swarm.component(id).any { it in happening } }, seen)

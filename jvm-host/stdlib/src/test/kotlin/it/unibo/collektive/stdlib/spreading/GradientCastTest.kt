@@ -48,7 +48,9 @@ class GradientCastTest {
         val sources = swarm.ids.filter { random.nextInt(4) == 0 }
         val seen = swarm.rounds(2 * swarm.size, atOnce) {
             multiGradientCast(
-                sources, if (localId in sources) 0.0 else -1.0, with(swarm) { lengths() },
+                sources,
+                if (localId in sources) 0.0 else -1.0,
+                with(swarm) { lengths() },
                 accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
             )
         }
