@@ -5,4 +5,5 @@ plugins {
 dependencies {
     api(libs.serialization.core)
     kotlinCompilerPluginClasspathMain(libs.kotlin.serialization)
+    testImplementation(libs.serialization.json)
 }
