@@ -96,7 +96,12 @@ internal class GeneratedJavaTest {
 
     @Test
     fun `equal results have equal bytes`() {
-        fun once() = write(GeneratedSchemas.features, Array(4) { Objects.random(GeneratedSchemas.features.actuatorType, Random(it.toLong())) })
+        fun once() = write(
+            GeneratedSchemas.features,
+            Array(4) {
+                Objects.random(GeneratedSchemas.features.actuatorType, Random(it.toLong()))
+            },
+        )
         assertContentEquals(once().first, once().first)
         assertContentEquals(once().second, once().second)
     }
@@ -108,8 +113,7 @@ internal class GeneratedJavaTest {
         return builder.sizedByteArray() to ranges
     }
 
-    private fun ByteArray.range(ranges: IntArray, i: Int) =
-        copyOfRange(size - ranges[2 * i], size - ranges[2 * i] + ranges[2 * i + 1])
+    private fun ByteArray.range(ranges: IntArray, i: Int) = copyOfRange(size - ranges[2 * i], size - ranges[2 * i] + ranges[2 * i + 1])
 
     @Test
     fun `a result that cannot be written has a fault that names the reason`() {

@@ -29,13 +29,31 @@ internal object GeneratedSchemas {
         val classes = Files.createTempDirectory(work, "classes")
         generate(
             arrayOf(
-                "--flatc", System.getProperty("collektive.flatc"), "--schema", "$schema",
-                "--include", root.resolve("schema").toString(), "--java", java.toString(),
+                "--flatc",
+                System.getProperty("collektive.flatc"),
+                "--schema",
+                "$schema",
+                "--include",
+                root.resolve("schema").toString(),
+                "--java",
+                java.toString(),
             ),
         )
         val sources = Files.walk(java).use { paths -> paths.filter { it.toString().endsWith(".java") }.sorted().toList() }
         val options = arrayOf("-d", "$classes", "-cp", System.getProperty("java.class.path"), "-Xlint:all", "-Werror")
-        assertEquals(0, ToolProvider.getSystemJavaCompiler().run(null, null, null, *options, *sources.map { it.toString() }.toTypedArray()), "javac")
+        assertEquals(
+            0,
+            ToolProvider.getSystemJavaCompiler().run(
+                null,
+                null,
+                null,
+                *options,
+                *sources.map {
+                    it.toString()
+                }.toTypedArray(),
+            ),
+            "javac",
+        )
         val loader = URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader)
         return loader.loadClass(name).getConstructor().newInstance() as DataSchema
     }
