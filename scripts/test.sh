@@ -9,7 +9,7 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --s
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
 bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
-  --quick     the verdict that matters in under six minutes: most suites on one JDK, and a short acceptance
+  --quick     the verdict that matters in about eight minutes on two idle cores: most suites on one JDK, and a short acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
