@@ -75,6 +75,11 @@ def chosen(suites: list[Suite], names: list[str]) -> list[Suite]:
     return [suite for suite in suites if suite.name in (names or known)]
 
 
+def check_names(names: list[str]) -> None:
+    """Raises ValueError for an unknown name. Needs no JDKs, so it comes before anything is installed."""
+    chosen(all_suites(["any"]), names)
+
+
 def say(text: str) -> None:
     print(f"[{time.time() - STARTED:4.0f}s] {text}", file=sys.stderr, flush=True)
 
@@ -134,7 +139,7 @@ def main(names: list[str]) -> int:
     if names[:1] == ["sum"]:
         return verdict(results(names[1], int(names[2])), *names[3:])
     try:
-        chosen(all_suites([]), names)
+        check_names(names)
     except ValueError as error:
         print(f"collektive: test: {error}", file=sys.stderr)
         return 1
