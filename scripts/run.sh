@@ -10,7 +10,7 @@ Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
 run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. --set gives a public field of the scene builder
 another value. --recording makes a flight recording of the JVM.
-The scenario file's keys are described in unity/Documentation~/headless.md.
+The scenario file's keys are described in Documentation~/headless.md.
 H
 }
 

@@ -150,7 +150,7 @@ def make_material(maker, name, rgba):
 
 
 MANAGER = "unity/Prefabs/Simulation Manager.prefab"
-MANAGER_SCRIPT = "unity/Runtime/Unity/SimulationManager.cs"
+MANAGER_SCRIPT = "unity/Runtime/Unity/Manager/SimulationManager.cs"
 
 
 def make_manager(maker):
@@ -191,8 +191,8 @@ def make_node(maker):
   m_Constraints: 112
   m_CollisionDetection: 0
 """)
-    node.add_script(maker, "unity/Runtime/Unity/Node.cs")
-    node.add_script(maker, "unity/Runtime/Unity/Neighbourhood/RadiusNeighbourhood.cs")
+    node.add_script(maker, "unity/Runtime/Unity/Nodes/Node.cs")
+    node.add_script(maker, "unity/Runtime/Unity/Neighbourhoods/RadiusNeighbourhood.cs")
     maker.write(path, node.documents())
 
 

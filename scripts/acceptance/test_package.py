@@ -80,12 +80,26 @@ class ThePackage(Packaged):
                  "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
         wanted |= {"unity/" + path for path in built}
         wanted |= {path + ".meta" for path in metas.assets(self.root)}
-        extra = [path for path in self.packed() - wanted if not re.match(r"unity/Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
+        extra = [path for path in self.packed() - wanted if not re.match(r"Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
         self.assertEqual(extra, [])
         self.assertEqual(sorted(wanted - self.packed()), [])
 
     def test_every_asset_has_its_meta(self):
         self.assertEqual(list(metas.problems(self.root)), [])
+
+    def test_every_link_and_picture_of_its_pages_is_in_it(self):
+        pages = sorted(path for path in self.packed() if re.fullmatch(r"[^/]*\.md|Documentation~/.*\.md", path))
+        self.assertIn("README.md", pages)
+        self.assertIn("Documentation~/index.md", pages)
+        lost = []
+        for page in pages:
+            with open(os.path.join(self.root, page)) as file:
+                text = file.read()
+            links = [os.path.join(os.path.dirname(page), link) for link in re.findall(r"\]\((?!https:)([^)#]+)[^)]*\)", text)]
+            # A page of the package may also be named in running text, from the package's root.
+            links += re.findall(r"`((?:Documentation~|docs)/[^`:]+)`(?!\s+(?:in|of)\s+the\s+repository)", text)
+            lost += [f"{page}: {link}" for link in links if os.path.normpath(link) not in self.packed()]
+        self.assertEqual(lost, [])
 
     def test_its_plugins_are_for_the_platforms_that_they_run_on(self):
         with open(os.path.join(self.root, "unity/Runtime/Plugins/linux-x64/libcollektive_shim.so.meta")) as file:

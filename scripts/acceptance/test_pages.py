@@ -66,7 +66,7 @@ import org.collektive.api.Program
         self.run_example("README.md")
 
     def test_the_example_of_getting_started_runs(self):
-        self.run_example("unity/Documentation~/getting-started.md")
+        self.run_example("Documentation~/getting-started.md")
 
     @pytest.mark.quick
     def test_its_picture_and_links_exist(self):

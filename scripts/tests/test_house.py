@@ -32,7 +32,7 @@ class TheHouse(unittest.TestCase):
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
 
     def test_the_documentations_links_lead_somewhere(self):
-        folder = os.path.join(ROOT, "unity/Documentation~")
+        folder = os.path.join(ROOT, "Documentation~")
         for name in sorted(os.listdir(folder)):
             if not name.endswith(".md"):
                 continue
@@ -41,10 +41,10 @@ class TheHouse(unittest.TestCase):
                     self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
 
     def test_each_setting_of_the_jvm_is_documented(self):
-        with open(os.path.join(ROOT, "unity/Runtime/Bridge/JvmSetting.cs")) as file:
+        with open(os.path.join(ROOT, "unity/Runtime/Bridge/Jvm/JvmSetting.cs")) as file:
             keys = re.findall(r"new JvmSetting\(\s*nameof\(JvmSettings\.(\w+)\)", file.read())
         self.assertGreater(len(keys), 10)
-        with open(os.path.join(ROOT, "unity/Documentation~/jvm-and-jfr.md")) as file:
+        with open(os.path.join(ROOT, "Documentation~/jvm-and-jfr.md")) as file:
             page = file.read()
         for key in keys:
             self.assertIn(f"`{key}`", page)
@@ -60,7 +60,7 @@ class TheHouse(unittest.TestCase):
                             sources += file.read()
         # A text may be put together from literals on several lines.
         sources = re.sub(r'"\s*\+?\s*"', "", sources)
-        with open(os.path.join(ROOT, "unity/Documentation~/troubleshooting.md")) as file:
+        with open(os.path.join(ROOT, "Documentation~/troubleshooting.md")) as file:
             messages = re.findall(r"^\| `([^`]+)`", file.read(), re.M)
         self.assertGreater(len(messages), 20)
         for message in messages:

@@ -44,7 +44,7 @@ def test_the_shim_has_the_products_version():
     assert f"#define CLK_VERSION 0x{major << 16 | minor << 8 | patch:06x}" in text("native-shim/include/collektive_shim.h")
 
 
-@pytest.mark.parametrize("path", ["README.md", "unity/Documentation~/getting-started.md"])
+@pytest.mark.parametrize("path", ["README.md", "Documentation~/getting-started.md"])
 def test_pages_name_the_package_with_its_version(path):
     assert re.findall(r"org\.collektive\.unity-(\d[\d.]*\d)\.tgz", text(path)) == [VERSION]
 

@@ -74,7 +74,7 @@ class TheValidator(unittest.TestCase):
         self.found(ASMDEF, "no .meta")
 
     def test_finds_a_meta_without_an_asset(self):
-        os.remove(os.path.join(self.root, "unity/Runtime/Unity/TickTimes.cs"))
+        os.remove(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs"))
         self.found("TickTimes.cs.meta", "belongs to no asset")
 
     def test_finds_a_guid_used_twice(self):
@@ -105,7 +105,7 @@ class TheValidator(unittest.TestCase):
         self.found(PREFAB, "MonoBehaviour.m_Script", 32 * "b")
 
     def test_finds_a_script_reference_to_something_else(self):
-        with open(os.path.join(self.root, "unity/Runtime/Unity/TickTimes.cs.meta")) as file:
+        with open(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs.meta")) as file:
             guid = re.search("guid: (.*)", file.read())[1]
         self.change(PREFAB, r"guid: [0-9a-f]{32}", f"guid: {guid}")
         self.found(PREFAB, "TickTimes.cs", "no component")
