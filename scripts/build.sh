@@ -37,7 +37,7 @@ build_jvm() {
 # package_jvm [OPTION]...: Maven's package phase of all modules.
 package_jvm() {
   [ -z "${INTERRUPTED:-}" ] || rm -rf "$ROOT"/jvm-host/target "$ROOT"/jvm-host/*/target
-  mvn -B -ntp -f "$ROOT/jvm-host/pom.xml" package "$@"
+  mvn -B -ntp -T 2 -f "$ROOT/jvm-host/pom.xml" package "$@"
 }
 
 # sources DIR...: the C# files below folders, generated bridge code included.

@@ -9,7 +9,8 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --s
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
 bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
-  --quick     the verdict that matters in about eight minutes on two idle cores: most suites on one JDK, and a short acceptance
+  --quick     the verdict that matters in six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
+              acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
@@ -135,7 +136,8 @@ test_shim() {
 # shim_cases BUILD RESULTS JDK: the shim's tests of a CMake build, on a JVM.
 shim_cases() {
   mkdir -p "$2"
-  CLK_TEST_JAVA_HOME="$3" ctest --test-dir "$1" --output-on-failure -j 2 --output-junit "$2/$(basename "$3").xml"
+  CLK_TEST_JAVA_HOME="$3" ctest --test-dir "$1" --output-on-failure -j 2 ${COLLEKTIVE_QUICK:+-LE slow} \
+    --output-junit "$2/$(basename "$3").xml"
 }
 
 test_jvm() {
@@ -144,7 +146,7 @@ test_jvm() {
   rm -f "$stamp"
   : >"$stamp.started"
   rm -f "$ROOT"/jvm-host/*/target/surefire-reports/TEST-*.xml
-  "$ROOT/collektive" step package_jvm -Dmaven.test.failure.ignore=true || code=$?
+  "$ROOT/collektive" step package_jvm -Dmaven.test.failure.ignore=true ${COLLEKTIVE_QUICK:+-DexcludedGroups=slow} || code=$?
   rm -f "$stamp.started"
   if [ "$code" = 0 ]; then jvm_fingerprint >"$stamp"; fi
   for report in "$ROOT"/jvm-host/*/target/surefire-reports/TEST-*.xml; do
@@ -192,7 +194,8 @@ test_csharp() {
   local jar
   jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs")
   COLLEKTIVE_ROOT="$ROOT" COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
-    managed "${3:-mono-sgen}" "$CSHARP/Collektive.TestRunner.exe" --results "$1/csharp.xml" "$CSHARP/Collektive.Headless.Tests.dll" ${4:+"$4"}
+    managed "${3:-mono-sgen}" "$CSHARP/Collektive.TestRunner.exe" --results "$1/csharp.xml" ${COLLEKTIVE_QUICK:+--without Slow} \
+    "$CSHARP/Collektive.Headless.Tests.dll" ${4:+"$4"}
 }
 
 # test_unity RESULTS: the package's own tests, which Unity's test framework runs in the editor.

@@ -22,12 +22,12 @@ def problems(assets):
         if name != os.path.basename(path)[:-len(".asmdef")]:
             yield f"{path}: its name is '{name}': file and assembly must have one name"
         if name in definitions:
-            yield f"{path}: the name '{name}' is that of {definitions[name][0]} too"
+            yield f"{path}: the name '{name}' is also that of {definitions[name][0]}"
         definitions[name] = (path, definition)
     for name, (path, definition) in sorted(definitions.items()):
         yield from of_one(name, path, definition, definitions)
     yield from cycles(definitions)
-    yield from homeless(assets, definitions)
+    yield from unassigned(assets, definitions)
 
 
 def of_one(name, path, definition, definitions):
@@ -58,16 +58,16 @@ def cycles(definitions):
         while open_names:
             reference = open_names.pop()
             if reference == name:
-                yield f"{definitions[name][0]}: refers to itself, over others"
+                yield f"{definitions[name][0]}: refers to itself through others"
                 break
             if reference in definitions and reference not in seen:
                 seen.add(reference)
                 open_names += definitions[reference][1].get("references", [])
 
 
-def homeless(assets, definitions):
+def unassigned(assets, definitions):
     """C# that Unity would compile into the users' own assembly."""
-    homes = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
+    folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):
-        if not any(path.startswith(home) for home in homes):
+        if not any(path.startswith(folder) for folder in folders):
             yield f"{path}: belongs to no assembly definition"

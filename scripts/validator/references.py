@@ -105,10 +105,10 @@ class OneFile:
         for child in document.fields["m_Children"]:
             other = self.by_id.get(child["fileID"])
             if other and not other.stripped and other.fields["m_Father"]["fileID"] != str(document.file_id):
-                yield f"{other.line}: Transform has another father than {document.file_id}"
-        father = self.by_id.get(document.fields["m_Father"]["fileID"])
-        if father and not father.stripped and {"fileID": str(document.file_id)} not in father.fields["m_Children"]:
-            yield f"{document.line}: Transform is not among its father's children"
+                yield f"{other.line}: Transform has another parent than {document.file_id}"
+        parent = self.by_id.get(document.fields["m_Father"]["fileID"])
+        if parent and not parent.stripped and {"fileID": str(document.file_id)} not in parent.fields["m_Children"]:
+            yield f"{document.line}: Transform is not among the children of its parent"
 
     def of_scene(self):
         roots = [document for document in self.documents if document.type_name == "SceneRoots"]

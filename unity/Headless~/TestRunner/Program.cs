@@ -10,8 +10,9 @@ using UnityEngine.Headless;
 using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
-/// Usage: Collektive.TestRunner.exe [--results FILE] ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed or none ran.
-/// FILE gets the results as JUnit XML at the end; a run that does not come to its end leaves none.
+/// Usage: Collektive.TestRunner.exe [--results FILE] [--without CATEGORY] ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
+/// or none ran. FILE gets the results as JUnit XML at the end; a run that does not come to its end leaves none.
+/// An attribute of NUnit's that this runner does not know is a failure: its test might not be run as it asks.
 /// Tests of an assembly that uses Unity's test framework get what it gives them: log assertions, coroutines, and, unless it uses the
 /// editor, play mode.
 static class Program
@@ -21,14 +22,27 @@ static class Program
     /// Of a frame in play mode.
     const float FrameSeconds = 0.02f;
 
+    static readonly HashSet<Type> known = new HashSet<Type>
+    {
+        typeof(TestFixtureAttribute), typeof(TestAttribute), typeof(TestCaseAttribute), typeof(SetUpAttribute), typeof(TearDownAttribute),
+        typeof(IgnoreAttribute), typeof(CategoryAttribute), typeof(UnityTestAttribute), typeof(UnitySetUpAttribute), typeof(UnityTearDownAttribute),
+    };
+
     static readonly XElement results = new XElement("testsuite");
+    static string without = "";
     static int passed, failed;
     static bool isUnity, isPlayMode;
 
     static int Main(string[] arguments)
     {
-        var file = arguments[0] == "--results" ? arguments[1] : null;
-        if (file != null) arguments = arguments.AsSpan(2).ToArray();
+        string file = null;
+        while (arguments[0].StartsWith("--", StringComparison.Ordinal))
+        {
+            if (arguments[0] == "--results") file = arguments[1];
+            else if (arguments[0] == "--without") without = arguments[1];
+            else throw new ArgumentException("unknown option " + arguments[0]);
+            arguments = arguments.AsSpan(2).ToArray();
+        }
         var filter = arguments.Length > 1 ? arguments[1] : "";
         var assembly = Assembly.LoadFrom(arguments[0]);
         var references = Array.ConvertAll(assembly.GetReferencedAssemblies(), reference => reference.Name);
@@ -40,9 +54,11 @@ static class Program
         Array.Sort(types, (a, b) => string.CompareOrdinal(a.FullName, b.FullName));
         foreach (var type in types)
         {
+            RefuseUnknown(type.FullName, type);
             if (type.IsAbstract) continue;
             foreach (var method in type.GetMethods(Members))
             {
+                RefuseUnknown($"{type.FullName}.{method.Name}", method, method.GetParameters());
                 var cases = method.GetCustomAttributes(typeof(TestCaseAttribute), true);
                 var isTest = method.IsDefined(typeof(TestAttribute), true) || method.IsDefined(typeof(UnityTestAttribute), true);
                 if (cases.Length == 0 && isTest) Run(type, method, null, filter);
@@ -63,6 +79,7 @@ static class Program
         var arguments = testCase?.Arguments;
         var name = $"{type.FullName}.{method.Name}" + (arguments == null ? "" : "(" + string.Join(", ", arguments) + ")");
         if (name.IndexOf(filter, StringComparison.Ordinal) < 0 || method.IsDefined(typeof(IgnoreAttribute), true)) return;
+        if (IsIn(without, method) || IsIn(without, type)) return;
         var clock = Stopwatch.StartNew();
         Exception failure = null;
         if (isUnity) Begin();
@@ -82,8 +99,13 @@ static class Program
             foreach (var tearDown in tearDowns) Try(() => Finish(tearDown.Invoke(fixture, null)), ref failure);
         }
         if (isUnity) Try(End, ref failure);
-        var result = new XElement("testcase", new XAttribute("classname", type.FullName),
-            new XAttribute("name", Printable(name.Substring(type.FullName.Length + 1))),
+        Report(type.FullName, name, clock, failure);
+    }
+
+    static void Report(string fixture, string name, Stopwatch clock, Exception failure)
+    {
+        var result = new XElement("testcase", new XAttribute("classname", fixture),
+            new XAttribute("name", Printable(name.StartsWith(fixture + ".", StringComparison.Ordinal) ? name.Substring(fixture.Length + 1) : name)),
             new XAttribute("time", clock.Elapsed.TotalSeconds));
         results.Add(result);
         if (failure == null || failure is SuccessException)
@@ -96,6 +118,23 @@ static class Program
         result.Add(new XElement("failure", new XAttribute("message", Printable(failure.Message)), Printable(failure.ToString())));
         Console.WriteLine($"FAIL {name}\n{failure}");
     }
+
+    /// Fails once for each attribute of NUnit's or of Unity's test framework that is not known.
+    static void RefuseUnknown(string name, MemberInfo member, params ParameterInfo[] parameters)
+    {
+        var attributes = new List<object>(member.GetCustomAttributes(true));
+        foreach (var parameter in parameters) attributes.AddRange(parameter.GetCustomAttributes(true));
+        foreach (var attribute in attributes)
+        {
+            var type = attribute.GetType();
+            if (type.Namespace != typeof(TestAttribute).Namespace && type.Namespace != typeof(UnityTestAttribute).Namespace || known.Contains(type)) continue;
+            Report((member as Type ?? member.DeclaringType).FullName, $"{name} has [{type.Name}]", Stopwatch.StartNew(),
+                new NotSupportedException($"{name}: this runner does not know [{type.Name}], so the test would not run as it asks"));
+        }
+    }
+
+    static bool IsIn(string category, MemberInfo member) =>
+        Array.Exists(member.GetCustomAttributes(typeof(CategoryAttribute), true), attribute => ((CategoryAttribute)attribute).Name == category);
 
     /// XML has no place for control characters.
     static string Printable(string text)

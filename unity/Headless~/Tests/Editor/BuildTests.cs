@@ -57,7 +57,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT {
             Assert.That(Logged("there is no ActuatorData"), Is.StringStarting("Error: "));
         }
 
-        [Test]
+        [Test, Category("Slow")]
         public void Programs_become_a_jar_that_is_made_anew_before_play_when_they_changed()
         {
             UseKotlin();

@@ -8,6 +8,7 @@ namespace Collektive.Headless.Tests
 {
     /// <summary>Each session loads its programs anew; what an ended one loaded goes.</summary>
     [TestFixture]
+    [Category("Slow")]
     public sealed class ReloadTests
     {
         private const long Mebi = 1 << 20;

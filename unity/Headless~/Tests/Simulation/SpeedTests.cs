@@ -12,6 +12,7 @@ namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>What a tick costs in Unity's process with the ready parts.</summary>
     [TestFixture]
+    [Category("Slow")]
     public sealed class SpeedTests : SimulationFixture
     {
         private const int Warm = 100;

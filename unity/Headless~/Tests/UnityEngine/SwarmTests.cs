@@ -8,6 +8,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Engine
 {
     /// Many bodies at once: repeatability, garbage, cost.
+    [Category("Slow")]
     public sealed class SwarmTests : PhysicsFixture
     {
         public class Counter : MonoBehaviour

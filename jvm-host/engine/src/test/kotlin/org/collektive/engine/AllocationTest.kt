@@ -3,12 +3,14 @@ package org.collektive.engine
 import com.sun.management.ThreadMXBean
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import java.lang.management.ManagementFactory
 import java.util.concurrent.TimeUnit
 import kotlin.test.assertTrue
 
 /** The warm engine allocates nothing per tick. A control that allocates shows that the measurement works. */
+@Tag("slow")
 class AllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
     private val answer = Any()

@@ -1,6 +1,7 @@
 package org.collektive.host
 
 import com.sun.management.ThreadMXBean
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import java.lang.management.ManagementFactory
@@ -8,6 +9,7 @@ import java.nio.file.Files
 import kotlin.test.assertTrue
 
 /** The warm host's thread allocates nothing per tick: it reads frames and writes answers in place. */
+@Tag("slow")
 @Timeout(60)
 class HostAllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean

@@ -134,7 +134,7 @@ class StepTest {
     }
 
     @Test
-    fun `global data stays until the next, and a refused tick does not change it`() {
+    fun `global data stays until the next, and refused ticks do not change it`() {
         val session = session()
         fun texts(step: Step) = session.answers(session.ok(step)).getValue(1).second.orEmpty().substringAfterLast('/')
         assertEquals(
@@ -155,15 +155,18 @@ class StepTest {
                 },
             ),
         )
-        assertEquals(
-            -12,
-            session.step(
-                Step(3).apply {
-                    wind = 9f
-                    due = listOf(8)
-                }.bytes(),
-            ),
-        )
+        // Data is double-buffered, so only a second refused tick could overwrite what is in use.
+        repeat(2) {
+            assertEquals(
+                -12,
+                session.step(
+                    Step(3).apply {
+                        wind = 9f
+                        due = listOf(8)
+                    }.bytes(),
+                ),
+            )
+        }
         assertEquals("2.5", texts(Step(3).apply { due = listOf(1) }))
         assertEquals(
             "3.5",
