@@ -250,9 +250,19 @@ build_roundtrip() {
 # The suites below use other commands, which lock build/ themselves.
 
 test_page() {
+  local sample="$BUILD/page-sample"
   "$ROOT/collektive" demo --nodes 60 --seconds 10 --out "$BUILD/page-demo"
-  COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/test.mjs" "$BUILD/page-demo/replay.html" \
-    --results "$1/page.xml"
+  assembly SampleReplay.exe "$ROOT/unity/Headless~/SampleReplay" "$ROOT/unity/Headless~/Replay" -- "-r:$NEWTONSOFT" -target:exe
+  mkdir -p "$sample"
+  mono-sgen "$CSHARP/SampleReplay.exe" "$BUILD/replay.html" "$sample/replay.html"
+  page_tests "$1/demo.xml" "$BUILD/page-demo/replay.html"
+  page_tests "$1/sample.xml" "$sample/replay.html" "$sample/replay.html.expected.json"
+}
+
+# page_tests RESULTS.xml PAGE [EXPECTED.json]
+page_tests() {
+  COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node --test-reporter=spec --test-reporter-destination=stdout --test-reporter=junit \
+    --test-reporter-destination="$1" "$ROOT/unity/Headless~/Replay/test.mjs" "${@:2}"
 }
 
 # test_acceptance RESULTS: what measures times alone, the rest by two.

@@ -1,7 +1,7 @@
 using System;
-using System.Collections.Generic;
 using System.Globalization;
-using System.Text;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
@@ -11,9 +11,9 @@ namespace Collektive.Headless
     /// </summary>
     public sealed class ReplayMetadata
     {
-        private readonly List<string> shapes = new List<string>();
-        private readonly List<string> markers = new List<string>();
-        private string arena = "{\"min\":[-10,0,-10],\"max\":[10,5,10]}";
+        private readonly JArray shapes = new JArray();
+        private readonly JArray markers = new JArray();
+        private JObject arena = Arena(-10, 0, -10, 10, 5, 10);
 
         public string Title { get; set; } = "Replay";
         public ulong Seed { get; set; }
@@ -40,7 +40,7 @@ namespace Collektive.Headless
         {
             if (!(minX < maxX && minY <= maxY && minZ < maxZ))
                 throw new ArgumentException("The replay's arena must have its least corner first and a floor of some size.");
-            arena = "{\"min\":" + Vector(minX, minY, minZ) + ",\"max\":" + Vector(maxX, maxY, maxZ) + "}";
+            arena = Arena(minX, minY, minZ, maxX, maxY, maxZ);
         }
 
         /// <summary>A static box, turned by the unit quaternion; height 0 makes a plane.</summary>
@@ -48,61 +48,58 @@ namespace Collektive.Headless
             float x, float y, float z, float width, float height, float depth,
             float rotationX = 0, float rotationY = 0, float rotationZ = 0, float rotationW = 1)
         {
-            shapes.Add("{\"kind\":\"box\",\"centre\":" + Vector(x, y, z) + ",\"size\":" + Vector(width, height, depth) +
-                ",\"rotation\":[" + Number(rotationX) + "," + Number(rotationY) + "," + Number(rotationZ) + "," + Number(rotationW) + "]}");
+            var rotation = Numbers(rotationX, rotationY, rotationZ, rotationW);
+            shapes.Add(new JObject { ["kind"] = "box", ["centre"] = Numbers(x, y, z), ["size"] = Numbers(width, height, depth), ["rotation"] = rotation });
         }
 
         /// <summary>A static sphere.</summary>
         public void AddSphere(float x, float y, float z, float radius)
         {
-            shapes.Add("{\"kind\":\"sphere\",\"centre\":" + Vector(x, y, z) + ",\"radius\":" + Number(radius) + "}");
+            shapes.Add(new JObject { ["kind"] = "sphere", ["centre"] = Numbers(x, y, z), ["radius"] = Number(radius) });
         }
 
         /// <summary>A named place.</summary>
         public void AddMarker(string name, float x, float y, float z)
         {
-            markers.Add("{\"name\":" + Text(name) + ",\"position\":" + Vector(x, y, z) + "}");
+            markers.Add(new JObject { ["name"] = Text(name), ["position"] = Numbers(x, y, z) });
         }
 
         internal string ToJson()
         {
-            var json = new StringBuilder();
-            json.Append("{\"title\":").Append(Text(Title));
-            json.Append(",\"seed\":\"").Append(Seed.ToString(CultureInfo.InvariantCulture)).Append('"');
-            json.Append(",\"deltaTime\":").Append(Number(DeltaTime));
-            json.Append(",\"nodeRadius\":").Append(Number(NodeRadius));
-            json.Append(",\"arena\":").Append(arena);
-            json.Append(",\"scalar\":{\"name\":").Append(Text(ScalarName));
-            if (ScalarUnit != null) json.Append(",\"unit\":").Append(Text(ScalarUnit));
-            if (ScalarMin.HasValue) json.Append(",\"min\":").Append(Number(ScalarMin.Value));
-            if (ScalarMax.HasValue) json.Append(",\"max\":").Append(Number(ScalarMax.Value));
-            json.Append("},\"shapes\":[").Append(string.Join(",", shapes));
-            json.Append("],\"markers\":[").Append(string.Join(",", markers)).Append("]}");
-            return json.ToString();
+            var scalar = new JObject { ["name"] = Text(ScalarName) };
+            if (ScalarUnit != null) scalar["unit"] = ScalarUnit;
+            if (ScalarMin.HasValue) scalar["min"] = Number(ScalarMin.Value);
+            if (ScalarMax.HasValue) scalar["max"] = Number(ScalarMax.Value);
+            var all = new JObject
+            {
+                ["title"] = Text(Title),
+                // Greater than what JavaScript's numbers hold exactly.
+                ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
+                ["deltaTime"] = Number(DeltaTime),
+                ["nodeRadius"] = Number(NodeRadius),
+                ["arena"] = arena,
+                ["scalar"] = scalar,
+                ["shapes"] = shapes,
+                ["markers"] = markers,
+            };
+            return all.ToString(Formatting.None);
         }
 
-        private static string Vector(float x, float y, float z)
-        {
-            return "[" + Number(x) + "," + Number(y) + "," + Number(z) + "]";
-        }
+        private static JObject Arena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ) =>
+            new JObject { ["min"] = Numbers(minX, minY, minZ), ["max"] = Numbers(maxX, maxY, maxZ) };
 
-        private static string Number(double value)
+        private static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
+
+        // JSON has no place for other numbers.
+        private static double Number(double value)
         {
             if (double.IsNaN(value) || double.IsInfinity(value))
                 throw new ArgumentException("A number of the replay's metadata is " + value.ToString(CultureInfo.InvariantCulture) + ": give a finite one.");
-            return value.ToString("R", CultureInfo.InvariantCulture);
+            return value;
         }
 
-        private static string Text(string text)
-        {
-            var json = new StringBuilder("\"");
-            foreach (var c in text ?? throw new ArgumentNullException(nameof(text), "A name of the replay's metadata is missing."))
-            {
-                if (c == '"' || c == '\\') json.Append('\\').Append(c);
-                else if (c < ' ') json.Append("\\u").Append(((int)c).ToString("x4", CultureInfo.InvariantCulture));
-                else json.Append(c);
-            }
-            return json.Append('"').ToString();
-        }
+        private static float Number(float value) => (float)Number((double)value);
+
+        private static string Text(string text) => text ?? throw new ArgumentNullException(nameof(text), "A name of the replay's metadata is missing.");
     }
 }

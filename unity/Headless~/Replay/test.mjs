@@ -1,16 +1,16 @@
-// Tests a replay page in headless Chromium: node test.mjs replay.html [expected.json] [--results results.xml]
-// expected.json (written by the sample run) holds what some frames must show: [{ frame, time, nodes: [[id, x, y, z, scalar]], links: [[a, b]] }].
-// Prints a line for each test, then "N passed, M failed"; exits 1 if one failed. results.xml gets the results as JUnit XML at the end.
+// Tests a replay page in headless Chromium: node [TEST OPTIONS] test.mjs replay.html [expected.json]
+// expected.json holds what some frames must show: [{ frame, time, nodes: [[id, x, y, z, scalar]], links: [[a, b]] }]. With it, only they are tested.
+import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { parseArgs } from 'node:util';
 import { launch } from './browser.mjs';
 
-const { values: { results }, positionals: [file, expected] } = parseArgs({ allowPositionals: true, options: { results: { type: 'string' } } });
+const [file, expected] = process.argv.slice(2);
 if (!file) {
-  console.error('Usage: node test.mjs replay.html [expected.json] [--results results.xml]');
+  console.error('Usage: node test.mjs replay.html [expected.json]');
   process.exit(2);
 }
 
@@ -18,36 +18,7 @@ const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
 const browser = await launch();
-const cases = [];
-
-function record(name, failure) {
-  cases.push({ name, failure });
-  console.log(failure === undefined ? `ok    ${name}` : `FAIL  ${name}\n      ${failure.split('\n').join('\n      ')}`);
-}
-
-async function test(name, run) {
-  try {
-    await run();
-    record(name);
-  } catch (error) {
-    record(name, error.message);
-  }
-}
-
-/** Text as XML, which has no place for most control characters. */
-const xml = (text) => text.replace(/[^\n\P{Cc}]/gu, '?').replace(/[&<>"]/g, (character) => `&#${character.charCodeAt(0)};`);
-
-function junit() {
-  const lines = cases.map(({ name, failure }) => {
-    const outcome = failure === undefined ? '' : `<failure>${xml(failure)}</failure>`;
-    return `  <testcase classname="page" name="${xml(name)}">${outcome}</testcase>`;
-  });
-  return `<testsuite name="page" tests="${cases.length}">\n${lines.join('\n')}\n</testsuite>\n`;
-}
-
-function check(holds, message) {
-  if (!holds) throw new Error(message);
-}
+const blind = await launch(undefined, ['--disable-3d-apis']);
 
 /** Opens a page and collects whatever it complains about or fetches. */
 async function open(path, { in: where = browser, ...options } = {}) {
@@ -109,257 +80,253 @@ async function expectMessage(path, words, options) {
   const shown = await tab.locator('#message').isVisible() ? await tab.locator('#message').innerText() : '(nothing)';
   const controls = await tab.locator('#controls').isVisible();
   await close();
-  check(error !== null, '`ready` is fulfilled');
-  check(words.test(shown), `the page says: ${shown}`);
-  check(!controls, 'the controls are there');
-  check(complaints.length === 0, complaints.join('\n'));
+  assert.ok(error !== null, '`ready` is fulfilled');
+  assert.ok(words.test(shown), `the page says: ${shown}`);
+  assert.ok(!controls, 'the controls are there');
+  assert.deepEqual(complaints, []);
 }
 
-const { tab, complaints, close } = await open(file);
-try {
-  await tab.evaluate(() => window.replay.ready);
-  const frames = await tab.evaluate(() => window.replay.frames);
-  const middle = Math.floor((frames - 1) / 2);
-  await seek(tab, middle);
-  const { nodes, links } = await state(tab);
-
-  if (expected) {
-    await test('frames hold what was written', async () => {
-      for (const wanted of JSON.parse(readFileSync(expected, 'utf8'))) {
-        await seek(tab, wanted.frame);
-        const found = await tab.evaluate(() => window.replay.state());
-        check(found.time === wanted.time, `frame ${wanted.frame} has time ${found.time}, not ${wanted.time}`);
-        check(found.nodes.length === wanted.nodes.length, `frame ${wanted.frame} has ${found.nodes.length} nodes, not ${wanted.nodes.length}`);
-        const byId = new Map(found.nodes.map((node) => [node.id, node]));
-        for (const [id, x, y, z, scalar] of wanted.nodes) {
-          const node = byId.get(id);
-          const same = ([a, b]) => Math.abs(a - b) < 0.005 || (Number.isNaN(a) && Number.isNaN(b));
-          const near = node && [[node.x, x], [node.y, y], [node.z, z], [node.scalar, scalar ?? NaN]].every(same);
-          check(near, `frame ${wanted.frame}: node ${id} is ${JSON.stringify(node)}`);
-        }
-        const links = (pairs) => pairs.map((pair) => pair.sort((a, b) => a - b).join('-')).sort().join(' ');
-        check(links(found.links) === links(wanted.links), `the links of frame ${wanted.frame} differ`);
-      }
-    });
-  }
-
-  await test('the canvas shows a picture', async () => {
-    const found = await colours(tab);
-    check(found > 200, `${found} colours`);
+await suite('replay page', async (page) => {
+  const test = page.test.bind(page);
+  page.after(async () => {
+    await Promise.all([browser.close(), blind.close()]);
+    rmSync(folder, { recursive: true });
   });
-
-  // Shorter runs are over before this test has seen them play.
-  await seek(tab, frames - 1);
-  const plays = (await state(tab)).time >= 1;
-
-  if (plays) {
-    await test('play moves the time, pause stops it', async () => {
-      await tab.selectOption('#speed', '0.25');
-      await seek(tab, 0);
-      const start = (await state(tab)).time;
-      await tab.click('#play');
-      await eventually(tab, (now) => now.time > start, 'time stands still');
-      await tab.click('#play');
-      const paused = await state(tab);
-      await tab.waitForTimeout(300);
-      check(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
-    });
-
-    await test('the run stops at its end and starts anew', async () => {
-      await seek(tab, frames - 2);
-      await tab.evaluate(() => window.replay.play());
-      await eventually(tab, (now) => !now.playing && now.frame === frames - 1, 'it does not stop at the last frame');
-      await tab.evaluate(() => window.replay.play());
-      await eventually(tab, (now) => now.frame < frames - 1, 'it does not start anew');
-      await tab.evaluate(() => window.replay.pause());
-    });
-
-    await test('space plays and pauses, on the page and on the play button', async () => {
-      for (const focus of ['document.activeElement.blur()', 'document.getElementById("play").focus()']) {
-        await tab.evaluate(focus);
-        await seek(tab, 0);
-        await tab.keyboard.press(' ');
-        check((await state(tab)).playing, `space does not play after ${focus}`);
-        await tab.keyboard.press(' ');
-        check(!(await state(tab)).playing, `space does not pause after ${focus}`);
-      }
-      await tab.selectOption('#speed', '1');
-    });
-  }
-
-  if (frames > 1) {
-
-    await test('the scrub bar reaches every frame and changes the picture', async () => {
-      await tab.locator('#scrub').fill('0');
-      check((await state(tab)).frame === 0, 'not at the first frame');
-      const first = await canvas(tab);
-      await tab.locator('#scrub').fill(String(frames - 1));
-      check((await state(tab)).frame === frames - 1, 'not at the last frame');
-      check(nodes === 0 || (await canvas(tab)) !== first, 'first and last frame look the same');
-    });
-
-    await test('a frame is the same whichever way it is reached', async () => {
-      const all = (order) => tab.evaluate(([indices, wanted]) => {
-        let found;
-        for (const i of indices) {
-          window.replay.seek(i);
-          if (i === wanted) found = JSON.stringify(window.replay.state());
-        }
-        return found;
-      }, [order, middle]);
-      const forward = await all(Array.from({ length: middle + 1 }, (_, i) => i));
-      const backward = await all(Array.from({ length: frames - middle }, (_, i) => frames - 1 - i));
-      check(forward === backward && forward === await all([0, frames - 1, middle]), 'the states differ');
-    });
-
-    await test('seeking is instant', async () => {
-      const each = await tab.evaluate((count) => {
-        const start = performance.now();
-        for (let i = 0; i < 100; i++) window.replay.seek((i * 7919) % count);
-        return (performance.now() - start) / 100;
-      }, frames);
-      check(each < 50, `${each.toFixed(1)} ms`);
-      console.log(`      ${each.toFixed(2)} ms a seek, ${frames} frames, ${nodes} nodes and ${links} links in the middle`);
-    });
-
-    await test('keys', async () => {
-      await tab.evaluate(() => document.activeElement.blur());
-      await seek(tab, 0);
-      await tab.keyboard.press('ArrowRight');
-      check((await state(tab)).frame === 1, 'right: not the next frame');
-      await tab.keyboard.press('ArrowLeft');
-      check((await state(tab)).frame === 0, 'left: not the frame before');
-      await tab.keyboard.press('End');
-      check((await state(tab)).frame === frames - 1, 'End: not the last frame');
-      await tab.keyboard.press('Home');
-      check((await state(tab)).frame === 0, 'Home: not the first frame');
-      await tab.keyboard.press('l');
-      check(!(await tab.isChecked('#links')), 'l does not hide the links');
-      await tab.keyboard.press('l');
-      await tab.keyboard.press('.');
-      check((await tab.inputValue('#speed')) === '2', '. is not faster');
-      await tab.keyboard.press(',');
-      check((await tab.inputValue('#speed')) === '1', ', is not slower');
-    });
-  }
-
-  if (links > 0) {
-    await test('links can be hidden and shown', async () => {
-      await seek(tab, middle);
-      const shown = await canvas(tab);
-      await tab.uncheck('#links');
-      const hidden = await canvas(tab);
-      await tab.check('#links');
-      check(shown !== hidden, 'the picture stays the same');
-      check(shown === await canvas(tab), 'the links do not come back');
-    });
-  }
-
-  if (nodes > 0) {
-    await test('a node is found by its id, with its neighbours, and let go', async () => {
-      await seek(tab, middle);
-      const { id, neighbours } = await tab.evaluate(() => {
-        const { nodes: all, links: pairs } = window.replay.state();
-        const some = pairs.length ? pairs[0][0] : all[0].id;
-        return { id: some, neighbours: pairs.filter((pair) => pair.includes(some)).length };
-      });
-      const before = await canvas(tab);
-      await tab.fill('#find', String(id));
-      await tab.keyboard.press('Enter');
-      const text = await tab.innerText('#selection');
-      check(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page says: ${text}`);
-      check((await canvas(tab)) !== before, 'nothing is highlighted');
-      await tab.click('#deselect');
-      check((await canvas(tab)) === before, 'the highlight stays');
-    });
-
-    await test('a click selects a node', async () => {
-      await seek(tab, 0);
-      const id = await tab.evaluate(() => {
-        window.replay.select(window.replay.state().nodes[0].id);
-        return document.getElementById('selected-name').textContent;
-      });
-      await tab.evaluate(() => window.replay.select(NaN));
-      check(await tab.locator('#selection').isHidden(), `${id} stays selected`);
-      let found = false;
-      for (let y = 120; y < 560 && !found; y += 12) {
-        for (let x = 260; x < 1020 && !found; x += 12) {
-          await tab.mouse.click(x, y);
-          found = await tab.locator('#selection').isVisible();
-        }
-      }
-      check(found, 'no click finds a node');
-      await tab.evaluate(() => document.activeElement.blur());
-      await tab.keyboard.press('Escape');
-      check(await tab.locator('#selection').isHidden(), 'Escape does not deselect');
-    });
-  }
-
-  await test('the mouse turns the view and R brings it back', async () => {
+  const { tab, complaints, close } = await open(file);
+  try {
+    await tab.evaluate(() => window.replay.ready);
+    const frames = await tab.evaluate(() => window.replay.frames);
+    const middle = Math.floor((frames - 1) / 2);
     await seek(tab, middle);
-    await tab.keyboard.press('r');
-    await tab.waitForTimeout(300);
-    const before = await canvas(tab);
-    await tab.mouse.move(640, 300);
-    await tab.mouse.down();
-    await tab.mouse.move(760, 340, { steps: 4 });
-    await tab.mouse.up();
-    await tab.waitForTimeout(300);
-    check((await canvas(tab)) !== before, 'the picture stays the same');
-    await tab.keyboard.press('t');
-    await tab.keyboard.press('a');
-    await tab.keyboard.press('r');
-    await tab.waitForTimeout(300);
-    check((await canvas(tab)) === before, 'the first view does not come back');
-  });
+    const { nodes, links } = await state(tab);
 
-  await test('the view fills the window after a resize', async () => {
-    for (const size of [{ width: 700, height: 900 }, { width: 400, height: 300 }, { width: 1280, height: 720 }]) {
-      await tab.setViewportSize(size);
-      await tab.waitForFunction(({ width, height }) => {
-        const c = document.getElementById('canvas');
-        return c.width === width * devicePixelRatio && c.height === height * devicePixelRatio;
-      }, size, { timeout: 5000 });
-      check(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `the page is wider than ${size.width}`);
-      check((await colours(tab)) > 50, `blank at ${JSON.stringify(size)}`);
+    if (expected) {
+      await test('frames hold what was written', async () => {
+        for (const wanted of JSON.parse(readFileSync(expected, 'utf8'))) {
+          await seek(tab, wanted.frame);
+          const found = await tab.evaluate(() => window.replay.state());
+          assert.equal(found.time, wanted.time, `frame ${wanted.frame}`);
+          assert.equal(found.nodes.length, wanted.nodes.length, `nodes of frame ${wanted.frame}`);
+          const byId = new Map(found.nodes.map((node) => [node.id, node]));
+          for (const [id, x, y, z, scalar] of wanted.nodes) {
+            const node = byId.get(id);
+            const same = ([a, b]) => Math.abs(a - b) < 0.005 || (Number.isNaN(a) && Number.isNaN(b));
+            const near = node && [[node.x, x], [node.y, y], [node.z, z], [node.scalar, scalar ?? NaN]].every(same);
+            assert.ok(near, `frame ${wanted.frame}: node ${id} is ${JSON.stringify(node)}`);
+          }
+          const links = (pairs) => pairs.map((pair) => pair.sort((a, b) => a - b).join('-')).sort().join(' ');
+          assert.equal(links(found.links), links(wanted.links), `links of frame ${wanted.frame}`);
+        }
+      });
+      return;
     }
-  });
 
-  await test('the dark scheme looks different', async () => {
-    const light = await canvas(tab);
-    await tab.emulateMedia({ colorScheme: 'dark' });
-    await tab.waitForTimeout(500); // the page hears of it with its next frame
-    const dark = await canvas(tab);
-    await tab.emulateMedia({ colorScheme: 'light' });
-    check(light !== dark, 'the picture stays the same');
-  });
+    await test('the canvas shows a picture', async () => {
+      const found = await colours(tab);
+      assert.ok(found > 200, `${found} colours`);
+    });
 
-  await test('no error, no warning, nothing fetched', async () => {
-    check(complaints.length === 0, complaints.join('\n'));
-  });
-} catch (error) {
-  record('the page opens', error.message);
-} finally {
-  await close();
-}
+    // Shorter runs are over before this test has seen them play.
+    await seek(tab, frames - 1);
+    const plays = (await state(tab)).time >= 1;
 
-await test('data cut short gives a clear message', () =>
-  expectMessage(withData('short', (data) => data.slice(0, (data.length >> 3) * 4)), /damaged or cut short/));
-await test('a flipped byte gives a clear message', () => expectMessage(withData('flipped', (data) => {
-  const bytes = Buffer.from(data, 'base64');
-  bytes[bytes.length >> 1] ^= 0x55;
-  return bytes.toString('base64');
-}), /damaged or cut short/));
-await test('text that is no data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
-await test('the empty template says so', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
-await browser.close();
+    if (plays) {
+      await test('play moves the time, pause stops it', async () => {
+        await tab.selectOption('#speed', '0.25');
+        await seek(tab, 0);
+        const start = (await state(tab)).time;
+        await tab.click('#play');
+        await eventually(tab, (now) => now.time > start, 'time stands still');
+        await tab.click('#play');
+        const paused = await state(tab);
+        await tab.waitForTimeout(300);
+        assert.ok(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
+      });
 
-const blind = await launch(undefined, ['--disable-3d-apis']);
-await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
-await blind.close();
-rmSync(folder, { recursive: true });
+      await test('the run stops at its end and starts anew', async () => {
+        await seek(tab, frames - 2);
+        await tab.evaluate(() => window.replay.play());
+        await eventually(tab, (now) => !now.playing && now.frame === frames - 1, 'it does not stop at the last frame');
+        await tab.evaluate(() => window.replay.play());
+        await eventually(tab, (now) => now.frame < frames - 1, 'it does not start anew');
+        await tab.evaluate(() => window.replay.pause());
+      });
 
-const failed = cases.filter(({ failure }) => failure !== undefined).length;
-console.log(`${cases.length - failed} passed, ${failed} failed`);
-if (results) writeFileSync(results, junit());
-process.exit(failed === 0 ? 0 : 1);
+      await test('space plays and pauses, on the page and on the play button', async () => {
+        for (const focus of ['document.activeElement.blur()', 'document.getElementById("play").focus()']) {
+          await tab.evaluate(focus);
+          await seek(tab, 0);
+          await tab.keyboard.press(' ');
+          assert.ok((await state(tab)).playing, `space does not play after ${focus}`);
+          await tab.keyboard.press(' ');
+          assert.ok(!(await state(tab)).playing, `space does not pause after ${focus}`);
+        }
+        await tab.selectOption('#speed', '1');
+      });
+    }
+
+    if (frames > 1) {
+
+      await test('the scrub bar reaches every frame and changes the picture', async () => {
+        await tab.locator('#scrub').fill('0');
+        assert.ok((await state(tab)).frame === 0, 'not at the first frame');
+        const first = await canvas(tab);
+        await tab.locator('#scrub').fill(String(frames - 1));
+        assert.ok((await state(tab)).frame === frames - 1, 'not at the last frame');
+        assert.ok(nodes === 0 || (await canvas(tab)) !== first, 'first and last frame look the same');
+      });
+
+      await test('a frame is the same whichever way it is reached', async () => {
+        const all = (order) => tab.evaluate(([indices, wanted]) => {
+          let found;
+          for (const i of indices) {
+            window.replay.seek(i);
+            if (i === wanted) found = JSON.stringify(window.replay.state());
+          }
+          return found;
+        }, [order, middle]);
+        const forward = await all(Array.from({ length: middle + 1 }, (_, i) => i));
+        const backward = await all(Array.from({ length: frames - middle }, (_, i) => frames - 1 - i));
+        assert.ok(forward === backward && forward === await all([0, frames - 1, middle]), 'the states differ');
+      });
+
+      await test('seeking is instant', async () => {
+        const each = await tab.evaluate((count) => {
+          const start = performance.now();
+          for (let i = 0; i < 100; i++) window.replay.seek((i * 7919) % count);
+          return (performance.now() - start) / 100;
+        }, frames);
+        assert.ok(each < 50, `${each.toFixed(1)} ms`);
+        console.log(`      ${each.toFixed(2)} ms a seek, ${frames} frames, ${nodes} nodes and ${links} links in the middle`);
+      });
+
+      await test('keys', async () => {
+        await tab.evaluate(() => document.activeElement.blur());
+        await seek(tab, 0);
+        await tab.keyboard.press('ArrowRight');
+        assert.ok((await state(tab)).frame === 1, 'right: not the next frame');
+        await tab.keyboard.press('ArrowLeft');
+        assert.ok((await state(tab)).frame === 0, 'left: not the frame before');
+        await tab.keyboard.press('End');
+        assert.ok((await state(tab)).frame === frames - 1, 'End: not the last frame');
+        await tab.keyboard.press('Home');
+        assert.ok((await state(tab)).frame === 0, 'Home: not the first frame');
+        await tab.keyboard.press('l');
+        assert.ok(!(await tab.isChecked('#links')), 'l does not hide the links');
+        await tab.keyboard.press('l');
+        await tab.keyboard.press('.');
+        assert.ok((await tab.inputValue('#speed')) === '2', '. is not faster');
+        await tab.keyboard.press(',');
+        assert.ok((await tab.inputValue('#speed')) === '1', ', is not slower');
+      });
+    }
+
+    if (links > 0) {
+      await test('links can be hidden and shown', async () => {
+        await seek(tab, middle);
+        const shown = await canvas(tab);
+        await tab.uncheck('#links');
+        const hidden = await canvas(tab);
+        await tab.check('#links');
+        assert.ok(shown !== hidden, 'the picture stays the same');
+        assert.ok(shown === await canvas(tab), 'the links do not come back');
+      });
+    }
+
+    if (nodes > 0) {
+      await test('a node is found by its id, with its neighbours, and let go', async () => {
+        await seek(tab, middle);
+        const { id, neighbours } = await tab.evaluate(() => {
+          const { nodes: all, links: pairs } = window.replay.state();
+          const some = pairs.length ? pairs[0][0] : all[0].id;
+          return { id: some, neighbours: pairs.filter((pair) => pair.includes(some)).length };
+        });
+        const before = await canvas(tab);
+        await tab.fill('#find', String(id));
+        await tab.keyboard.press('Enter');
+        const text = await tab.innerText('#selection');
+        assert.ok(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page says: ${text}`);
+        assert.ok((await canvas(tab)) !== before, 'nothing is highlighted');
+        await tab.click('#deselect');
+        assert.ok((await canvas(tab)) === before, 'the highlight stays');
+      });
+
+      await test('a click selects a node', async () => {
+        await seek(tab, 0);
+        const id = await tab.evaluate(() => {
+          window.replay.select(window.replay.state().nodes[0].id);
+          return document.getElementById('selected-name').textContent;
+        });
+        await tab.evaluate(() => window.replay.select(NaN));
+        assert.ok(await tab.locator('#selection').isHidden(), `${id} stays selected`);
+        let found = false;
+        for (let y = 120; y < 560 && !found; y += 12) {
+          for (let x = 260; x < 1020 && !found; x += 12) {
+            await tab.mouse.click(x, y);
+            found = await tab.locator('#selection').isVisible();
+          }
+        }
+        assert.ok(found, 'no click finds a node');
+        await tab.evaluate(() => document.activeElement.blur());
+        await tab.keyboard.press('Escape');
+        assert.ok(await tab.locator('#selection').isHidden(), 'Escape does not deselect');
+      });
+    }
+
+    await test('the mouse turns the view and R brings it back', async () => {
+      await seek(tab, middle);
+      await tab.keyboard.press('r');
+      await tab.waitForTimeout(300);
+      const before = await canvas(tab);
+      await tab.mouse.move(640, 300);
+      await tab.mouse.down();
+      await tab.mouse.move(760, 340, { steps: 4 });
+      await tab.mouse.up();
+      await tab.waitForTimeout(300);
+      assert.ok((await canvas(tab)) !== before, 'the picture stays the same');
+      await tab.keyboard.press('t');
+      await tab.keyboard.press('a');
+      await tab.keyboard.press('r');
+      await tab.waitForTimeout(300);
+      assert.ok((await canvas(tab)) === before, 'the first view does not come back');
+    });
+
+    await test('the view fills the window after a resize', async () => {
+      for (const size of [{ width: 700, height: 900 }, { width: 400, height: 300 }, { width: 1280, height: 720 }]) {
+        await tab.setViewportSize(size);
+        await tab.waitForFunction(({ width, height }) => {
+          const c = document.getElementById('canvas');
+          return c.width === width * devicePixelRatio && c.height === height * devicePixelRatio;
+        }, size, { timeout: 5000 });
+        assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `the page is wider than ${size.width}`);
+        assert.ok((await colours(tab)) > 50, `blank at ${JSON.stringify(size)}`);
+      }
+    });
+
+    await test('the dark scheme looks different', async () => {
+      const light = await canvas(tab);
+      await tab.emulateMedia({ colorScheme: 'dark' });
+      await tab.waitForTimeout(500); // the page hears of it with its next frame
+      const dark = await canvas(tab);
+      await tab.emulateMedia({ colorScheme: 'light' });
+      assert.ok(light !== dark, 'the picture stays the same');
+    });
+
+    await test('no error, no warning, nothing fetched', async () => {
+      assert.deepEqual(complaints, []);
+    });
+  } finally {
+    await close();
+  }
+
+  await test('data cut short gives a clear message', () =>
+    expectMessage(withData('short', (data) => data.slice(0, (data.length >> 3) * 4)), /damaged or cut short/));
+  await test('a flipped byte gives a clear message', () => expectMessage(withData('flipped', (data) => {
+    const bytes = Buffer.from(data, 'base64');
+    bytes[bytes.length >> 1] ^= 0x55;
+    return bytes.toString('base64');
+  }), /damaged or cut short/));
+  await test('text that is no data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
+  await test('the empty template says so', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
+  await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
+});

@@ -2,10 +2,11 @@
 import {
   BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
   EdgesGeometry, Group, HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry, Scene, ShadowMaterial, SphereGeometry, Vector3,
-  WebGLRenderer,
+  MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry, Scene, ShadowMaterial, SphereGeometry,
+  Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { CSS2DObject, CSS2DRenderer } from 'three/examples/jsm/renderers/CSS2DRenderer.js';
 
 const THEMES = {
   light: {
@@ -24,7 +25,7 @@ export class View {
   /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
   constructor(canvas, labels, metadata, slots, maxLinks) {
     this.canvas = canvas;
-    this.labels = labels;
+    this.labels = new CSS2DRenderer({ element: labels });
     this.arena = {
       min: new Vector3(metadata.arena.min[0], metadata.arena.min[1], -metadata.arena.max[2]),
       max: new Vector3(metadata.arena.max[0], metadata.arena.max[1], -metadata.arena.min[2]),
@@ -65,7 +66,7 @@ export class View {
     this.addLights();
     this.addFloor();
     for (const shape of metadata.shapes) this.addShape(shape);
-    this.markers = metadata.markers.map((marker) => this.addMarker(marker));
+    for (const marker of metadata.markers) this.addMarker(marker);
     this.addNodes(slots);
     this.links = this.addLines(maxLinks, this.materials.link, 1);
     this.ownLinks = this.addLines(0, this.materials.accentLine, 2);
@@ -135,8 +136,10 @@ export class View {
     const label = document.createElement('div');
     label.className = 'marker';
     label.textContent = name;
-    this.labels.append(label);
-    return { label, top };
+    const object = new CSS2DObject(label);
+    object.position.copy(top);
+    object.center.set(0.5, 1);
+    this.scene.add(object);
   }
 
   addNodes(slots) {
@@ -186,6 +189,7 @@ export class View {
     this.height = height;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
+    this.labels.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.setViewOffset(width, height, 0, (insets.bottom - insets.top) / 2, width, height);
     if (this.framed) this.frame(this.framed);
@@ -235,12 +239,12 @@ export class View {
   /** Turns the camera about its target by radians, or moves it nearer (`zoom` < 1). */
   turn(aside, up, zoom) {
     this.framed = null;
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const length = Math.min(Math.max(offset.length() * zoom, this.controls.minDistance), this.controls.maxDistance);
-    const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) - up, 0.0001), this.controls.maxPolarAngle);
-    const azimuth = Math.atan2(offset.x, offset.z) + aside;
-    offset.set(Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), Math.sin(polar) * Math.cos(azimuth));
-    this.camera.position.copy(this.controls.target).addScaledVector(offset, length);
+    const { minDistance, maxDistance, maxPolarAngle, target } = this.controls;
+    const from = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    from.radius = MathUtils.clamp(from.radius * zoom, minDistance, maxDistance);
+    from.phi = MathUtils.clamp(from.phi - up, 1e-4, maxPolarAngle);
+    from.theta += aside;
+    this.camera.position.setFromSpherical(from).add(target);
     this.controls.update();
     this.request();
   }
@@ -332,12 +336,7 @@ export class View {
   render() {
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
-    const point = new Vector3();
-    for (const { label, top } of this.markers) {
-      point.copy(top).project(this.camera);
-      label.hidden = point.z > 1;
-      label.style.transform = `translate(${((point.x + 1) / 2) * this.width}px, ${((1 - point.y) / 2) * this.height}px) translate(-50%, -100%)`;
-    }
+    this.labels.render(this.scene, this.camera);
   }
 }
 

@@ -1,0 +1,62 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Newtonsoft.Json;
+
+namespace Collektive.Headless.Samples
+{
+    /// <summary>
+    /// Writes a made-up run for the test of the page, which reads it back: nodes walk at random, come and go; each has links to the next two.
+    /// Beside it lies OUTPUT.html.expected.json, what some of its frames must show.
+    /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html
+    /// </summary>
+    internal static class SampleReplay
+    {
+        private const int Nodes = 60, Frames = 200, Checked = 37;
+        private const double Step = 0.1;
+
+        private static void Main(string[] args)
+        {
+            var metadata = new ReplayMetadata { Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, ScalarName = "brightness" };
+            metadata.SetArena(-50, 0, -30, 50, 5, 30);
+            metadata.AddBox(9, 1.5f, -9, 1, 3, 5);
+            metadata.AddSphere(-9, 1, 9, 1);
+            metadata.AddMarker("lamp \"A\"", 25, 0, 0);
+            var random = new Random(42);
+            var places = new float[2 * Nodes];
+            for (var i = 0; i < places.Length; i++) places[i] = 50 * (float)random.NextDouble() - 25;
+            var expected = new List<object>();
+            using (var writer = new ReplayWriter(args[1] + ".scratch", metadata))
+            {
+                for (var frame = 0; frame < Frames; frame++)
+                {
+                    for (var i = 0; i < places.Length; i++) places[i] += (float)random.NextDouble() - 0.5f;
+                    var nodes = new List<float?[]>();
+                    var links = new List<int[]>();
+                    writer.BeginFrame(frame * Step);
+                    for (var id = 0; id < Nodes; id++) if (Exists(id, frame)) nodes.Add(Write(writer, id, places));
+                    for (var link = 0; link < 2 * Nodes; link++)
+                    {
+                        int a = link / 2, b = (a + 1 + link % 2) % Nodes;
+                        if (!Exists(a, frame) || !Exists(b, frame)) continue;
+                        writer.Link(a, b);
+                        links.Add(new[] { a, b });
+                    }
+                    writer.EndFrame();
+                    if (frame % Checked == 0) expected.Add(new { frame, time = frame * Step, nodes, links });
+                }
+                writer.Finish(args[0], args[1]);
+            }
+            File.WriteAllText(args[1] + ".expected.json", JsonConvert.SerializeObject(expected));
+        }
+
+        private static bool Exists(int id, int frame) => id % 7 != 0 || (frame + id) % 90 < 60;
+
+        private static float?[] Write(ReplayWriter writer, int id, float[] places)
+        {
+            float x = places[2 * id], z = places[2 * id + 1], scalar = id % 10 == 0 ? float.NaN : x + z;
+            writer.Node(id, x, 0.25f, z, scalar);
+            return new[] { id, x, 0.25f, z, float.IsNaN(scalar) ? (float?)null : scalar };
+        }
+    }
+}
