@@ -182,7 +182,7 @@ int32_t launch_prepare(struct launch *launch, const clk_jvm_config *config, int6
     if (result == CLK_OK) result = check_characters(CLK_JVM_NOT_FOUND, config->home);
     if (result == CLK_OK) result = check_class_path(config->class_path);
     if (result == CLK_OK) result = check_characters(CLK_HOST, config->class_path);
-    for (int32_t i = 0; result == CLK_OK && i < config->option_count; i++) result = options_check(config->options[i]);
+    if (result == CLK_OK) result = options_check(config->options, config->option_count);
     if (result == CLK_OK) result = fill(launch, config);
     if (result == CLK_OK && config->check_options != 0) result = try_options(launch, deadline);
     return result;

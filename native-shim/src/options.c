@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "debugger.h"
 #include "error.h"
 #include "log.h"
 #include "prim.h"
@@ -18,6 +19,7 @@ struct rule {
 };
 
 static const struct rule refused[] = {
+    {"-Dcom.sun.management.*", "its ports are open to other machines; jcmd and JDK Mission Control find this JVM without a port"},
     {"-XX:+ExitOnOutOfMemoryError", "it ends the whole process when a program exhausts the heap"},
     {"-XX:+CrashOnOutOfMemoryError", "it crashes the whole process when a program exhausts the heap"},
     {"-XX:OnOutOfMemoryError=*", "it forks the whole process to run a command"},
@@ -58,24 +60,35 @@ static int32_t refuse(const char *option, const char *reason) {
     return error_set(CLK_JVM_OPTIONS, "remove '%s' from the JVM options; it is refused, as %s", option, reason);
 }
 
-int32_t options_check(const char *option) {
+static int32_t check_one(const char *option) {
     if (strchr(option, '\n') != NULL) return refuse(option, "it has a line break");
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         if (matches(option, refused[i].text)) return refuse(option, refused[i].reason);
     }
-    /* The debugger's default is suspend=y, and other machines could reach what listens on more than the loopback. */
-    bool debugger = matches(option, "-agentlib:jdwp*") || matches(option, "-Xrunjdwp*") ||
-                    (matches(option, "-agentpath:*") && strstr(option, "libjdwp") != NULL);
-    if (debugger) {
-        if (strstr(option, "suspend=n") == NULL) return refuse(option, "the start would wait for a debugger; add suspend=n");
-        if (strstr(option, "address=127.0.0.1:") == NULL && strstr(option, "address=localhost:") == NULL) {
-            return refuse(option, "whoever reaches a debugger's port runs code of his own here; use address=127.0.0.1:PORT");
-        }
-    }
+    const char *fault = debugger_fault(option);
+    if (fault != NULL) return refuse(option, fault);
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
     }
     return refuse(option, "a JVM inside another process knows no such option (give each as one word, with '=' before its value)");
+}
+
+/* What is longer could not be tried in a child: Windows has room for 32 KiB in a command line. */
+enum { OPTION_BYTES = 8 << 10, ALL_BYTES = 24 << 10 };
+
+int32_t options_check(const char *const options[], int32_t count) {
+    size_t bytes = 0;
+    int32_t result = CLK_OK;
+    for (int32_t i = 0; result == CLK_OK && i < count; i++) {
+        size_t length = strlen(options[i]);
+        bytes += length + 1;
+        if (length > OPTION_BYTES || bytes > ALL_BYTES) {
+            return error_set(CLK_JVM_OPTIONS, "shorten the JVM options; '%.40s...' is refused, as %s", options[i],
+                             length > OPTION_BYTES ? "one option has at most 8 KiB" : "all options together have at most 24 KiB");
+        }
+        result = check_one(options[i]);
+    }
+    return result;
 }
 
 /* ---- In a child process ---------------------------------------------------------------------------------------------- */

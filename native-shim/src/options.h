@@ -4,8 +4,9 @@
 
 #include <stdint.h>
 
-/* Refuses an option by its text: one that endangers the process, or that only the java launcher knows. CLK_JVM_OPTIONS. Any thread. */
-int32_t options_check(const char *option);
+/* Refuses options by their texts: those that endanger the process, let other machines in, or are known to the java launcher alone, and
+ * those that are too long to be tried. CLK_JVM_OPTIONS, with the first one's text and the reason. Any thread. */
+int32_t options_check(const char *const options[], int32_t count);
 
 /* Runs `java -version` of the JVM with the options in a child process, as several wrong ones would end this process inside
  * JNI_CreateJavaVM. CLK_JVM_OPTIONS when it fails, CLK_TIMEOUT when it lasts too long. A JVM without a java command cannot be

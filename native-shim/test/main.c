@@ -89,6 +89,11 @@ int32_t check(const char *const *options) {
     return clk_jvm_check(&config);
 }
 
+int32_t check_texts(const char *const *options) {
+    clk_jvm_config config = config_of(java_home(), host_classes, options, false, 60000);
+    return clk_jvm_check(&config);
+}
+
 int32_t start(const char *const *options) { return start_at(java_home(), host_classes, options, true, 60000); }
 
 void start_plain(void) {

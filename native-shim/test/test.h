@@ -29,7 +29,8 @@ const char *scratch_folder(void);
 
 /* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
 int32_t start(const char *const *options);
-int32_t check(const char *const *options); /* the same checks without the start */
+int32_t check(const char *const *options);       /* the same checks without the start */
+int32_t check_texts(const char *const *options); /* without the try in a child process, too */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
 void start_plain(void);
 
@@ -63,7 +64,7 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
     X(home_with_a_broken_libjvm) X(home_without_java_command) \
     X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
-    X(start_arguments) X(options_refused_by_text) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
+    X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
     X(long_lines_of_the_jvm) X(refusals_are_cut_at_a_character) X(checks_take_turns_after_a_loss) \
     X(option_that_ends_the_jvm) X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) \
     X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) X(options_unchecked_heap_too_large) \

@@ -155,14 +155,64 @@ void options_refused_by_text(void) {
         "-XX:+AbortVMOnSafepointTimeout", "-XX:AbortVMOnException=java.lang.Error", "-XX:SelfDestructTimer=1", "-XX:+ShowMessageBoxOnError",
         "-XX:+AllowUserSignalHandlers", "-XX:-UseSignalChaining", "-XX:-ReduceSignalUsage", "-XX:Flags=x", "-XX:VMOptionsFile=x",
         "-Djava.class.path=x", "-version", "--version", "-X", "-help", "-jar", "x.jar", "@file", "", "vfprintf", "-cp", "-Xinternalversion",
-        "-Xmx64m\n-Xint", "-Xrunjdwp:transport=dt_socket", "-agentlib:jdwp=transport=dt_socket,server=y",
-        "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "-agentpath:/x/libjdwp.so=transport=dt_socket,server=y",
+        "-Xmx64m\n-Xint", "-Dcom.sun.management.jmxremote.port=7091", "-Dcom.sun.management.config.file=x",
     };
     /* clang-format on */
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
     check_start_still_works();
+}
+
+/* What was tried to get past the check of the debugger's options, and what is allowed. */
+void options_of_debuggers(void) {
+    static const struct {
+        const char *list;
+        const char *fault; /* NULL: allowed */
+    } tried[] = {
+        {"transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005", NULL},
+        {"transport=dt_socket,server=y,suspend=n,quiet=y,timeout=100,address=localhost:5005", NULL},
+        {"suspend=n,address=[::1]:5005,transport=dt_socket,server=y", NULL},
+        {"transport=dt_socket,suspend=n,address=127.0.0.1:5005", NULL},
+        {"", "add suspend=n"},
+        {"transport=dt_socket,server=y,address=127.0.0.1:5005", "add suspend=n"},
+        {"server=y,suspend=n,suspend=y,address=127.0.0.1:5005", "add suspend=n"},
+        {"server=y,suspend=no,address=127.0.0.1:5005", "add suspend=n"},
+        {"server=y,xsuspend=n,address=127.0.0.1:5005", "are allowed"},
+        {"server=y,suspend=n", "use address=127.0.0.1:PORT"},
+        {"server=y,suspend=n,address=5005", "use address=127.0.0.1:PORT"},
+        {"server=y,suspend=n,address=*:5005", "use address=127.0.0.1:PORT"},
+        {"server=y,suspend=n,address=127.0.0.1:5005,address=*:5005", "use address=127.0.0.1:PORT"},
+        {"server=y,suspend=n,address=127.0.0.1.example.org:5005", "use address=127.0.0.1:PORT"},
+        {"server=y,suspend=n,address=localhost.example.org:5005", "use address=127.0.0.1:PORT"},
+        {"transport=dt_other,server=y,suspend=n,address=127.0.0.1:5005", "transport dt_socket"},
+        {"server=y,suspend=n,address=127.0.0.1:5005,onthrow=java.lang.Error,launch=/bin/ls", "are allowed"},
+        {"server=y,suspend=n,address=127.0.0.1:5005,onuncaught=y,launch=/bin/ls", "are allowed"},
+        {"server=y,suspend=n,address=127.0.0.1:5005,logfile=/x", "are allowed"},
+        {"server=y,suspend=n,address=127.0.0.1:5005,errorexit=y", "are allowed"},
+        {"help", "are allowed"},
+    };
+    static const char *const agents[] = {"-agentlib:jdwp=", "-Xrunjdwp:", "-agentpath:/x/libjdwp.so="};
+    for (size_t i = 0; i < sizeof tried / sizeof tried[0]; i++) {
+        for (size_t agent = 0; agent < sizeof agents / sizeof agents[0]; agent++) {
+            char option[256];
+            snprintf(option, sizeof option, "%s%s", agents[agent], tried[i].list);
+            CHECK_CODE(tried[i].fault == NULL ? CLK_OK : CLK_JVM_OPTIONS, tried[i].fault, check_texts(OPTIONS(option)));
+        }
+    }
+    CHECK_CODE(CLK_JVM_OPTIONS, "add suspend=n", check_texts(OPTIONS("-agentlib:jdwp")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "add suspend=n", check_texts(OPTIONS("-Xrunjdwp")));
+}
+
+void options_too_long(void) {
+    static char option[1 << 20];
+    memset(option, 'x', sizeof option - 1);
+    memcpy(option, "-Dx=", 4);
+    CHECK_CODE(CLK_JVM_OPTIONS, "one option has at most 8 KiB", check(OPTIONS(option)));
+    option[8 << 10] = '\0';
+    CHECK_OK(check_texts(OPTIONS(option)));
+    CHECK_OK(check(OPTIONS(option, option)));
+    CHECK_CODE(CLK_JVM_OPTIONS, "all options together", check(OPTIONS(option, option, option)));
 }
 
 void options_refused_by_child(void) {
