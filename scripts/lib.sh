@@ -28,6 +28,28 @@ lock() {
 # unlock: for what runs other commands beside each other; each of them locks by itself.
 unlock() { exec 9<&-; }
 
+# attended COMMAND...: runs a command in a process group of its own and passes SIGINT, SIGTERM and SIGHUP on to all of it, so that no process of it
+# is left behind. A command that a signal ended has the exit code that shells give it.
+attended() {
+  local group code signal=0
+  set -m
+  "$@" &
+  group=$!
+  set +m
+  # shellcheck disable=SC2064 # the group of now
+  {
+    trap "signal=2; kill -INT -- -$group 2>/dev/null" INT
+    trap "signal=15; kill -TERM -- -$group 2>/dev/null" TERM
+    trap "signal=1; kill -TERM -- -$group 2>/dev/null" HUP
+  }
+  # A signal ends `wait`, not what it waits for.
+  while code=0; wait "$group" || code=$?; kill -0 "$group" 2>/dev/null; do :; done
+  # The first process may be gone before those that it started.
+  while kill -0 -- "-$group" 2>/dev/null; do sleep 0.05; done
+  if [ "$signal" != 0 ] && [ "$code" != 0 ]; then code=$((128 + signal)); fi
+  return "$code"
+}
+
 # logged LOG FUNCTION ARGUMENT...: runs a step with its output in a file, shown only when it fails. A step is a function in a process of its own:
 # there `set -e` holds, while bash ignores it in all that an `if`, `&&` or `||` calls.
 logged() {

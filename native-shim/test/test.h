@@ -64,7 +64,8 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
     X(home_with_a_broken_libjvm) X(home_without_java_command) \
     X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
-    X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
+    X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) \
+    X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
     X(long_lines_of_the_jvm) X(refusals_are_cut_at_a_character) X(checks_take_turns_after_a_loss) \
     X(option_that_ends_the_jvm) X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) \
     X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) X(options_unchecked_heap_too_large) \

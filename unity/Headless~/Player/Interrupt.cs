@@ -1,26 +1,44 @@
 using System;
+using System.Threading;
 using Mono.Unix;
 using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
-    /// <summary>Ctrl-C and the wish of a job scheduler: they end the run after the tick at hand, in order and with its outputs.</summary>
-    internal sealed class Interrupt : IDisposable
+    /// <summary>
+    /// Ctrl-C and SIGTERM. While a run plays, the first ends it after the tick at hand, with its outputs. Before that, and the second time,
+    /// the process ends at once: users' code may be at work that does not end. One object for the whole process.
+    /// </summary>
+    internal sealed class Interrupt
     {
         // Console.CancelKeyPress comes only from a terminal.
-        private readonly UnixSignal interrupt = new UnixSignal(Signum.SIGINT);
-        private readonly UnixSignal termination = new UnixSignal(Signum.SIGTERM);
+        private readonly UnixSignal[] signals = { new UnixSignal(Signum.SIGINT), new UnixSignal(Signum.SIGTERM) };
+        private volatile bool isPlaying;
+        private volatile int number;
+
+        internal Interrupt() => new Thread(Watch) { IsBackground = true }.Start();
 
         /// <summary>Whether the run is to end.</summary>
-        internal bool Requested => interrupt.IsSet || termination.IsSet;
+        internal bool Requested => number != 0;
 
         /// <summary>What shells use for a command that the signal ended.</summary>
-        internal int ExitCode => 128 + (int)(interrupt.IsSet ? Signum.SIGINT : Signum.SIGTERM);
+        internal int ExitCode => 128 + number;
 
-        public void Dispose()
+        /// <summary>From now on the run ends itself when it is <see cref="Requested"/>.</summary>
+        internal void BeginPlay() => isPlaying = true;
+
+        private void Watch()
         {
-            interrupt.Dispose();
-            termination.Dispose();
+            while (true)
+            {
+                var signal = signals[UnixSignal.WaitAny(signals)];
+                signal.Reset();
+                var isFirst = number == 0;
+                number = (int)signal.Signum;
+                if (isPlaying && isFirst) continue;
+                Console.Error.WriteLine("collektive: interrupted " + (isPlaying ? "twice: the outputs are not complete" : "before the first tick"));
+                Syscall._exit(ExitCode);
+            }
         }
     }
 }

@@ -47,7 +47,7 @@ namespace Collektive.Headless
                     Plan(scenario);
                     return 0;
                 }
-                using (var run = new ScenarioRun(scenario, options)) return run.Run();
+                return new ScenarioRun(scenario, options).Run();
             }
             catch (ScenarioException error)
             {

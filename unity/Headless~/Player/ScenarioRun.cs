@@ -14,7 +14,7 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless
 {
     /// <summary>One run of a scenario: builds its scene, plays it for its time, writes its outputs.</summary>
-    internal sealed class ScenarioRun : IDisposable
+    internal sealed class ScenarioRun
     {
         /// <summary>Replay frames per simulated second; ticks in between are left out.</summary>
         private const double ReplayRate = 10;
@@ -63,8 +63,6 @@ namespace Collektive.Headless
                 Loop.Quit();
             }
         }
-
-        public void Dispose() => interrupt.Dispose();
 
         private SimulationManager MakeManager()
         {
@@ -125,6 +123,7 @@ namespace Collektive.Headless
             // A former run that was interrupted is repeated up to there.
             var ticks = scenario.Former == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.Former.Ticks);
             JObject parameters = null;
+            interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
             using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)

@@ -1,0 +1,93 @@
+"""A signal to a command ends all of it: nothing goes on behind the user's back, and the exit code tells of it."""
+import os
+import signal
+import subprocess
+import time
+
+from command import Project, collektive
+from places import COLLEKTIVE
+
+CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
+
+
+class Signals(Project):
+    def start(self):
+        command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
+        return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def assert_ends(self, process, number):
+        process.send_signal(number)
+        began = time.monotonic()
+        output = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, CODES[number], output)
+        self.assertLess(time.monotonic() - began, 15)
+        self.assertEqual(self.left_behind(), [])
+        return output
+
+    def left_behind(self):
+        """Command lines of processes that name the folder of this test."""
+        found = []
+        for pid in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{pid}/cmdline", "rb") as file:
+                    line = file.read().replace(b"\0", b" ").decode(errors="replace")
+            except OSError:
+                continue
+            if self.folder in line:
+                found.append(line)
+        return found
+
+    def await_line(self, process, words):
+        for line in process.stderr:
+            if words in line:
+                return
+        self.fail(f"the command ended before it wrote '{words}'")
+
+    def await_metrics(self):
+        path = self.path("out", "metrics.csv")
+        end = time.monotonic() + 60
+        while not os.path.exists(path):
+            self.assertLess(time.monotonic(), end, "the run does not begin")
+            time.sleep(0.05)
+        time.sleep(0.5)
+
+    def test_a_run_ends_after_its_tick_with_its_outputs(self):
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_metrics()
+                self.assertIn("interrupted after", self.assert_ends(process, number))
+                self.assertGreater(self.manifest(self.path("out"))["ticks"], 0)
+                os.remove(self.path("out", "metrics.csv"))
+
+    def test_a_scene_that_is_being_built_is_given_up(self):
+        self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
+                    "            System.Threading.Thread.Sleep(60000);")
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_line(process, "running")
+                time.sleep(1.5)
+                self.assertIn("interrupted before the first tick", self.assert_ends(process, number))
+                self.assertFalse(os.path.exists(self.path("out", "manifest.json")))
+
+    def test_a_second_signal_ends_a_tick_that_does_not_end(self):
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;",
+                    "if (SimulationManager.Current.Tick == 0) System.Threading.Thread.Sleep(60000);\n            data.Brightness = Brightness;")
+        process = self.start()
+        self.await_metrics()
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        self.assertIn("interrupted twice", self.assert_ends(process, signal.SIGINT))
+
+    def test_compilers_end_too_and_the_next_run_compiles_again(self):
+        with open(self.path("project", "programs", "Brightest.kt"), "a") as file:
+            file.write(f"\n// {time.time_ns()}\n")
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_line(process, "compile-programs")
+                time.sleep(1)
+                self.assert_ends(process, number)
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
