@@ -99,11 +99,25 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_link_to_an_unknown_node_stops_the_simulation_and_names_it()
+        public void A_link_with_a_node_that_is_gone_is_warned_of_once_and_the_simulation_goes_on()
         {
             var node = MakeNode(1);
-            Manager.AddLink(node.Node.Id, 99);
-            Assert.That(Manager.Failure, Is.StringContaining("node 99"));
+            var gone = MakeNode(1);
+            Play(1);
+            gone.Node.enabled = false;
+            Log.Clear();
+            for (var i = 0; i < 3; i++)
+            {
+                Manager.AddLink(node.Node.Id, 1);
+                Manager.RemoveLink(1, node.Node.Id);
+                Manager.AddLink(node.Node.Id, gone.Node.Id);
+            }
+            Assert.That(Log.Count, Is.EqualTo(2));
+            Assert.That(Log[0], Is.StringContaining("nodes 0 and 1: node 1 takes no part"));
+            Assert.That(Log[1], Is.StringContaining("nodes 0 and -1: node -1 takes no part"));
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
+            Assert.That(node.Actuator.Calls, Is.EqualTo(2));
         }
 
         [Test]

@@ -80,6 +80,18 @@ namespace Collektive.Unity
         [Tooltip("What the JVM is started with: heap, collector, compiler. Takes effect when the JVM starts, once per editor session. None: the usual.")]
         public JvmSettingsAsset jvm;
 
+        /// <summary>What of it the session's opening sends to the JVM.</summary>
+        internal SessionSettings ToSession() => new SessionSettings
+        {
+            Seed = seed,
+            Threads = threads,
+            Schedule = schedule,
+            Network = network,
+            Jars = jars.ConvertAll(Installation.PathOf),
+            Program = program,
+            Record = string.IsNullOrWhiteSpace(record) ? "" : Installation.PathOf(record),
+        };
+
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
         public string FindProblem()
         {

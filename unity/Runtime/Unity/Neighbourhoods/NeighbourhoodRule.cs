@@ -29,7 +29,6 @@ namespace Collektive.Unity
         private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
         private int drops;
-        private bool isAttached;
 
         private struct Neighbour
         {
@@ -55,28 +54,23 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
-        internal sealed override void Attach(Node node)
+        internal sealed override ref PartList ListOf(Node node) => ref node.Rules;
+
+        internal sealed override void Detached()
         {
-            node.Rules.Add(this);
-            isAttached = true;
+            if (Node.Simulation != null) ReleaseAll(Node.Simulation.Links);
         }
 
-        internal sealed override void Detach(Node node)
+        /// <summary>Brings the links of this rule up to date.</summary>
+        internal sealed override void Run(Simulation simulation, int index)
         {
-            node.Rules.Remove(this);
-            isAttached = false;
-            if (SimulationManager.Current != null) ReleaseAll(SimulationManager.Current.Links);
-        }
-
-        internal void UpdateLinks(SimulationManager manager)
-        {
-            if (places.Length < manager.IdCapacity) Array.Resize(ref places, manager.IdCapacity);
+            if (places.Length < simulation.IdCapacity) Array.Resize(ref places, simulation.IdCapacity);
             asked = this;
             try
             {
-                FindNeighbours(manager);
+                FindNeighbours(simulation.Manager);
                 // Not when the rule or its node left in the rule's own call, and the links with it.
-                if (isAttached && Node.Id >= 0) TakeWanted(manager.Links);
+                if (IsAttached && Node.Id >= 0) TakeWanted(simulation.Links);
             }
             finally
             {
@@ -120,7 +114,7 @@ namespace Collektive.Unity
             if (!IsAmount(attenuation))
                 throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
             // Nodes may have joined since the update began.
-            if (other.Id >= places.Length) Array.Resize(ref places, SimulationManager.Current.IdCapacity);
+            if (other.Id >= places.Length) Array.Resize(ref places, other.Simulation.IdCapacity);
             Connect(other.Id, length, attenuation);
         }
 

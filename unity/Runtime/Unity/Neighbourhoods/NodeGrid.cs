@@ -132,6 +132,18 @@ namespace Collektive.Unity
             return new Span<Hit>(hits, 0, MoveNearestToFront(wanted));
         }
 
+        /// <summary>Copies hits to lists, emptied first.</summary>
+        internal void Copy(Span<Hit> found, List<Node> to, List<float> distances)
+        {
+            to.Clear();
+            distances.Clear();
+            for (var i = 0; i < found.Length; i++)
+            {
+                to.Add(NodeAt(found[i]));
+                distances.Add(found[i].Distance);
+            }
+        }
+
         /// <summary>The node of a hit.</summary>
         internal Node NodeAt(in Hit hit) => nodes[hit.Place];
 

@@ -13,9 +13,9 @@ namespace Collektive.Unity
     [DisallowMultipleComponent]
     public sealed class Node : MonoBehaviour
     {
-        internal PartList<Sensor> Sensors;
-        internal PartList<Actuator> Actuators;
-        internal PartList<NeighbourhoodRule> Rules;
+        internal PartList Sensors;
+        internal PartList Actuators;
+        internal PartList Rules;
 
         private static readonly List<Node> EnabledNodes = new List<Node>();
 
@@ -43,7 +43,6 @@ namespace Collektive.Unity
         private RoundTiming timing = new RoundTiming();
 
         private RandomStream random;
-        private int joinedId = -1;
         private ActuatorBuffer answers;
         private int answerIndex;
         private KeptAnswer kept;
@@ -51,7 +50,7 @@ namespace Collektive.Unity
         private double asleepUntil;
 
         /// <summary>The id in the running simulation; -1 while the node takes no part.</summary>
-        public int Id => joinedId;
+        public int Id { get; private set; } = -1;
 
         /// <summary>The wanted id, or -1 for the next free one. Read when the node joins.</summary>
         public int RequestedId
@@ -109,7 +108,7 @@ namespace Collektive.Unity
         {
             data = default;
             if (!(answers is ActuatorBuffer<TData> typed)) return false;
-            var age = SimulationManager.Current.Tick - AnswerTick;
+            var age = Simulation.Tick - AnswerTick;
             data = age == 0 ? typed[answerIndex] : age == 1 ? typed.Former(answerIndex) : ((KeptAnswer<TData>)kept).Value;
             return true;
         }
@@ -123,7 +122,7 @@ namespace Collektive.Unity
             get
             {
                 if (answers == null) return null;
-                var age = SimulationManager.Current.Tick - AnswerTick;
+                var age = Simulation.Tick - AnswerTick;
                 return age == 0 ? answers.Get(answerIndex) : age == 1 ? answers.GetFormer(answerIndex) : kept.Get();
             }
         }
@@ -131,6 +130,9 @@ namespace Collektive.Unity
         internal static List<Node> All => EnabledNodes;
 
         internal Transform Body { get; private set; }
+
+        /// <summary>The simulation that the node takes part in, or null.</summary>
+        internal Simulation Simulation { get; private set; }
 
         /// <summary>
         /// Runs no round for so many simulated seconds from now; the node keeps its state, links, and what it sent. 0 wakes it. Under any
@@ -141,27 +143,29 @@ namespace Collektive.Unity
         public void Sleep(double seconds)
         {
             if (!(seconds >= 0)) throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "a node sleeps 0 seconds or more");
-            if (joinedId < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it takes part in a simulation");
-            asleepUntil = SimulationManager.Current.SimulatedTime + seconds;
+            if (Id < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it takes part in a simulation");
+            asleepUntil = Simulation.Time + seconds;
         }
 
         /// <summary>Starts the node's own timer; what is wrong with its timing, or null.</summary>
-        internal string StartTimer(SimulationSettings settings, double now)
+        internal string StartTimer()
         {
+            var settings = Simulation.Settings;
             if (settings.schedule != org.collektive.frame.Schedule.Asynchronous) return null;
             var used = ownTiming ? timing : settings.timing;
             var problem = used.FindProblem(settings.deltaTime);
-            if (problem == null) timer = new RoundTimer(used, new RandomStream(settings.seed, joinedId, RandomPurpose.Schedule), now);
+            if (problem == null) timer = new RoundTimer(used, new RandomStream(settings.seed, Id, RandomPurpose.Schedule), Simulation.Time);
             return problem;
         }
 
         /// <summary>Whether the node runs in the tick at <paramref name="now"/>; asked once per tick.</summary>
         internal bool TakeDue(double now) => asleepUntil <= now && (timer == null || timer.TakeDue(now));
 
-        internal void Joined(int newId, ulong seed)
+        internal void Joined(Simulation simulation, int newId)
         {
-            joinedId = newId;
-            random = new RandomStream(seed, newId, RandomPurpose.Node);
+            Simulation = simulation;
+            Id = newId;
+            random = new RandomStream(simulation.Settings.seed, newId, RandomPurpose.Node);
             LastError = "";
             ForgetAnswer();
             timer = null;
@@ -187,7 +191,8 @@ namespace Collektive.Unity
 
         internal void Left()
         {
-            joinedId = -1;
+            Simulation = null;
+            Id = -1;
             random = null;
             ForgetAnswer();
         }
@@ -212,7 +217,7 @@ namespace Collektive.Unity
             // Not in Awake, which is not called again when scripts are compiled during play.
             Body = transform;
             EnabledNodes.Add(this);
-            if (SimulationManager.Current != null) SimulationManager.Current.Join(this);
+            if (SimulationManager.Current != null) SimulationManager.Current.Simulation.Join(this);
         }
 
         private void Start()
@@ -230,7 +235,7 @@ namespace Collektive.Unity
         private void OnDisable()
         {
             EnabledNodes.Remove(this);
-            if (SimulationManager.Current != null) SimulationManager.Current.Leave(this);
+            Simulation?.Leave(this);
         }
     }
 

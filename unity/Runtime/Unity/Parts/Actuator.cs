@@ -7,10 +7,6 @@ namespace Collektive.Unity
     /// <summary>Base of all actuators; user actuators derive from <see cref="Actuator{TData}"/>.</summary>
     public abstract class Actuator : NodePart
     {
-        internal abstract Type DataType { get; }
-
-        internal abstract void Act(ActuatorBuffer buffer, int index);
-
         /// <summary>A vector of the program's answer, for physics, which does not recover from one that is not finite.</summary>
         internal static Vector3 Finite(Vector3 answer)
         {
@@ -19,9 +15,7 @@ namespace Collektive.Unity
                 "the program answered (" + answer.x + ", " + answer.y + ", " + answer.z + "), which is not finite: correct the program");
         }
 
-        internal sealed override void Attach(Node node) => node.Actuators.Add(this);
-
-        internal sealed override void Detach(Node node) => node.Actuators.Remove(this);
+        internal sealed override ref PartList ListOf(Node node) => ref node.Actuators;
     }
 
     /// <summary>Does in the scene what a node's program answered.</summary>
@@ -30,11 +24,10 @@ namespace Collektive.Unity
     /// </typeparam>
     public abstract class Actuator<TData> : Actuator
     {
-        internal sealed override Type DataType => typeof(TData);
-
-        internal sealed override void Act(ActuatorBuffer buffer, int index)
+        internal sealed override void Run(Simulation simulation, int index)
         {
-            Act(((ActuatorBuffer<TData>)buffer)[index]);
+            if (simulation.Answered is ActuatorBuffer<TData> buffer) Act(buffer[index]);
+            else simulation.FailForData(this, "actuator", typeof(TData), simulation.Answered.DataType);
         }
 
         /// <summary>

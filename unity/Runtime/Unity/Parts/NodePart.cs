@@ -15,6 +15,9 @@ namespace Collektive.Unity
         /// <summary>The node that this component belongs to; null until it is enabled.</summary>
         public Node Node { get; private set; }
 
+        /// <summary>Whether the part is in the node's list.</summary>
+        internal bool IsAttached { get; private set; }
+
         /// <summary>Joins the node.</summary>
         protected virtual void OnEnable()
         {
@@ -26,13 +29,17 @@ namespace Collektive.Unity
                 enabled = false;
                 return;
             }
-            Attach(Node);
+            ListOf(Node).Add(this);
+            IsAttached = true;
         }
 
         /// <summary>Leaves the node.</summary>
         protected virtual void OnDisable()
         {
-            if (!ReferenceEquals(Node, null)) Detach(Node);
+            if (ReferenceEquals(Node, null)) return;
+            ListOf(Node).Remove(this);
+            IsAttached = false;
+            Detached();
         }
 
         internal void Succeeded() => failuresInRow = 0;
@@ -47,8 +54,17 @@ namespace Collektive.Unity
             enabled = false;
         }
 
-        internal abstract void Attach(Node node);
+        /// <summary>The node's list that this part is in while it is enabled.</summary>
+        internal abstract ref PartList ListOf(Node node);
 
-        internal abstract void Detach(Node node);
+        /// <summary>Does the part's work in a tick.</summary>
+        /// <param name="simulation">The simulation that its node is in.</param>
+        /// <param name="index">The place of the node's data among those of the tick.</param>
+        internal abstract void Run(Simulation simulation, int index);
+
+        /// <summary>Called when the part has left the node's list.</summary>
+        internal virtual void Detached()
+        {
+        }
     }
 }

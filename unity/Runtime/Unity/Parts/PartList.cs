@@ -6,23 +6,22 @@ namespace Collektive.Unity
     /// A node's parts of one kind, in the order in which they were enabled. A field of the node rather than an object of its own: in a large
     /// scene a tick spends more on fetching objects from memory than on what it does with them.
     /// </summary>
-    internal struct PartList<T>
-        where T : NodePart
+    internal struct PartList
     {
-        private T[] parts;
+        private NodePart[] parts;
 
         internal int Count { get; private set; }
 
-        internal T this[int place] => parts[place];
+        internal NodePart this[int place] => parts[place];
 
-        internal void Add(T part)
+        internal void Add(NodePart part)
         {
             if (parts == null || Count == parts.Length) Array.Resize(ref parts, Math.Max(2, 2 * Count));
             parts[Count++] = part;
         }
 
         /// <summary>Those behind it move up. Nothing happens when it is not there.</summary>
-        internal void Remove(T part)
+        internal void Remove(NodePart part)
         {
             var place = Count - 1;
             while (place >= 0 && !ReferenceEquals(parts[place], part)) place--;
@@ -32,7 +31,32 @@ namespace Collektive.Unity
             parts[Count] = null;
         }
 
+        /// <summary>Has the parts do their work in a tick; those that an earlier one disables, destroys or adds are left out.</summary>
+        /// <param name="node">Whose parts they are.</param>
+        /// <returns>Whether all did it without an exception.</returns>
+        internal bool Run(Simulation simulation, Node node, int index)
+        {
+            var i = 0;
+            var failed = false;
+            for (var left = Count; left > 0 && i < Count && simulation.IsOpen; left--)
+            {
+                var part = parts[i];
+                try
+                {
+                    part.Run(simulation, index);
+                    part.Succeeded();
+                }
+                catch (Exception error)
+                {
+                    simulation.Errors.AddPart(node, part, simulation.TickInProgress, error);
+                    failed = true;
+                }
+                if (Has(i, part)) i++;
+            }
+            return !failed;
+        }
+
         /// <summary>Whether a part is where it was before its call: it may have been disabled or destroyed, or have come back at the end.</summary>
-        internal bool Has(int place, T part) => place < Count && ReferenceEquals(parts[place], part);
+        private bool Has(int place, NodePart part) => place < Count && ReferenceEquals(parts[place], part);
     }
 }

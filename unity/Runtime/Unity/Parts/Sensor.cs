@@ -1,4 +1,3 @@
-using System;
 using Collektive.Bridge;
 
 namespace Collektive.Unity
@@ -6,13 +5,7 @@ namespace Collektive.Unity
     /// <summary>Base of all sensors; user sensors derive from <see cref="Sensor{TData}"/>.</summary>
     public abstract class Sensor : NodePart
     {
-        internal abstract Type DataType { get; }
-
-        internal abstract void Sense(SensorBuffer buffer, int index);
-
-        internal sealed override void Attach(Node node) => node.Sensors.Add(this);
-
-        internal sealed override void Detach(Node node) => node.Sensors.Remove(this);
+        internal sealed override ref PartList ListOf(Node node) => ref node.Sensors;
     }
 
     /// <summary>
@@ -23,11 +16,10 @@ namespace Collektive.Unity
     /// </typeparam>
     public abstract class Sensor<TData> : Sensor
     {
-        internal sealed override Type DataType => typeof(TData);
-
-        internal sealed override void Sense(SensorBuffer buffer, int index)
+        internal sealed override void Run(Simulation simulation, int index)
         {
-            Sense(ref ((SensorBuffer<TData>)buffer).Items[index]);
+            if (simulation.Sensed is SensorBuffer<TData> buffer) Sense(ref buffer.Items[index]);
+            else simulation.FailForData(this, "sensor", typeof(TData), simulation.Sensed.DataType);
         }
 
         /// <summary>

@@ -1,18 +1,44 @@
+using System;
 using System.Collections.Generic;
+using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Counts errors by where they come from; it keeps the last message of each place.</summary>
+    /// <summary>Logs and counts the errors of a simulation, by where they come from; it keeps the last message of each place.</summary>
     internal sealed class ErrorTally
     {
         private readonly Dictionary<(string, int), NodeErrors> places = new Dictionary<(string, int), NodeErrors>();
         private readonly List<NodeErrors> all = new List<NodeErrors>();
+        private readonly RepeatedErrors rounds = new RepeatedErrors();
 
         internal IReadOnlyList<NodeErrors> All => all;
 
         internal long Count { get; private set; }
 
-        internal void Add(string source, int node, ulong tick, string message)
+        /// <summary>A round failed; <paramref name="node"/> is null when its node has left.</summary>
+        internal void AddRound(Node node, int id, string program, ulong tick, string message)
+        {
+            if (node != null) node.LastError = message;
+            Add(program, id, tick, message);
+            rounds.Report(id, program, tick, message, node);
+        }
+
+        /// <summary>A sensor, actuator or rule threw an exception.</summary>
+        internal void AddPart(Node node, NodePart part, ulong tick, Exception error)
+        {
+            var source = part.GetType().Name;
+            node.LastError = error.Message;
+            Add(source, node.Id, tick, error.Message);
+            Debug.LogException(
+                new InvalidOperationException(source + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tick + ": " + error.Message, error),
+                part);
+            part.Failed();
+        }
+
+        /// <summary>Logs how often errors of rounds have come that were not logged each time.</summary>
+        internal void TellCounts() => rounds.TellCounts();
+
+        private void Add(string source, int node, ulong tick, string message)
         {
             Count++;
             if (!places.TryGetValue((source, node), out var errors))
@@ -22,13 +48,6 @@ namespace Collektive.Unity
                 all.Add(errors);
             }
             errors.Add(tick, message);
-        }
-
-        internal void Clear()
-        {
-            places.Clear();
-            all.Clear();
-            Count = 0;
         }
     }
 

@@ -1,0 +1,174 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using NUnit.Framework;
+using probe;
+using UnityEngine;
+using UnityEngine.Headless;
+using Core = Collektive.Unity.Simulation;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>A simulation by itself: no manager, no play mode, no frames.</summary>
+    [TestFixture]
+    public sealed class SimulationTests
+    {
+        private readonly List<string> log = new List<string>();
+        private static string callAt;
+        private static Action call;
+        private Core simulation;
+
+        /// <summary>What the parts of nodes did, in order.</summary>
+        private static List<string> Steps { get; } = new List<string>();
+
+        [SetUp]
+        public void Make()
+        {
+            Loop.Reset();
+            Steps.Clear();
+            callAt = null;
+            log.Clear();
+            Application.logMessageReceived += Keep;
+            Physics.simulationMode = SimulationMode.Script;
+            Installation.HostJar = TestJvm.HostJar;
+            Installation.JavaHome = TestJvm.Home;
+            var settings = new SimulationSettings
+            {
+                schema = "probe.ProbeSchema",
+                jars = { TestJvm.Variable("COLLEKTIVE_PROBE_JAR") },
+                program = "sum",
+                jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>(),
+            };
+            settings.jvm.settings = TestJvm.Settings;
+            simulation = new Core(settings, new SceneGlobals(), null);
+        }
+
+        [TearDown]
+        public void End()
+        {
+            simulation.End();
+            Application.logMessageReceived -= Keep;
+            Loop.Reset();
+        }
+
+        [Test]
+        public void Nodes_that_join_run_rounds_and_hear_each_other()
+        {
+            var a = Join(1);
+            var b = Join(10);
+            simulation.ScriptLinks.Add(0, 1, false);
+            Assert.That(simulation.TryOpen(), Is.True);
+            Assert.That(simulation.TryTick() && simulation.TryTick(), Is.True);
+            Assert.That((Value(a), Value(b)), Is.EqualTo((10f, 1f)));
+            Assert.That((simulation.Tick, simulation.Time), Is.EqualTo((2UL, 2 * (double)simulation.Settings.deltaTime)));
+            Assert.That((a.Simulation, a.Id, b.Id), Is.EqualTo((simulation, 0, 1)));
+        }
+
+        [Test]
+        public void A_tick_asks_all_rules_then_all_sensors_then_all_actuators_and_then_advances_physics()
+        {
+            var falling = Join(1).gameObject.AddComponent<Rigidbody>();
+            Join(2);
+            simulation.TryOpen();
+            callAt = "actuator 1";
+            call = () => Assert.That(falling.position.y, Is.EqualTo(0));
+            simulation.TryTick();
+            Assert.That(Steps, Is.EqualTo(new[] { "rule 0", "rule 1", "sensor 0", "sensor 1", "actuator 0", "actuator 1" }));
+            Assert.That(falling.position.y, Is.LessThan(0));
+        }
+
+        [TestCase("rule")]
+        [TestCase("sensor")]
+        [TestCase("actuator")]
+        public void A_part_that_ends_the_simulation_leaves_out_the_rest_of_the_tick(string kind)
+        {
+            var node = Join(1);
+            Join(2);
+            simulation.TryOpen();
+            simulation.TryTick();
+            Steps.Clear();
+            callAt = kind + " 0";
+            call = () => simulation.Fail("enough");
+            Assert.That(simulation.TryTick(), Is.False);
+            Assert.That(Steps[Steps.Count - 1], Is.EqualTo(callAt));
+            Assert.That((simulation.Failure, simulation.IsOpen, simulation.Nodes.Count, node.Id), Is.EqualTo(("enough", false, 0, -1)));
+            Assert.That(log, Is.EqualTo(new[] { "Simulation stopped: enough" }));
+        }
+
+        [Test]
+        public void Once_ended_it_has_no_nodes_links_or_time_and_keeps_its_digest()
+        {
+            Join(1);
+            Join(2);
+            simulation.ScriptLinks.Add(0, 1, false);
+            simulation.TryOpen();
+            simulation.TryTick();
+            var digest = simulation.Digest;
+            simulation.End();
+            simulation.End();
+            Assert.That((simulation.Nodes.Count, simulation.PresentLinks.Count, simulation.Tick, simulation.Time), Is.EqualTo((0, 0, 0UL, 0.0)));
+            Assert.That(digest, Is.Not.EqualTo(0));
+            Assert.That(simulation.Digest, Is.EqualTo(digest));
+            Assert.That(log, Is.Empty);
+        }
+
+        [Test]
+        public void Settings_that_are_wrong_are_said_when_it_opens()
+        {
+            simulation.Settings.physicsStep = 1;
+            Assert.That(simulation.TryOpen(), Is.False);
+            Assert.That(simulation.Failure, Is.EqualTo("physics step is 1 s: it must be in (0, 0.02]"));
+            Assert.That(log, Is.EqualTo(new[] { "Simulation stopped: " + simulation.Failure }));
+        }
+
+        private Node Join(float value)
+        {
+            var holder = new GameObject("Node");
+            holder.transform.position = new Vector3(10 * value, 0, 0);
+            var node = holder.AddComponent<Node>();
+            holder.AddComponent<RecordedRule>();
+            holder.AddComponent<RecordedSensor>().Value = value;
+            holder.AddComponent<RecordedActuator>();
+            simulation.Join(node);
+            return node;
+        }
+
+        private static float Value(Node node)
+        {
+            Assert.That(node.TryGetAnswer(out ActuatorDataValue data), Is.True);
+            return data.Value;
+        }
+
+        private void Keep(string message, string stack, LogType type)
+        {
+            if (type != LogType.Log) log.Add(message);
+        }
+
+        private static void Note(string step)
+        {
+            Steps.Add(step);
+            if (step == callAt) call();
+        }
+
+        private sealed class RecordedRule : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(SimulationManager manager) => Note("rule " + Node.Id);
+        }
+
+        private sealed class RecordedSensor : Sensor<SensorDataValue>
+        {
+            internal float Value { get; set; }
+
+            protected override void Sense(ref SensorDataValue data)
+            {
+                data.Value = Value;
+                Note("sensor " + Node.Id);
+            }
+        }
+
+        private sealed class RecordedActuator : Actuator<ActuatorDataValue>
+        {
+            protected override void Act(ActuatorDataValue data) => Note("actuator " + Node.Id);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+using System;
+using Collektive.Bridge;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Collektive.Unity
+{
+    /// <summary>The JVM's log in Unity's console.</summary>
+    internal sealed class JvmLog
+    {
+        private readonly HostLog log = new HostLog();
+        private readonly Object context;
+
+        /// <param name="context">What a click on a line selects.</param>
+        internal JvmLog(Object context)
+        {
+            this.context = context;
+        }
+
+        /// <summary>Shows the lines that came since the last call, and gives them to <paramref name="shown"/>, which may be null.</summary>
+        internal void Show(Action<HostLogLevel, string> shown)
+        {
+            while (log.TryRead(out var level, out var line)) Show(level, line, shown);
+        }
+
+        /// <summary>The same; then how many lines were left out.</summary>
+        internal void ShowRest(Action<HostLogLevel, string> shown)
+        {
+            Show(shown);
+            if (log.TryCount(out var level, out var line)) Show(level, line, shown);
+        }
+
+        private void Show(HostLogLevel level, string line, Action<HostLogLevel, string> shown)
+        {
+            if (level == HostLogLevel.Error) Debug.LogError(line, context);
+            else if (level == HostLogLevel.Warning) Debug.LogWarning(line, context);
+            else Debug.Log(line, context);
+            shown?.Invoke(level, line);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>How a simulation gets its session.</summary>
+    internal static class Opening
+    {
+        /// <summary>Checks the settings, starts the JVM if none runs, and opens a session on it.</summary>
+        /// <param name="context">What a click on a message selects.</param>
+        /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
+        internal static Session Open(SimulationSettings settings, Object context)
+        {
+            var problem = settings.FindProblem();
+            if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
+            var schema = Schemas.Find(settings.schema);
+            StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
+            return Session.Open(settings.ToSession(), schema);
+        }
+
+        private static void StartJvm(JvmSettings settings, Object context)
+        {
+            try
+            {
+                var launch = Installation.ToLaunch(settings);
+                if (launch.Note.Length > 0) Debug.Log(launch.Note, context);
+                Jvm.Start(launch);
+            }
+            catch (BridgeException error) when (error.Error == BridgeError.JvmRunning)
+            {
+                Debug.LogWarning(error.Message + " The running JVM is used; the new settings take effect after a restart of the editor.", context);
+            }
+        }
+    }
+}

@@ -1,0 +1,134 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>The nodes of a simulation, and who came and left since the last tick.</summary>
+    internal sealed class Roster
+    {
+        /// <summary>Ids index arrays.</summary>
+        private const int MaxId = (1 << 24) - 1;
+
+        private readonly List<Node> nodes = new List<Node>();
+        private readonly List<Node> joining = new List<Node>();
+        private readonly GrowingArray<int> leaving = new GrowingArray<int>();
+        private bool[] isKnown = new bool[64];
+        private bool[] isGone = new bool[64];
+        private bool anyGone;
+        private int nextId;
+
+        /// <summary>Those that take part, ascending by id.</summary>
+        internal List<Node> Nodes => nodes;
+
+        /// <summary>Those that came since the last tick.</summary>
+        internal IReadOnlyList<Node> Joining => joining;
+
+        /// <summary>All ids are below it.</summary>
+        internal int IdCapacity => isKnown.Length;
+
+        /// <summary>By id: whether the JVM knows the node.</summary>
+        internal bool[] IsKnown => isKnown;
+
+        /// <summary>The node of that id, or null.</summary>
+        internal Node Find(int id)
+        {
+            var index = IndexOf(id);
+            return index < 0 ? null : nodes[index];
+        }
+
+        /// <summary>Adds a node under the id that it wants, or the next free one.</summary>
+        /// <returns>What is wrong with that id; null when the node was added.</returns>
+        internal string Join(Node node, Simulation simulation)
+        {
+            var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
+            if (id > MaxId) return "node '" + node.name + "' wants id " + id + ": the largest id is " + MaxId;
+            var place = ~IndexOf(id);
+            if (place < 0) return "node '" + node.name + "' wants id " + id + ", which node '" + nodes[~place].name + "' has: give each node its own id, or -1";
+            nextId = Math.Max(nextId, id + 1);
+            if (id >= isKnown.Length)
+            {
+                Array.Resize(ref isKnown, Math.Max(id + 1, isKnown.Length * 2));
+                Array.Resize(ref isGone, isKnown.Length);
+            }
+            if (isGone[id]) DropLinksOfGone(simulation.Links);
+            node.Joined(simulation, id);
+            nodes.Insert(place, node);
+            joining.Add(node);
+            return null;
+        }
+
+        /// <summary>Removes a node; its links stay until <see cref="DropLinksOfGone"/>.</summary>
+        internal void Leave(Node node)
+        {
+            var id = node.Id;
+            nodes.RemoveAt(IndexOf(id));
+            if (isKnown[id]) leaving.Add(id);
+            else joining.Remove(node);
+            isKnown[id] = false;
+            isGone[id] = true;
+            anyGone = true;
+        }
+
+        /// <summary>Drops the links of nodes that left, all at once: each time costs a look at all links.</summary>
+        internal void DropLinksOfGone(LinkTable links)
+        {
+            if (!anyGone) return;
+            links.DropLinksOf(isGone);
+            Array.Clear(isGone, 0, isGone.Length);
+            anyGone = false;
+        }
+
+        /// <summary>Writes to the request who left and who came since the last call.</summary>
+        internal void Flush(StepRequest request)
+        {
+            for (var i = 0; i < leaving.Count; i++) request.RemoveNode(leaving.Items[i]);
+            leaving.Clear();
+            if (joining.Count == 0) return;
+            WarnOfOnePlace();
+            for (var i = 0; i < joining.Count; i++)
+            {
+                request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
+                isKnown[joining[i].Id] = true;
+            }
+            joining.Clear();
+        }
+
+        /// <summary>All nodes at one point is a scene that was not finished, and every radius makes all of them neighbours.</summary>
+        private void WarnOfOnePlace()
+        {
+            if (nodes.Count < 2) return;
+            var place = nodes[0].Body.position;
+            for (var i = 1; i < nodes.Count; i++)
+            {
+                if (nodes[i].Body.position != place) return;
+            }
+            Debug.LogWarning("all " + nodes.Count + " nodes are at one point, " + place + ": place them apart", nodes[0]);
+        }
+
+        private static KeyValuePair<string, string>[] ParametersOf(Node node)
+        {
+            var parameters = new KeyValuePair<string, string>[node.Parameters.Count];
+            for (var i = 0; i < parameters.Length; i++)
+            {
+                parameters[i] = new KeyValuePair<string, string>(node.Parameters[i].name, node.Parameters[i].value);
+            }
+            return parameters;
+        }
+
+        private int IndexOf(int id)
+        {
+            var low = 0;
+            var high = nodes.Count - 1;
+            while (low <= high)
+            {
+                var middle = (low + high) / 2;
+                if (nodes[middle].Id == id) return middle;
+                if (nodes[middle].Id < id) low = middle + 1;
+                else high = middle - 1;
+            }
+            return ~low;
+        }
+    }
+}

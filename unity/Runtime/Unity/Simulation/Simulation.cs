@@ -1,0 +1,347 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using Collektive.Bridge;
+using UnityEngine;
+using Debug = UnityEngine.Debug;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// One simulation from its first node to its end: nodes, links, ticks and errors. It needs no scene: who has it opens it, calls
+    /// <see cref="TryTick"/>, and ends it. All members are for the main thread.
+    /// </summary>
+    internal sealed class Simulation
+    {
+        /// <summary>Share of a tick by which times may differ and still be the same: sums of ticks are not exact.</summary>
+        private const double Tolerance = 1e-3;
+
+        /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
+        private const int MaxLinks = 1 << 24;
+
+        private readonly Roster roster = new Roster();
+        private readonly SceneGlobals globals;
+        // Users' code may make nodes join and leave in a tick; the tick is for those that were there when it began, and stay.
+        private readonly List<Node> present = new List<Node>();
+        private readonly GrowingArray<DueNode> due = new GrowingArray<DueNode>();
+        private Session session;
+        private bool isTicking;
+
+        /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
+        /// <param name="globals">What is written there goes out with the next tick.</param>
+        /// <param name="manager">For neighbourhood rules, and to select by a click on a message; null without a scene.</param>
+        internal Simulation(SimulationSettings settings, SceneGlobals globals, SimulationManager manager)
+        {
+            Settings = settings;
+            Manager = manager;
+            this.globals = globals;
+            ScriptLinks = new ScriptLinks(this);
+            Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
+        }
+
+        private struct DueNode
+        {
+            internal Node Node;
+            internal int Id;
+        }
+
+        internal SimulationSettings Settings { get; }
+
+        internal SimulationManager Manager { get; }
+
+        /// <summary>Random numbers of the scene as a whole.</summary>
+        internal RandomStream Random { get; }
+
+        /// <summary>Whether there can be ticks.</summary>
+        internal bool IsOpen { get; private set; }
+
+        /// <summary>Why it ended; empty while it did not, or without a fault.</summary>
+        internal string Failure { get; private set; } = "";
+
+        internal IReadOnlyList<ProgramInfo> Programs => IsOpen ? session.Programs : Array.Empty<ProgramInfo>();
+
+        /// <summary>Ticks done.</summary>
+        internal ulong Tick => IsOpen ? session.Tick : 0;
+
+        /// <summary>The tick that is being done, or was last.</summary>
+        internal ulong TickInProgress { get; private set; }
+
+        /// <summary>Simulated seconds.</summary>
+        internal double Time => IsOpen ? session.Time : 0;
+
+        /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
+        internal ulong Digest { get; private set; }
+
+        internal TickTimes Times { get; private set; }
+
+        internal (int Host, int Rounds) HostMicros { get; private set; }
+
+        internal NetworkCounts Network { get; private set; }
+
+        /// <summary>Null before <see cref="TryOpen"/>.</summary>
+        internal JvmLog Log { get; private set; }
+
+        internal ErrorTally Errors { get; } = new ErrorTally();
+
+        /// <summary>Nodes that take part, ascending by id.</summary>
+        internal List<Node> Nodes => roster.Nodes;
+
+        /// <summary>All ids are below it.</summary>
+        internal int IdCapacity => roster.IdCapacity;
+
+        internal LinkTable Links { get; } = new LinkTable();
+
+        internal ScriptLinks ScriptLinks { get; }
+
+        /// <summary>The links between nodes that take part, with their values; otherwise they are brought up to date at the next tick, all at once.</summary>
+        internal LinkTable PresentLinks
+        {
+            get
+            {
+                roster.DropLinksOfGone(Links);
+                Links.Settle();
+                return Links;
+            }
+        }
+
+        /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
+        internal NodeGrid Grid { get; } = new NodeGrid();
+
+        /// <summary>Where sensors write; in a tick.</summary>
+        internal SensorBuffer Sensed => session.Request.Sensors;
+
+        /// <summary>What actuators read; in a tick.</summary>
+        internal ActuatorBuffer Answered => session.Answer.Actuators;
+
+        /// <summary>Starts the JVM if need be, and opens a session on it.</summary>
+        /// <returns>False when the simulation has failed instead.</returns>
+        internal bool TryOpen()
+        {
+            try
+            {
+                Log = new JvmLog(Manager);
+                session = Opening.Open(Settings, Manager);
+                IsOpen = true;
+            }
+            catch (BridgeException error)
+            {
+                Fail(error.Message);
+            }
+            catch (Exception error)
+            {
+                // The next frame would meet it again, and so on without a tick.
+                Debug.LogException(error, Manager);
+                Fail("it could not be started: " + error.Message);
+            }
+            return IsOpen;
+        }
+
+        /// <summary>Does one tick.</summary>
+        /// <returns>Whether it was a whole one; otherwise the simulation has ended.</returns>
+        internal bool TryTick()
+        {
+            isTicking = true;
+            try
+            {
+                DoTick();
+            }
+            catch (BridgeException error)
+            {
+                Fail(error.Message);
+            }
+            catch (Exception error)
+            {
+                Debug.LogException(error, Manager);
+                Fail("tick " + TickInProgress + " failed: " + error.Message);
+            }
+            isTicking = false;
+            if (!IsOpen) CloseSession();
+            return IsOpen;
+        }
+
+        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="culprit"/>, or the manager if there is none.</summary>
+        internal void Fail(string message, UnityEngine.Object culprit = null)
+        {
+            if (Failure.Length > 0) return;
+            Failure = message;
+            Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : Manager);
+            if (Manager != null) Manager.enabled = false;
+            else End();
+        }
+
+        /// <summary>Fails since a sensor or actuator is made for another schema than the session's.</summary>
+        internal void FailForData(NodePart part, string kind, Type has, Type wants)
+        {
+            Fail(kind + " " + part.GetType().Name + " of node " + part.Node.Id + " ('" + part.Node.name + "') is made for " + has.FullName
+                + ", the session's schema has " + wants.FullName, part);
+        }
+
+        /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
+        internal void End()
+        {
+            for (var i = Nodes.Count - 1; i >= 0; i--) Leave(Nodes[i]);
+            IsOpen = false;
+            if (!isTicking) CloseSession();
+            Errors.TellCounts();
+        }
+
+        internal void Join(Node node)
+        {
+            var problem = roster.Join(node, this);
+            if (problem != null) Fail(problem, node);
+        }
+
+        internal void Leave(Node node)
+        {
+            roster.Leave(node);
+            for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
+            node.Left();
+        }
+
+        internal Node Find(int id) => roster.Find(id);
+
+        private void CloseSession()
+        {
+            try
+            {
+                session?.Dispose();
+            }
+            catch (BridgeException error)
+            {
+                Debug.LogError("the session did not close: " + error.Message, Manager);
+            }
+            session = null;
+        }
+
+        /// <summary>A tick in its order. Users' code may end the simulation in any phase; the phases behind it are left out.</summary>
+        private void DoTick()
+        {
+            var start = Stopwatch.GetTimestamp();
+            TickInProgress = session.Tick + 1;
+            using (TickMarkers.Sense.Auto())
+            {
+                Physics.SyncTransforms();
+                FlushChanges();
+                UpdateRules();
+                Sense();
+                // Last, since users' code may add and remove links until here.
+                Links.Flush(session.Request, roster.IsKnown);
+            }
+            if (!IsOpen) return;
+            var sensed = Stopwatch.GetTimestamp();
+            using (TickMarkers.Step.Auto()) session.Step(Settings.deltaTime, Settings.stepLimitMs);
+            var stepped = Stopwatch.GetTimestamp();
+            using (TickMarkers.Act.Auto())
+            {
+                ReadAnswer();
+                Act();
+            }
+            if (!IsOpen) return;
+            var acted = Stopwatch.GetTimestamp();
+            using (TickMarkers.Physics.Auto()) AdvancePhysics();
+            var end = Stopwatch.GetTimestamp();
+            Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+        }
+
+        /// <summary>Writes to the request what changed since the last tick: global data, and who left and came.</summary>
+        private void FlushChanges()
+        {
+            roster.DropLinksOfGone(Links);
+            var problem = globals.Flush(session.Request);
+            if (problem != null) Fail(problem);
+            for (var i = 0; i < roster.Joining.Count && IsOpen; i++)
+            {
+                var node = roster.Joining[i];
+                problem = node.StartTimer();
+                if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
+            }
+            roster.Flush(session.Request);
+        }
+
+        private void UpdateRules()
+        {
+            present.Clear();
+            present.AddRange(Nodes);
+            Grid.Build(present, Grid.MeanRadius);
+            for (var i = 0; i < present.Count && IsOpen; i++)
+            {
+                var node = present[i];
+                if (node.Id >= 0) node.Rules.Run(this, node, -1);
+                if (Links.Count <= MaxLinks) continue;
+                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name
+                    + "': use smaller neighbourhoods, or place the nodes apart", node);
+            }
+        }
+
+        private void Sense()
+        {
+            due.Clear();
+            var request = session.Request;
+            request.ClearDue();
+            request.Sensors.EnsureCapacity(present.Count);
+            var now = session.Time + Tolerance * Settings.deltaTime;
+            for (var i = 0; i < present.Count && IsOpen; i++)
+            {
+                var node = present[i];
+                if (node.Id < 0) continue;
+                node.KeepAnswer(session.Tick);
+                if (!node.TakeDue(now)) continue;
+                var index = due.Count;
+                request.Sensors.Clear(index);
+                if (!node.Sensors.Run(this, node, index) || node.Id < 0) continue;
+                var field = request.Sensors.FindNotFinite(index);
+                if (field != null)
+                {
+                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
+                        + ": correct the sensor that writes it", node);
+                    return;
+                }
+                request.AddDue(node.Id);
+                due.Add(new DueNode { Node = node, Id = node.Id });
+            }
+        }
+
+        private void ReadAnswer()
+        {
+            var answer = session.Answer;
+            Digest = answer.Digest;
+            Network = answer.Network;
+            HostMicros = (answer.HostMicros, answer.RoundMicros);
+            for (var i = 0; i < answer.ErrorCount; i++)
+            {
+                var (id, program, message) = answer.Error(i);
+                Errors.AddRound(Find(id), id, program, answer.Tick, message);
+            }
+        }
+
+        private void Act()
+        {
+            // Answers and due nodes are both ascending; due nodes without an answer failed.
+            var answer = session.Answer;
+            var count = answer.NodeCount;
+            var allAnswered = count == due.Count;
+            var place = 0;
+            for (var i = 0; i < count && IsOpen; i++, place++)
+            {
+                if (!allAnswered)
+                {
+                    while (due.Items[place].Id != answer.Node(i)) place++;
+                }
+                var (node, id) = (due.Items[place].Node, due.Items[place].Id);
+                // Not so when an actuator made the node leave, even if it came back.
+                if (node.Id != id || !roster.IsKnown[id]) continue;
+                node.Answered(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
+                node.Actuators.Run(this, node, i);
+            }
+        }
+
+        private void AdvancePhysics()
+        {
+            var steps = (int)Math.Ceiling(Settings.deltaTime / Settings.physicsStep - 1e-6);
+            var step = Settings.deltaTime / steps;
+            for (var i = 0; i < steps && IsOpen; i++) Physics.Simulate(step);
+        }
+
+        private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;
+    }
+}
