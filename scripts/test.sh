@@ -167,7 +167,7 @@ build_csharp_tests() {
   assembly UnityEditor.dll "$ROOT/unity/Headless~/UnityEditor" -- "-r:$CSHARP/UnityEngine.dll"
   assembly Collektive.Unity.Editor.dll "$ROOT/unity/Editor" -- "${PACKAGE_REFERENCES[@]}" "-r:$CSHARP/UnityEditor.dll"
   assembly Collektive.Headless.Tests.dll "$ROOT/unity/Headless~/Tests" "$BUILD/csharp-tests" -- "${GENERATED_CODE_SYMBOLS[@]}" \
-    "${PACKAGE_REFERENCES[@]}" "${editor[@]}" "-r:$CSHARP/Collektive.Player.exe" "-r:$NUNIT"
+    "${PACKAGE_REFERENCES[@]}" "${editor[@]}" "-r:$CSHARP/Collektive.Player.exe" "-r:$NEWTONSOFT" "-r:$NUNIT"
   assembly UnityEngine.TestRunner.dll "$ROOT/unity/Headless~/TestFramework" -- "-r:$CSHARP/UnityEngine.dll" "-r:$NUNIT"
   assembly Collektive.TestRunner.exe "$ROOT/unity/Headless~/TestRunner" -- "-r:$CSHARP/UnityEngine.dll" "${framework[@]}" -target:exe
   assembly Collektive.Unity.Tests.dll "$ROOT/unity/Tests/Runtime" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"

@@ -28,7 +28,7 @@ namespace Collektive.Headless.Bench
             request = new StepRequest(schema.CreateSensors(), null);
             answer = new StepAnswer(schema.CreateActuators());
             var open = new SessionSettings { Seed = 1, Threads = threads, Jars = settings.Jars, Program = "gradient-ascent" };
-            Session.WriteOpenRequest(builder, open, schema);
+            open.Write(builder, schema);
             peer.Call(PeerRequest.Open, id, builder);
         }
 

@@ -1,7 +1,10 @@
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
+using System.Reflection;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
@@ -38,11 +41,11 @@ namespace Collektive.Headless
             }
         }
 
-        internal void RefuseUnknown(JObject part, string place, params string[] known)
+        internal void RefuseUnknown(JObject part, string place, IEnumerable<string> known)
         {
             foreach (var property in part.Properties())
             {
-                if (Array.IndexOf(known, property.Name) >= 0) continue;
+                if (known.Contains(property.Name)) continue;
                 throw Error(property, "unknown key '" + place + property.Name + "'; known here: " + string.Join(", ", known));
             }
         }
@@ -57,6 +60,26 @@ namespace Collektive.Headless
         {
             var token = part[key];
             return token == null ? otherwise : (T)Convert(token, typeof(T), key);
+        }
+
+        /// <summary>Gives fields of an object the values that a part of the file has for them; an object in a field is filled likewise, strictly.</summary>
+        internal void Fill(object target, IEnumerable<FieldInfo> fields, JObject part, string place)
+        {
+            foreach (var field in fields)
+            {
+                var token = part[field.Name];
+                var key = place + field.Name;
+                if (token == null) continue;
+                if (!field.FieldType.IsClass || typeof(IEnumerable).IsAssignableFrom(field.FieldType))
+                {
+                    field.SetValue(target, Convert(token, field.FieldType, key));
+                    continue;
+                }
+                var inner = (JObject)Convert(token, typeof(JObject), key);
+                var known = field.FieldType.GetFields(BindingFlags.Public | BindingFlags.Instance);
+                RefuseUnknown(inner, key + ".", known.Select(each => each.Name));
+                Fill(field.GetValue(target), known, inner, key + ".");
+            }
         }
 
         /// <summary>A value as a .NET type; numbers must fit it exactly where it is a whole one.</summary>

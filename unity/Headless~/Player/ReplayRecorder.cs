@@ -21,9 +21,9 @@ namespace Collektive.Headless
             this.manager = manager;
             var metadata = new ReplayMetadata
             {
-                Title = scenario.Program,
-                Seed = scenario.Seed,
-                DeltaTime = scenario.DeltaTime,
+                Title = scenario.Settings.program,
+                Seed = scenario.Settings.seed,
+                DeltaTime = scenario.Settings.deltaTime,
                 ScalarName = scene.ShadeName ?? "id",
             };
             Describe(metadata);

@@ -1,9 +1,9 @@
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
-using org.collektive.frame;
 
 namespace Collektive.Headless
 {
@@ -17,14 +17,25 @@ namespace Collektive.Headless
         /// <summary>Hours of the shortest ticks; the times of all of them are kept in memory.</summary>
         private const double MaxTicks = 1e8;
 
+        private static readonly string[] OwnKeys =
+        {
+            "version", "scene", "scripts", "schema", "programs", "fields", "seconds", "jvm", "outputs",
+        };
+
+        /// <summary>The settings of the inspector that are keys of a scenario too: all but those that it says in words of its own.</summary>
+        private static readonly FieldInfo[] Shared = typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Where(field =>
+            !new[]
+            {
+                nameof(SimulationSettings.schema), nameof(SimulationSettings.jars), nameof(SimulationSettings.jvm), nameof(SimulationSettings.stopAfter),
+                nameof(SimulationSettings.record),
+            }.Contains(field.Name)).ToArray();
+
         private readonly JObject root;
 
         private Scenario(JsonFile file, string path, JObject root, string folder)
         {
             this.root = root;
-            file.RefuseUnknown(
-                root, "", "version", "scene", "scripts", "schema", "programs", "program", "fields", "seed", "seconds", "deltaTime",
-                "physicsStep", "schedule", "timing", "network", "threads", "jvm", "outputs");
+            file.RefuseUnknown(root, "", OwnKeys.Concat(Shared.Select(field => field.Name)));
             var version = file.Required<int>(root, "version");
             if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
             File = file;
@@ -34,19 +45,13 @@ namespace Collektive.Headless
             Scripts = Existing(file, root, "scripts", folder, directory: true);
             Schema = Existing(file, root, "schema", folder, directory: false);
             Programs = Existing(file, root, "programs", folder, directory: null);
-            Program = file.Required<string>(root, "program");
             Fields = file.Optional(root, "fields", new JObject());
-            Seed = file.Optional(root, "seed", 1UL);
             Seconds = file.Required<double>(root, "seconds");
-            DeltaTime = file.Optional(root, "deltaTime", 0.05f);
-            PhysicsStep = file.Optional(root, "physicsStep", 0.02f);
-            Schedule = file.Optional(root, "schedule", Schedule.Lockstep);
-            Timing = ReadTiming(file, file.Optional(root, "timing", new JObject()));
-            Network = ReadNetwork(file, file.Optional(root, "network", new JObject()));
-            Threads = file.Optional(root, "threads", 1);
+            file.Required<string>(root, nameof(SimulationSettings.program));
+            file.Fill(Settings, Shared, root, "");
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder);
             var outputs = file.Optional(root, "outputs", new JObject());
-            file.RefuseUnknown(outputs, "outputs.", "metrics", "replay", "pictures", "record");
+            file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "replay", "pictures", "record" });
             Metrics = file.Optional(outputs, "metrics", true);
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
@@ -74,28 +79,15 @@ namespace Collektive.Headless
 
         internal string Programs { get; }
 
-        internal string Program { get; }
-
         internal JObject Fields { get; }
 
-        internal ulong Seed { get; private set; }
+        /// <summary>What the simulation is started with, as far as a scenario says it in the same words.</summary>
+        internal SimulationSettings Settings { get; } = new SimulationSettings();
 
         internal double Seconds { get; private set; }
 
         /// <summary>How many ticks these are.</summary>
         internal int Ticks { get; private set; }
-
-        internal float DeltaTime { get; }
-
-        internal float PhysicsStep { get; }
-
-        internal Schedule Schedule { get; }
-
-        internal RoundTiming Timing { get; }
-
-        internal NetworkModel Network { get; }
-
-        internal int Threads { get; }
 
         internal JvmSettings Jvm { get; }
 
@@ -127,9 +119,15 @@ namespace Collektive.Headless
         /// <summary>Takes what the command line says instead of the file.</summary>
         internal void Override(ulong? seed, double? seconds)
         {
-            Seed = seed ?? Seed;
+            Settings.seed = seed ?? Settings.seed;
             Seconds = seconds ?? Seconds;
             if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
+        }
+
+        /// <summary>Gives the manager's settings what the scenario says in the same words.</summary>
+        internal void CopyTo(SimulationSettings settings)
+        {
+            foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -137,37 +135,36 @@ namespace Collektive.Headless
         {
             var jvm = new JObject();
             foreach (var setting in JvmSetting.All) jvm.Add(setting.Key, JsonFile.Token(setting.Get(Jvm)));
-            return new JObject(
+            var json = new JObject(
                 new JProperty("version", Version),
                 new JProperty("scene", Scene),
                 new JProperty("scripts", root["scripts"]),
                 new JProperty("schema", root["schema"]),
                 new JProperty("programs", root["programs"]),
-                new JProperty("program", Program),
                 new JProperty("fields", fields),
-                new JProperty("seed", JsonFile.Token(Seed)),
                 new JProperty("seconds", Seconds),
-                new JProperty("deltaTime", DeltaTime),
-                new JProperty("physicsStep", PhysicsStep),
-                new JProperty("schedule", Schedule.ToString()),
-                new JProperty("timing", JObject.FromObject(Timing)),
-                new JProperty("network", JObject.FromObject(Network)),
-                new JProperty("threads", Threads),
                 new JProperty("jvm", jvm),
                 new JProperty("outputs", new JObject(
                     new JProperty("metrics", Metrics),
                     new JProperty("replay", Replay),
                     new JProperty("pictures", Pictures),
                     new JProperty("record", Record))));
+            foreach (var field in Shared)
+            {
+                var value = field.GetValue(Settings);
+                json.Add(field.Name, JsonFile.Token(value) ?? JObject.FromObject(value));
+            }
+            return json;
         }
 
         private void Count(System.Func<string, ScenarioException> error)
         {
             // A delta time that cannot be is refused with the other settings.
-            var ticks = DeltaTime > 0 ? System.Math.Round(Seconds / DeltaTime) : 1;
+            var deltaTime = Settings.deltaTime;
+            var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
             if (ticks > MaxTicks)
-                throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(DeltaTime) + " these are " + Text(ticks)
+                throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(deltaTime) + " these are " + Text(ticks)
                     + " ticks, and a run has at most 100 million");
             Ticks = (int)System.Math.Max(1, ticks);
         }
@@ -177,7 +174,7 @@ namespace Collektive.Headless
         private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder)
         {
             var settings = new JvmSettings();
-            file.RefuseUnknown(root, "jvm.", JvmSetting.All.Select(setting => setting.Key).ToArray());
+            file.RefuseUnknown(root, "jvm.", JvmSetting.All.Select(setting => setting.Key));
             foreach (var setting in JvmSetting.All)
             {
                 var token = root[setting.Key];
@@ -188,30 +185,6 @@ namespace Collektive.Headless
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
             return settings;
-        }
-
-        private static RoundTiming ReadTiming(JsonFile file, JObject part)
-        {
-            file.RefuseUnknown(part, "timing.", "period", "phase", "jitter");
-            var timing = new RoundTiming();
-            timing.period = file.Optional(part, "period", timing.period);
-            timing.phase = file.Optional(part, "phase", timing.phase);
-            timing.jitter = file.Optional(part, "jitter", timing.jitter);
-            return timing;
-        }
-
-        private static NetworkModel ReadNetwork(JsonFile file, JObject part)
-        {
-            file.RefuseUnknown(part, "network.", "loss", "lossPerMetre", "lossPerAttenuation", "delay", "jitter", "retention");
-            return new NetworkModel
-            {
-                loss = file.Optional(part, "loss", 0.0),
-                lossPerMetre = file.Optional(part, "lossPerMetre", 0.0),
-                lossPerAttenuation = file.Optional(part, "lossPerAttenuation", 0.0),
-                delay = file.Optional(part, "delay", 0.0),
-                jitter = file.Optional(part, "jitter", 0.0),
-                retention = file.Optional(part, "retention", 0.0),
-            };
         }
 
         private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)

@@ -51,7 +51,7 @@ namespace Collektive.Headless
             Directory.CreateDirectory(options.Out);
             Installation.HostJar = options.HostJar;
             Installation.JavaHome = options.JavaHome;
-            Loop.Start(unchecked((int)(scenario.Seed ^ scenario.Seed >> 32)));
+            Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             var manager = MakeManager();
             var scene = MakeScene(manager);
             try
@@ -69,15 +69,8 @@ namespace Collektive.Headless
             var manager = new GameObject("Simulation Manager").AddComponent<SimulationManager>();
             manager.enabled = false;
             var settings = manager.Settings;
+            scenario.CopyTo(settings);
             settings.jars.AddRange(options.Jars);
-            settings.program = scenario.Program;
-            settings.seed = scenario.Seed;
-            settings.deltaTime = scenario.DeltaTime;
-            settings.physicsStep = scenario.PhysicsStep;
-            settings.schedule = scenario.Schedule;
-            settings.timing = scenario.Timing;
-            settings.network = scenario.Network;
-            settings.threads = scenario.Threads;
             if (scenario.Record) settings.record = Path.Combine(options.Out, "run.clkrec");
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = scenario.Jvm;
@@ -136,7 +129,7 @@ namespace Collektive.Headless
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished; frame++)
                 {
                     var before = done;
-                    Loop.Frame(scenario.DeltaTime);
+                    Loop.Frame(scenario.Settings.deltaTime);
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
                     // A script has paused or disabled the manager.
                     if (done == before) continue;

@@ -113,7 +113,7 @@ namespace Collektive.Bridge
 
         private void Connect(SessionSettings settings, DataSchema schema)
         {
-            WriteOpenRequest(builder, settings, schema);
+            settings.Write(builder, schema);
             var offset = builder.DataBuffer.Position;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
             ulong opened;
@@ -122,29 +122,6 @@ namespace Collektive.Bridge
             handle = opened;
             Point(answer);
             Programs = ReadPrograms(Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer));
-        }
-
-        internal static void WriteOpenRequest(FlatBufferBuilder builder, SessionSettings settings, DataSchema schema)
-        {
-            builder.Clear();
-            var types = schema.Types;
-            var jars = new StringOffset[settings.Jars.Count];
-            for (var i = 0; i < jars.Length; i++) jars[i] = builder.CreateString(settings.Jars[i]);
-            var fingerprints = new Offset<Frame.TypeFingerprint>[types.Count];
-            for (var i = 0; i < fingerprints.Length; i++)
-            {
-                fingerprints[i] = Frame.TypeFingerprint.CreateTypeFingerprint(
-                    builder, builder.CreateString(types[i].Key), types[i].Value);
-            }
-            var network = settings.Network;
-            builder.Finish(Frame.OpenRequest.CreateOpenRequest(
-                builder, SessionSettings.Protocol, settings.Seed, settings.Threads, settings.Schedule,
-                Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema.Name),
-                Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
-                builder.CreateString(settings.Program ?? ""),
-                Frame.Network.CreateNetwork(
-                    builder, network.loss, network.lossPerMetre, network.lossPerAttenuation, network.delay, network.jitter, network.retention),
-                builder.CreateString(settings.Record ?? "")).Value);
         }
 
         private static ProgramInfo[] ReadPrograms(Frame.OpenResponse response)

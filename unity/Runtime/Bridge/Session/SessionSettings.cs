@@ -1,4 +1,6 @@
 using System.Collections.Generic;
+using Google.FlatBuffers;
+using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
@@ -6,7 +8,7 @@ namespace Collektive.Bridge
     public sealed class SessionSettings
     {
         /// <summary>Version of <c>frame.fbs</c> that both sides must share.</summary>
-        internal const uint Protocol = 1;
+        private const uint Protocol = 1;
 
         /// <summary>The one seed that all randomness of the session comes from.</summary>
         public ulong Seed { get; set; }
@@ -15,7 +17,7 @@ namespace Collektive.Bridge
         public int Threads { get; set; } = 1;
 
         /// <summary>Which messages a round sees.</summary>
-        public org.collektive.frame.Schedule Schedule { get; set; }
+        public Frame.Schedule Schedule { get; set; }
 
         /// <summary>What happens to messages between sending and receiving.</summary>
         public NetworkModel Network { get; set; } = new NetworkModel();
@@ -31,5 +33,28 @@ namespace Collektive.Bridge
 
         /// <summary>Limit for opening and closing in milliseconds.</summary>
         public int OpenLimitMs { get; set; } = 30000;
+
+        /// <summary>Writes the request that opens a session.</summary>
+        internal void Write(FlatBufferBuilder builder, DataSchema schema)
+        {
+            builder.Clear();
+            var types = schema.Types;
+            var jars = new StringOffset[Jars.Count];
+            for (var i = 0; i < jars.Length; i++) jars[i] = builder.CreateString(Jars[i]);
+            var fingerprints = new Offset<Frame.TypeFingerprint>[types.Count];
+            for (var i = 0; i < fingerprints.Length; i++)
+            {
+                fingerprints[i] = Frame.TypeFingerprint.CreateTypeFingerprint(
+                    builder, builder.CreateString(types[i].Key), types[i].Value);
+            }
+            builder.Finish(Frame.OpenRequest.CreateOpenRequest(
+                builder, Protocol, Seed, Threads, Schedule,
+                Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema.Name),
+                Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
+                builder.CreateString(Program ?? ""),
+                Frame.Network.CreateNetwork(
+                    builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention),
+                builder.CreateString(Record ?? "")).Value);
+        }
     }
 }

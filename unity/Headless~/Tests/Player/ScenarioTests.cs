@@ -1,0 +1,98 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Reflection;
+using Collektive.Unity;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests.Player
+{
+    /// <summary>A setting of the inspector is a key of scenario files and manifests, without a word about it here or there.</summary>
+    [TestFixture]
+    public sealed class ScenarioTests
+    {
+        private static readonly string[] InOtherWords = { "schema", "jars", "record", "stopAfter", "jvm" };
+
+        private readonly string folder = Path.Combine(Path.GetTempPath(), "collektive-scenario-" + Guid.NewGuid());
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            Directory.CreateDirectory(folder);
+            File.WriteAllText(Path.Combine(folder, "user.fbs"), "");
+        }
+
+        [TearDown]
+        public void RemoveFolder() => Directory.Delete(folder, true);
+
+        [Test]
+        public void Each_setting_of_the_inspector_is_a_key_unless_the_scenario_has_other_words_for_it()
+        {
+            var root = Minimal();
+            var other = new Dictionary<string, JToken>();
+            foreach (var field in typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance))
+            {
+                if (Array.IndexOf(InOtherWords, field.Name) < 0) other.Add(field.Name, Other(field.GetValue(new SimulationSettings())));
+            }
+            Assert.That(other.Keys, Has.Member("threads").And.Member("network").And.Member("stepLimitMs"));
+            foreach (var setting in other) root[setting.Key] = setting.Value;
+            var settings = new SimulationSettings();
+            Read(root).CopyTo(settings);
+            foreach (var setting in other)
+            {
+                var actual = typeof(SimulationSettings).GetField(setting.Key).GetValue(settings);
+                Assert.That(Text(JsonFile.Token(actual) ?? JObject.FromObject(actual)), Is.EqualTo(Text(setting.Value)), setting.Key);
+            }
+        }
+
+        [Test]
+        public void A_scenario_written_with_its_defaults_is_read_again_as_it_was()
+        {
+            var once = Read(Minimal()).ToJson(new JObject());
+            foreach (var key in new[] { "seed", "deltaTime", "timing", "network", "threads", "stepLimitMs" }) Assert.That(once[key], Is.Not.Null, key);
+            Assert.That(Text(Read(once).ToJson(new JObject())), Is.EqualTo(Text(once)));
+        }
+
+        [TestCase("network", "{\"loss\": 0.1, \"los\": 0.1}", "unknown key 'network.los'; known here: loss, lossPerMetre")]
+        [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\", it must be of type number")]
+        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object")]
+        [TestCase("threads", "2.5", "'threads' is 2.5, it must be of type whole number")]
+        [TestCase("stopAfter", "1", "unknown key 'stopAfter'; known here: version, scene")]
+        public void What_is_wrong_is_named_with_its_place(string key, string value, string message)
+        {
+            var root = Minimal();
+            root[key] = JToken.Parse(value);
+            Assert.That(Assert.Throws<ScenarioException>(() => Read(root)).Message, Is.StringContaining(message));
+        }
+
+        private Scenario Read(JObject root)
+        {
+            var path = Path.Combine(folder, "scenario.json");
+            File.WriteAllText(path, root.ToString());
+            return Scenario.Read(path, null);
+        }
+
+        private static JObject Minimal() => JObject.Parse(
+            "{\"version\": 1, \"scene\": \"Scene\", \"scripts\": \".\", \"schema\": \"user.fbs\", \"programs\": \".\", \"program\": \"p\", \"seconds\": 1}");
+
+        /// <summary>A value that a setting does not have by default.</summary>
+        private static JToken Other(object value)
+        {
+            switch (value)
+            {
+                case string text: return text + "other";
+                case ulong number: return new JValue((long)number + 1);
+                case int number: return number + 1;
+                case float number: return number / 2;
+                case double number: return number + 0.5;
+                case Enum _: return Enum.GetNames(value.GetType())[1];
+            }
+            var parts = new JObject();
+            foreach (var field in value.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance)) parts.Add(field.Name, Other(field.GetValue(value)));
+            return parts;
+        }
+
+        private static string Text(JToken token) => token.ToString(Newtonsoft.Json.Formatting.None);
+    }
+}
