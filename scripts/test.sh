@@ -200,7 +200,14 @@ test_csharp() {
 
 # test_unity RESULTS: the package's own tests, which Unity's test framework runs in the editor.
 test_unity() {
-  local tests code=0
+  local tests code=0 jars="$1/project/Packages/org.collektive.unity/unity/Jvm~"
+  # As in a project with the package: its jars, and a JVM.
+  mkdir -p "$jars"
+  ln -s "$HOST_JAR" "$jars/collektive-host.jar"
+  ln -s "$SAMPLES_JAR" "$jars/collektive-samples.jar"
+  cd "$1/project"
+  JAVA_HOME=$(find_jdk)
+  export JAVA_HOME
   for tests in Collektive.Unity.Tests Collektive.Unity.PublicApi.Tests Collektive.Unity.Editor.Tests; do
     # shellcheck disable=SC2310 # its result is that of its last command
     COLLEKTIVE_ROOT="$ROOT" managed mono-sgen "$CSHARP/Collektive.TestRunner.exe" --results "$1/$tests.xml" "$CSHARP/$tests.dll" || code=$?

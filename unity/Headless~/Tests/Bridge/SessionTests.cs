@@ -65,15 +65,23 @@ namespace Collektive.Headless.Tests.Bridge
         [Test]
         public void A_rejected_frame_says_why_and_changes_nothing()
         {
-            session = Open("sum");
-            AddRing();
-            for (var i = 0; i < 3; i++) Tick();
-            var tick = session.Tick;
-            session.Request.SetLink(new LinkRecord { From = 1, To = 100000 });
-            var error = Assert.Throws<BridgeException>(Tick);
-            Assert.That(error.Error, Is.EqualTo(BridgeError.Frame));
-            Assert.That(error.Message, Is.StringContaining("100000"));
-            Assert.That(session.Tick, Is.EqualTo(tick));
+            var undisturbed = DigestOfRing(() => { });
+            var disturbed = DigestOfRing(() =>
+            {
+                // All before the last is right by itself.
+                session.Request.RemoveNode(0);
+                session.Request.AddNode(Nodes, "", null);
+                session.Request.RemoveLink(new LinkEnds { From = 1, To = 2 });
+                session.Request.SetLink(new LinkRecord { From = 5, To = 50, Length = 1 });
+                session.Request.SetLink(new LinkRecord { From = 1, To = 100000 });
+                var (tick, time) = (session.Tick, session.Time);
+                var error = Assert.Throws<BridgeException>(Tick);
+                Assert.That(error.Error, Is.EqualTo(BridgeError.Frame));
+                Assert.That(error.Message, Is.StringContaining("100000"));
+                Assert.That((session.Tick, session.Time), Is.EqualTo((tick, time)));
+                session.Request.Clear();
+            });
+            Assert.That(disturbed, Is.EqualTo(undisturbed));
         }
 
         [Test]
@@ -141,6 +149,19 @@ namespace Collektive.Headless.Tests.Bridge
                 session.Request.AddNode(i, "", null);
                 session.Request.SetLink(new LinkRecord { From = i, To = (i + 1) % Nodes, Length = 1 });
                 session.Request.SetLink(new LinkRecord { From = (i + 1) % Nodes, To = i, Length = 1 });
+            }
+        }
+
+        /// <summary>What a ring comes to in six ticks, with an act after the third.</summary>
+        private (ulong Digest, int Nodes, int Links) DigestOfRing(Action act)
+        {
+            using (session = Open("sum"))
+            {
+                AddRing();
+                for (var i = 0; i < 3; i++) Tick();
+                act();
+                for (var i = 0; i < 3; i++) Tick();
+                return (session.Answer.Digest, session.Answer.EngineNodes, session.Answer.EngineLinks);
             }
         }
 

@@ -81,15 +81,21 @@ namespace Collektive.Headless.Tests.Editor
         [Test]
         public void Durations_and_the_log_are_kept_while_it_is_attached()
         {
-            Configure("double");
-            MakeNode(1);
+            const string line = "info: [node 0, program trouble] a line from the program";
+            const float printing = 20;
+            Configure("trouble");
+            MakeNode(printing);
+            Play(1);
             var diagnostics = new Diagnostics(Manager);
             Play(3);
             Assert.That(diagnostics.Times.Count, Is.EqualTo(3));
-            Assert.That(diagnostics.Times.Of(times => times.Total).Mean, Is.GreaterThan(0));
+            Assert.That(diagnostics.Times.Of(times => times.Step).Max, Is.GreaterThanOrEqualTo(Manager.Times.Step));
+            Assert.That(diagnostics.Log, Has.Some.EqualTo(line));
+            var kept = diagnostics.Log.Count;
             diagnostics.Dispose();
             Play(2);
-            Assert.That(diagnostics.Times.Count, Is.EqualTo(3));
+            Assert.That(Log.FindAll(message => line.EndsWith(message)).Count, Is.GreaterThan(kept), "more lines came");
+            Assert.That((diagnostics.Times.Count, diagnostics.Log.Count), Is.EqualTo((3, kept)));
         }
 
         [Test]
