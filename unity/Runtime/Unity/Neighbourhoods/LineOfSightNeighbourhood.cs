@@ -10,8 +10,6 @@ namespace Collektive.Unity
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule
     {
-        private static RaycastHit[] inTheWay = new RaycastHit[16];
-
         [SerializeField]
         [Min(0)]
         [Tooltip("Metres.")]
@@ -63,11 +61,11 @@ namespace Collektive.Unity
         {
             var body = Node.Body;
             var here = body.position;
-            var hits = manager.Grid.Find(here, radius);
+            var hits = Node.Simulation.Grid.Find(here, radius);
             for (var i = 0; i < hits.Length; i++)
             {
                 if (hits[i].Id == Node.Id) continue;
-                var obstacles = CountObstacles(here, body, manager.Grid.NodeAt(hits[i]).Body, hits[i].Distance);
+                var obstacles = CountObstacles(here, body, Node.Simulation.Grid.NodeAt(hits[i]).Body, hits[i].Distance);
                 if (blocking && obstacles > 0) continue;
                 Connect(hits[i].Id, hits[i].Distance, obstacles * attenuation);
             }
@@ -75,6 +73,7 @@ namespace Collektive.Unity
 
         private int CountObstacles(Vector3 here, Transform body, Transform other, float distance)
         {
+            ref var inTheWay = ref Node.Simulation.QueryMemory.InTheWay;
             int found;
             // A full array may have left some out.
             while ((found = Physics.RaycastNonAlloc(here, other.position - here, inTheWay, distance, layers,

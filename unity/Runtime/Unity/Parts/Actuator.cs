@@ -27,7 +27,7 @@ namespace Collektive.Unity
         internal sealed override void Run(Simulation simulation, int index)
         {
             if (simulation.Answered is ActuatorBuffer<TData> buffer) Act(buffer[index]);
-            else simulation.FailForData(this, "actuator", typeof(TData), simulation.Answered.DataType);
+            else FailForData(simulation, "actuator", typeof(TData), simulation.Answered.DataType);
         }
 
         /// <summary>

@@ -1,3 +1,4 @@
+using System;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -61,6 +62,13 @@ namespace Collektive.Unity
         /// <param name="simulation">The simulation that its node is in.</param>
         /// <param name="index">The place of the node's data among those of the tick.</param>
         internal abstract void Run(Simulation simulation, int index);
+
+        /// <summary>Ends a simulation whose schema is another than the one that this sensor or actuator is made for.</summary>
+        internal void FailForData(Simulation simulation, string kind, Type has, Type wants)
+        {
+            simulation.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is made for " + has.FullName
+                + ", the session's schema has " + wants.FullName, this);
+        }
 
         /// <summary>Called when the part has left the node's list.</summary>
         internal virtual void Detached()

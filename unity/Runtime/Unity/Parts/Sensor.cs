@@ -19,7 +19,7 @@ namespace Collektive.Unity
         internal sealed override void Run(Simulation simulation, int index)
         {
             if (simulation.Sensed is SensorBuffer<TData> buffer) Sense(ref buffer.Items[index]);
-            else simulation.FailForData(this, "sensor", typeof(TData), simulation.Sensed.DataType);
+            else FailForData(simulation, "sensor", typeof(TData), simulation.Sensed.DataType);
         }
 
         /// <summary>

@@ -107,6 +107,8 @@ namespace Collektive.Unity
         /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
         internal NodeGrid Grid { get; } = new NodeGrid();
 
+        internal QueryMemory QueryMemory { get; } = new QueryMemory();
+
         /// <summary>Where sensors write; in a tick.</summary>
         internal SensorBuffer Sensed => session.Request.Sensors;
 
@@ -167,13 +169,6 @@ namespace Collektive.Unity
             Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
-        }
-
-        /// <summary>Fails since a sensor or actuator is made for another schema than the session's.</summary>
-        internal void FailForData(NodePart part, string kind, Type has, Type wants)
-        {
-            Fail(kind + " " + part.GetType().Name + " of node " + part.Node.Id + " ('" + part.Node.name + "') is made for " + has.FullName
-                + ", the session's schema has " + wants.FullName, part);
         }
 
         /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>

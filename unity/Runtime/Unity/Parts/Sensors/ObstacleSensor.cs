@@ -10,9 +10,6 @@ namespace Collektive.Unity
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ObstacleSensor<TData> : Sensor<TData>
     {
-        private static Collider[] near = new Collider[32];
-        private static Obstacle[] obstacles = new Obstacle[32];
-
         [SerializeField]
         [Min(0)]
         [Tooltip("Metres from the node's centre.")]
@@ -41,33 +38,34 @@ namespace Collektive.Unity
         {
             var body = Node.Body;
             var centre = body.position;
-            var count = Overlap(centre);
+            var memory = Node.Simulation.QueryMemory;
+            var count = Overlap(centre, memory);
             var found = 0;
             for (var i = 0; i < count; i++)
             {
-                var collider = near[i];
+                var collider = memory.Near[i];
                 if (collider.transform.IsChildOf(body)) continue;
-                Insert(new Obstacle(collider, collider.ClosestPoint(centre) - centre), found++);
+                Insert(new Obstacle(collider, collider.ClosestPoint(centre) - centre), memory.Obstacles, found++);
             }
-            Write(ref data, new Span<Obstacle>(obstacles, 0, found));
+            Write(ref data, new Span<Obstacle>(memory.Obstacles, 0, found));
         }
 
         /// <summary>Writes what there is, the nearest first. The obstacles are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Obstacle> obstacles);
 
-        private int Overlap(Vector3 centre)
+        private int Overlap(Vector3 centre, QueryMemory memory)
         {
             for (; ; )
             {
-                var count = Physics.OverlapSphereNonAlloc(centre, reach, near, layers, QueryTriggerInteraction.Ignore);
-                if (count < near.Length) return count;
+                var count = Physics.OverlapSphereNonAlloc(centre, reach, memory.Near, layers, QueryTriggerInteraction.Ignore);
+                if (count < memory.Near.Length) return count;
                 // A full array may have left some out.
-                near = new Collider[near.Length * 2];
-                obstacles = new Obstacle[near.Length];
+                memory.Near = new Collider[2 * count];
+                memory.Obstacles = new Obstacle[2 * count];
             }
         }
 
-        private static void Insert(in Obstacle obstacle, int count)
+        private static void Insert(in Obstacle obstacle, Obstacle[] obstacles, int count)
         {
             var place = count;
             for (; place > 0 && Touching.IsBefore(obstacle.Vector, obstacles[place - 1].Vector); place--) obstacles[place] = obstacles[place - 1];

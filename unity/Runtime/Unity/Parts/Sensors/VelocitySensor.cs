@@ -24,7 +24,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            var now = SimulationManager.Current.SimulatedTime;
+            var now = Node.Simulation.Time;
             var here = Node.Body.position;
             var velocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
             place = here;
