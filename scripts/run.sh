@@ -4,19 +4,19 @@ DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 
 help_run() {
   cat <<'H'
-usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--recording FILE.jfr] [--set FIELD=VALUE]...
+usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--recording FILE.jfr] [--set FIELD=VALUE]...
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
-run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. --set gives a public field of the scene builder
-another value. --recording makes a flight recording of the JVM.
+run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. A folder with results of a run is refused; --overwrite
+removes them first. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
 The scenario file's keys are described in Documentation~/headless.md.
 H
 }
 
 help_repeat() {
   cat <<'H'
-usage: ./collektive repeat MANIFEST.json [--out DIR] [--folder DIR]
+usage: ./collektive repeat MANIFEST.json [--out DIR] [--overwrite] [--folder DIR]
 
 Runs again what a run's manifest.json tells of, from the manifest alone, and compares ticks, digest and the metrics at the end. Scripts, schema
 and programs are found where they were, or in --folder: the folder of the run's scenario file. One line names each of them, and the JVM, that is
@@ -27,10 +27,11 @@ H
 
 help_demo() {
   cat <<'H'
-usage: ./collektive demo [--nodes N] [--seconds S] [--seed K] [--out DIR]
+usage: ./collektive demo [--nodes N] [--seconds S] [--seed K] [--out DIR] [--overwrite]
 
 Runs the case study, environment-aware gradient ascent: 500 bodies (--nodes) climb towards a source around obstacles for 60
-simulated seconds (--seconds). Writes manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures.
+simulated seconds (--seconds). Writes manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures to --out
+(default: out/demo-seedK, where it replaces those of a former demo).
 H
 }
 
@@ -103,10 +104,11 @@ compile_scripts() {
 }
 
 cmd_run() {
-  local scenario= out= seed= folder=() arguments=()
+  local scenario= out= seed= overwrite=() folder=() arguments=()
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --overwrite) overwrite=(--overwrite); shift ;;
       --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
       --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
       --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
@@ -115,7 +117,6 @@ cmd_run() {
     esac
   done
   [ -n "$scenario" ] || fail "run: name a scenario file (see ./collektive run --help)"
-  [ -n "$out" ] || out="out/$(basename "$scenario" .json)-seed${seed:-default}"
   setup_system
   build_native
   build_jvm
@@ -132,6 +133,8 @@ cmd_run() {
     build_replay_page
     template=(--template "$BUILD/replay.html")
   fi
+  [ -n "$out" ] || out="out/$(basename "$scenario" .json)-seed${seed:-$(planned "$plan" seed)}"
+  claim "$out" "${overwrite[@]}"
   say "running $scenario"
   managed mono-sgen "$CSHARP/Collektive.Player.exe" run "$scenario" --scripts "$dll" --jar "$jar" --host-jar "$HOST_JAR" \
     --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${folder[@]}" "${arguments[@]}"
@@ -142,6 +145,15 @@ cmd_run() {
   python3 "$ROOT/scripts/summary.py" "$out"
 }
 
+# claim FOLDER [--overwrite]: makes the folder that a run writes to, and locks it until the process and its children end.
+claim() {
+  local problem
+  problem=$(mkdir -p -- "$1" 2>&1) || fail "the outputs have no place: ${problem#mkdir: }; name another folder with --out"
+  exec 8<"$1"
+  flock -n 8 || fail "another run writes to '$1': name another folder with --out"
+  python3 "$ROOT/scripts/outputs.py" "$@"
+}
+
 # planned PLAN KEY: a value of the player's plan.
 planned() { printf '%s\n' "$1" | sed -n "s/^$2=//p"; }
 
@@ -150,10 +162,11 @@ make_pictures() {
 }
 
 cmd_repeat() {
-  local manifest= out= folder=()
+  local manifest= out= folder=() overwrite=()
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --overwrite) overwrite=(--overwrite); shift ;;
       --folder) [ $# -ge 2 ] || fail "repeat: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
       -*) fail "repeat: unknown option $1 (see ./collektive repeat --help)" ;;
       *) [ -z "$manifest" ] || fail "repeat: one manifest at a time"; manifest=$1; shift ;;
@@ -162,7 +175,7 @@ cmd_repeat() {
   [ -n "$manifest" ] || fail "repeat: name the manifest.json of a run (see ./collektive repeat --help)"
   [ -f "$manifest" ] || fail "repeat: there is no file '$manifest'"
   grep -q '"folder":' "$manifest" || fail "repeat: '$manifest' is no manifest of a run: ./collektive run runs scenario files"
-  cmd_run "$manifest" --out "${out:-$(realpath "$(dirname "$manifest")")-repeated}" "${folder[@]}"
+  cmd_run "$manifest" --out "${out:-$(realpath "$(dirname "$manifest")")-repeated}" "${overwrite[@]}" "${folder[@]}"
 }
 
 cmd_demo() {
@@ -173,8 +186,13 @@ cmd_demo() {
       --seed) seed=${2:?--seed needs a number}; shift 2 ;;
       --seconds) [ $# -ge 2 ] || fail "demo: --seconds needs a number"; arguments+=(--seconds "$2"); shift 2 ;;
       --out) out=${2:?--out needs a folder}; shift 2 ;;
+      --overwrite) arguments+=(--overwrite); shift ;;
       *) fail "demo: unknown argument $1 (see ./collektive demo --help)" ;;
     esac
   done
-  cmd_run "$DEMO" --seed "$seed" --out "${out:-out/demo-seed$seed}" "${arguments[@]}"
+  if [ -z "$out" ]; then
+    out="out/demo-seed$seed"
+    arguments+=(--overwrite)
+  fi
+  cmd_run "$DEMO" --seed "$seed" --out "$out" "${arguments[@]}"
 }

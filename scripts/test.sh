@@ -258,7 +258,7 @@ build_roundtrip() {
 
 test_page() {
   local sample="$BUILD/page-sample"
-  "$ROOT/collektive" demo --nodes 60 --seconds 10 --out "$BUILD/page-demo"
+  "$ROOT/collektive" demo --nodes 60 --seconds 10 --out "$BUILD/page-demo" --overwrite
   assembly SampleReplay.exe "$ROOT/unity/Headless~/SampleReplay" "$ROOT/unity/Headless~/Replay" -- "-r:$NEWTONSOFT" -target:exe
   mkdir -p "$sample"
   mono-sgen "$CSHARP/SampleReplay.exe" "$BUILD/replay.html" "$sample/replay.html"

@@ -20,7 +20,7 @@ class WholeRuns(Project):
         protected override void Build("""
 
     def run_it(self, *arguments, **environment):
-        return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), *arguments],
+        return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", *arguments],
                               capture_output=True, text=True, env={**os.environ, **environment})
 
     def at_tick_4(self, code):

@@ -12,7 +12,7 @@ class AForeignProject(Project):
     """It is run by one command."""
 
     def run_it(self, *arguments):
-        return collektive("run", "project/lamps.json", "--out", self.path("out"), *arguments, cwd=self.folder)
+        return collektive("run", "project/lamps.json", "--out", self.path("out"), "--overwrite", *arguments, cwd=self.folder)
 
     def refused(self, *words, arguments=()):
         """Runs it, and expects one clear error with all the words."""
@@ -61,7 +61,7 @@ class AForeignProject(Project):
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 0)
 
     def test_its_profile_counts_each_tick_and_names_the_program_and_its_function(self):
-        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), cwd=self.folder)
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("10 ticks of 10 nodes and 18 links; 0 rounds failed", result.stdout)
         self.assertRegex(result.stdout, r"program brightest \(lamps\.BrightestKt\.\w+\)\n  \d+ rounds sampled \(one in 17\)")
@@ -72,7 +72,7 @@ class AForeignProject(Project):
     def test_its_profile_is_printed_when_rounds_failed_too(self):
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
-        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), cwd=self.folder)
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
         self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
 

@@ -15,7 +15,7 @@ class Records(Project):
         self.a = self.record("a")
 
     def record(self, name, *arguments):
-        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path(name), *arguments)
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path(name), "--overwrite", *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         return self.path(name, "run.clkrec")
 

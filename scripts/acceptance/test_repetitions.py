@@ -14,7 +14,7 @@ class Repetitions(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def repeat(self, *arguments):
-        return collektive("repeat", self.path("a", "manifest.json"), "--out", self.path("b"), *arguments)
+        return collektive("repeat", self.path("a", "manifest.json"), "--out", self.path("b"), "--overwrite", *arguments)
 
     def test_it_comes_out_the_same_without_its_scenario_file(self):
         os.remove(self.path("project", "lamps.json"))

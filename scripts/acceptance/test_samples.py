@@ -23,7 +23,7 @@ class TheSamples(Folder):
         scenario["programs"] = os.path.normpath(os.path.join(SAMPLE, scenario["programs"]))
         with open(path, "w") as file:
             json.dump(scenario, file)
-        result = collektive("run", path, "--out", self.path("out"))
+        result = collektive("run", path, "--out", self.path("out"), "--overwrite")
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("out", "metrics.csv")) as file:
             return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]

@@ -12,7 +12,8 @@ CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
 
 class Signals(Project):
     def start(self):
-        command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
+        command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
+                   "--seconds", "1000000"]
         return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def assert_ends(self, process, number):
@@ -89,5 +90,5 @@ class Signals(Project):
                 self.await_line(process, "compile-programs")
                 time.sleep(1)
                 self.assert_ends(process, number)
-        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"))
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite")
         self.assertEqual(result.returncode, 0, result.stderr)

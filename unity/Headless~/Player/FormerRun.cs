@@ -18,6 +18,7 @@ namespace Collektive.Headless
             manifest = file.Root;
             File = file.Required<string>(manifest, "file");
             Folder = file.Required<string>(manifest, "folder");
+            if (manifest["ticks"] == null) throw new ScenarioException(path + ": the run did not come to its end: there is nothing to compare with");
             Ticks = file.Required<int>(manifest, "ticks");
             file.Required<string>(manifest, "digest");
             file.Required<JObject>(manifest, "end");

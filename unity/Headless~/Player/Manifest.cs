@@ -14,11 +14,18 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class Manifest
     {
+        /// <summary>What <see cref="Outcome"/> is once the ticks asked for were done, or a script ended the run in order.</summary>
+        internal const string Complete = "complete";
+
+        private readonly string path;
+
         /// <summary>Before the first tick.</summary>
         /// <param name="fields">All fields of the scene, before it was built.</param>
         internal Manifest(Scenario scenario, Options options, JObject fields)
         {
+            path = Path.Combine(options.Out, "manifest.json");
             Root = new JObject(
+                new JProperty("outcome", "running"),
                 new JProperty(FormerRun.ScenarioKey, scenario.ToJson(fields)),
                 new JProperty("file", scenario.Former?.File ?? Path.GetFileName(scenario.Path)),
                 new JProperty("folder", scenario.Folder),
@@ -27,6 +34,9 @@ namespace Collektive.Headless
         }
 
         internal JObject Root { get; }
+
+        /// <summary>"running" until the end; a process that was killed leaves it so. Then <see cref="Complete"/>, or why the run is not.</summary>
+        internal string Outcome { set => Root["outcome"] = value; }
 
         /// <param name="parameters">Of the programs that ran.</param>
         /// <param name="ticks">That were done.</param>
@@ -65,7 +75,7 @@ namespace Collektive.Headless
         /// <summary>From the start of the process to the end of the first tick.</summary>
         internal void AddFirstTick(TimeSpan time) => Root.Add("first_tick_ms", Math.Round(time.TotalMilliseconds));
 
-        internal void Write(string path) => File.WriteAllText(path, Root.ToString(Formatting.Indented) + "\n");
+        internal void Write() => WholeFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
 
         private static JObject Metrics(SceneBuilder scene, IReadOnlyList<double> values)
         {

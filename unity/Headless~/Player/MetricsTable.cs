@@ -48,6 +48,8 @@ namespace Collektive.Headless
             row += "," + Text(Quantile(t => t.Sense, 0.5)) + "," + Text(Quantile(t => t.Step, 0.5)) + "," + Text(Quantile(t => t.Act, 0.5));
             row += "," + Text(Quantile(t => t.Physics, 0.5)) + "," + Text(Quantile(t => t.Total, 0.99));
             writer.Write(row + "\n");
+            // A run that is killed keeps what it has measured.
+            writer.Flush();
             second.Clear();
             sent = dropped = delayed = expired = 0;
         }

@@ -1,4 +1,5 @@
 using System;
+using System.IO;
 using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
@@ -54,6 +55,11 @@ namespace Collektive.Headless
                 Console.Error.WriteLine("collektive: " + error.Message);
                 return 1;
             }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
+                return 1;
+            }
             catch (Exception error)
             {
                 Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
@@ -67,6 +73,7 @@ namespace Collektive.Headless
             Console.WriteLine("scripts=" + scenario.Scripts);
             Console.WriteLine("schema=" + scenario.Schema);
             Console.WriteLine("programs=" + scenario.Programs);
+            Console.WriteLine("seed=" + scenario.Settings.seed);
             Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
             Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));
         }

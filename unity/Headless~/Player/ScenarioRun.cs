@@ -54,13 +54,21 @@ namespace Collektive.Headless
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             var manager = MakeManager();
             var scene = MakeScene(manager);
+            manifest.Write();
             try
             {
                 using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording)) return Play(manager, scene);
             }
+            catch (Exception error)
+            {
+                manifest.Outcome = "failed: " + error.Message;
+                throw;
+            }
             finally
             {
                 Loop.Quit();
+                // Last, since it says whether the other files are whole.
+                manifest.Write();
             }
         }
 
@@ -148,24 +156,24 @@ namespace Collektive.Headless
                 manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
-                manifest.Write(Path.Combine(options.Out, "manifest.json"));
             }
             scenario.Former?.TellDifferences(manifest, "versions");
             if (interrupt.Requested)
             {
                 Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end there");
+                manifest.Outcome = "interrupted";
                 return interrupt.ExitCode;
             }
-            var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
-            if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
-            if (done < ticks && !manager.Finished)
+            if (done < ticks && !manager.Finished && !Loop.QuitRequested)
             {
-                Console.Error.WriteLine(
-                    "collektive: " + done + " of " + ticks
-                        + " ticks were done: a script paused, disabled or destroyed the Simulation Manager; "
-                        + "end a run with Application.Quit or a stop condition");
+                var problem = done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager";
+                Console.Error.WriteLine("collektive: " + problem + "; end a run with Application.Quit or a stop condition");
+                manifest.Outcome = problem;
                 return 1;
             }
+            manifest.Outcome = Manifest.Complete;
+            var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
+            if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine("collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors or actuators failed; the messages are above");
             return 1;

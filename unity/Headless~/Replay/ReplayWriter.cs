@@ -146,12 +146,12 @@ namespace Collektive.Headless
             writer.Write(0);
             FlushBuffer();
             recording.Dispose();
-            using (var page = new StreamWriter(outputHtmlPath, false, new UTF8Encoding(false)))
+            WholeFile.Write(outputHtmlPath, page =>
             {
                 page.Write(template.Substring(0, start));
                 WriteBase64(page);
                 page.Write(template.Substring(start + Placeholder.Length));
-            }
+            });
         }
 
         /// <summary>Closes and deletes the scratch file; the finished page stays.</summary>

@@ -1,5 +1,5 @@
 // Takes start.png, middle.png and end.png (1600 x 900) of a replay page: node pictures.mjs replay.html OUTDIR [light|dark]
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, renameSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { launch } from './browser.mjs';
@@ -25,7 +25,9 @@ try {
       window.replay.seek(i);
       window.replay.draw();
     }, frame);
-    await tab.screenshot({ path: resolve(out, `${name}.png`) });
+    const picture = resolve(out, `${name}.png`);
+    await tab.screenshot({ path: `${picture}.part`, type: 'png' });
+    renameSync(`${picture}.part`, picture);
   }
 } finally {
   await browser.close();
