@@ -173,7 +173,17 @@ build_csharp_tests() {
   assembly Collektive.Unity.Tests.dll "$ROOT/unity/Tests/Runtime" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.PublicApi.Tests.dll "$ROOT/unity/Tests/PublicApi" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.Editor.Tests.dll "$ROOT/unity/Tests/Editor" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" "${framework[@]}"
+  assembly Collektive.WithoutLibrary.exe "$ROOT/unity/Headless~/WithoutLibrary" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" \
+    "-r:$CSHARP/Collektive.Headless.Tests.dll" -target:exe
+  once stub-bridge "$(fingerprint "$ROOT/unity/Runtime/Bridge" "$CSHARP/Collektive.FlatBuffers.dll")" build_stub_bridge "$CSHARP/stubs"
   library "$NUNIT"
+}
+
+# build_stub_bridge FOLDER: the bridge as Unity compiles it for a player on a platform without the native library.
+build_stub_bridge() {
+  mkdir -p "$1"
+  sources "$ROOT/unity/Runtime/Bridge" | sed 's/.*/"&"/' >"$1/Collektive.Bridge.rsp"
+  csc "$1/Collektive.Bridge.dll" "${GENERATED_CODE_SYMBOLS[@]}" -define:UNITY_5_3_OR_NEWER "-r:$CSHARP/Collektive.FlatBuffers.dll" "@$1/Collektive.Bridge.rsp"
 }
 
 build_test_schemas() {

@@ -40,12 +40,14 @@ def of_one(name, path, definition, definitions):
     if definition.get("precompiledReferences") and not definition.get("overrideReferences"):
         yield f"{path}: names plugins, which Unity ignores without overrideReferences"
     platforms = set(definition.get("includePlatforms", []))
-    if not platforms or platforms - PLATFORMS:
-        yield f"{path}: its platforms are {sorted(platforms)}: they must be some of {sorted(PLATFORMS)}"
     folders = path.split("/")
+    is_test = "Tests" in folders
+    if platforms - PLATFORMS or (is_test and not platforms):
+        yield f"{path}: its platforms are {sorted(platforms)}: they must be some of {sorted(PLATFORMS)}"
+    if platforms not in (set(), {"Editor"}) and not is_test:
+        yield f"{path}: its platforms are {sorted(platforms)}: users' code must compile for all, so that a player without the JVM says so"
     if ("Editor" in folders) != (platforms == {"Editor"}):
         yield f"{path}: code for the editor lies below a folder Editor and has only the platform Editor"
-    is_test = "Tests" in folders
     if is_test != ("UNITY_INCLUDE_TESTS" in definition.get("defineConstraints", [])):
         yield f"{path}: tests lie below a folder Tests and have the constraint UNITY_INCLUDE_TESTS"
     if is_test and "nunit.framework.dll" not in definition.get("precompiledReferences", []):

@@ -170,6 +170,10 @@ class TheValidator(unittest.TestCase):
         self.change(ASMDEF, "Collektive.FlatBuffers.dll", "FlatBuffers.dll")
         self.found(ASMDEF, "FlatBuffers.dll")
 
+    def test_finds_an_assembly_that_is_missing_on_some_platforms(self):
+        self.change(ASMDEF, r'"includePlatforms": \[\]', '"includePlatforms": ["Editor", "LinuxStandalone64"]')
+        self.found(ASMDEF, "compile for all")
+
     def test_finds_code_without_an_assembly(self):
         os.remove(os.path.join(self.root, ASMDEF))
         os.remove(os.path.join(self.root, ASMDEF + ".meta"))

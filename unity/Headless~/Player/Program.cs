@@ -1,6 +1,5 @@
 using System;
 using System.IO;
-using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
 namespace Collektive.Headless
@@ -30,10 +29,6 @@ namespace Collektive.Headless
                 Console.Error.WriteLine("collektive: the JVM did not end: " + error.Message);
                 return Math.Max(code, 1);
             }
-            catch (DllNotFoundException)
-            {
-                // Without the native library no JVM was started; whoever needed it has said so.
-            }
             return code;
         }
 
@@ -50,7 +45,7 @@ namespace Collektive.Headless
                 }
                 return new ScenarioRun(scenario, options).Run();
             }
-            catch (ScenarioException error)
+            catch (Exception error) when (error is ScenarioException || error is BridgeException)
             {
                 Console.Error.WriteLine("collektive: " + error.Message);
                 return 1;

@@ -25,7 +25,7 @@ namespace Collektive.Bridge
         JvmNotRunning = -9,
         /// <summary>A JVM runs already, with other settings.</summary>
         JvmRunning = -10,
-        /// <summary>The host's jar is missing or of another version.</summary>
+        /// <summary>The host's jar or the native library is missing or of another version.</summary>
         Host = -11,
         /// <summary>The frame breaks a rule; it changed nothing.</summary>
         Frame = -12,

@@ -23,29 +23,36 @@ namespace Collektive.Bridge
     /// </summary>
     public static unsafe class Jvm
     {
-        /// <summary>The state now. Never waits.</summary>
-        public static JvmState State => (JvmState)Shim.clk_jvm_state();
+        /// <summary>The state now; <see cref="JvmState.None"/> where the native library cannot be used. Never waits.</summary>
+        public static JvmState State => ShimLibrary.Problem == null ? (JvmState)Shim.clk_jvm_state() : JvmState.None;
 
         /// <summary>Home, version and options of the JVM, one a line; empty when none was started.</summary>
         public static string Description =>
-            Utf8.Copied((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
+            State == JvmState.None ? "" : Utf8.Copied((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
         /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
         public static ulong StepCalls
         {
             get
             {
+                if (State == JvmState.None) return 0;
                 var stats = new Shim.Stats { Size = (uint)sizeof(Shim.Stats) };
                 Shim.Check(Shim.clk_get_stats(&stats));
                 return stats.Steps;
             }
         }
 
+        /// <summary>
+        /// Why this process can have no JVM: the native library is missing, made for another platform, or of another version. The text names the
+        /// platform and says what to do. Null when the library is as it should be.
+        /// </summary>
+        public static string FindProblem() => ShimLibrary.Problem;
+
         /// <summary>Starts the JVM, or does nothing when it runs with the same words.</summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         public static void Start(JvmLaunch launch)
         {
-            CheckLibrary();
+            ShimLibrary.Check();
             Configured(launch, config => Shim.clk_jvm_start((Shim.JvmConfig*)config));
         }
 
@@ -56,7 +63,7 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         public static void Check(JvmLaunch launch)
         {
-            CheckLibrary();
+            ShimLibrary.Check();
             Configured(launch, config => Shim.clk_jvm_check((Shim.JvmConfig*)config));
         }
 
@@ -64,18 +71,6 @@ namespace Collektive.Bridge
         /// <param name="collect">Collect garbage first, so that the numbers count only what is in use.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
-
-        private static void CheckLibrary()
-        {
-            var major = Shim.clk_version() >> 16;
-            if (major != Shim.Major)
-            {
-                throw new BridgeException(
-                    BridgeError.Host,
-                    "the native library collektive_shim is of version " + major + ", this package needs " + Shim.Major +
-                    ": reinstall the package and restart the editor");
-            }
-        }
 
         private static void Configured(JvmLaunch launch, Func<IntPtr, int> call)
         {
@@ -103,11 +98,11 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Destroys the JVM; for the end of the process only, since none can follow it.</summary>
+        /// <summary>Destroys the JVM, if one was started; for the end of the process only, since none can follow it.</summary>
         /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
         public static void Stop(int limitMs)
         {
-            Shim.Check(Shim.clk_jvm_stop(limitMs));
+            if (ShimLibrary.Problem == null) Shim.Check(Shim.clk_jvm_stop(limitMs));
         }
 
         private static byte* Text(List<IntPtr> strings, string text)

@@ -29,6 +29,7 @@ namespace Collektive.Bridge
         public static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);
+            if (Jvm.FindProblem() != null) report.Add(nameof(JvmSettings.location), Jvm.FindProblem());
             foreach (var problem in settings.FindProblems()) report.Add(problem.Key, problem.Message);
             if (report.IsGood) report.Try(settings, toLaunch);
             return report;

@@ -18,7 +18,8 @@ namespace Collektive.Bridge
 
     /// <summary>
     /// Log lines of the shim, the JVM and the programs, polled. Of each severity it gives at most <see cref="LinesPerSecond"/>: a
-    /// console takes no more. What is left out is counted, and the count is a line of its own. Used from one thread at a time.
+    /// console takes no more. What is left out is counted, and the count is a line of its own. Without the native library there are none. Used from
+    /// one thread at a time.
     /// </summary>
     public sealed unsafe class HostLog
     {
@@ -39,7 +40,7 @@ namespace Collektive.Bridge
             var buffer = stackalloc byte[LineCapacity];
             int number;
             int length;
-            while ((length = Shim.clk_log_read(&number, buffer, LineCapacity)) >= 0)
+            while (ShimLibrary.Problem == null && (length = Shim.clk_log_read(&number, buffer, LineCapacity)) >= 0)
             {
                 level = (HostLogLevel)number;
                 if (given[number]++ < LinesPerSecond)
@@ -72,6 +73,7 @@ namespace Collektive.Bridge
 
         private static ulong Lost()
         {
+            if (ShimLibrary.Problem != null) return 0;
             var stats = new Shim.Stats { Size = (uint)sizeof(Shim.Stats) };
             Shim.Check(Shim.clk_get_stats(&stats));
             return stats.LogsDropped;

@@ -3,13 +3,14 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The C ABI of <c>collektive_shim</c>; its header holds the contracts.</summary>
-    internal static unsafe class Shim
+    /// <summary>
+    /// The C ABI of <c>collektive_shim</c>; its header holds the contracts. Whoever makes the first call asks <see cref="ShimLibrary"/> whether
+    /// the library is there.
+    /// </summary>
+    internal static unsafe partial class Shim
     {
         /// <summary>Major version of the header that this file was written from.</summary>
         internal const uint Major = 0;
-
-        private const string Library = "collektive_shim";
 
         [StructLayout(LayoutKind.Sequential)]
         internal struct JvmConfig
@@ -54,59 +55,6 @@ namespace Collektive.Bridge
             public ulong LogsDropped;
             public ulong SignalRepairs;
         }
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint clk_version();
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern byte* clk_error_text(int code);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_last_error(byte* buffer, int capacity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_jvm_start(JvmConfig* config);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_jvm_check(JvmConfig* config);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_jvm_state();
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_jvm_description(byte* buffer, int capacity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_jvm_stop(int limitMs);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_slot_acquire(int capacity, ulong* slot, Memory* memory);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_slot_grow(ulong slot, int capacity, int keep, Memory* memory);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_slot_release(ulong slot);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_session_open(
-            ulong slot, int offset, int length, int limitMs, ulong* session, Answer* answer);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_step(
-            ulong session, ulong slot, int offset, int length, int limitMs, Answer* answer);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_session_close(ulong session, int limitMs);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_control(ulong slot, int offset, int length, int limitMs, Answer* answer);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_log_read(int* level, byte* buffer, int capacity);
-
-        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_get_stats(Stats* stats);
 
         /// <summary>Throws the calling thread's last error unless <paramref name="code"/> is success.</summary>
         internal static void Check(int code)

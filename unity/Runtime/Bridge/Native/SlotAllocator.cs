@@ -10,6 +10,7 @@ namespace Collektive.Bridge
     {
         internal SlotAllocator(int capacity)
         {
+            ShimLibrary.Check();
             ulong slot;
             var memory = new Shim.Memory { Size = (uint)sizeof(Shim.Memory) };
             Shim.Check(Shim.clk_slot_acquire(capacity, &slot, &memory));

@@ -11,7 +11,7 @@ namespace Collektive.Unity
         /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
         internal static Session Open(SimulationSettings settings, Object context)
         {
-            var problem = settings.FindProblem();
+            var problem = Jvm.FindProblem() ?? settings.FindProblem();
             if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
             var schema = Schemas.Find(settings.schema);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);

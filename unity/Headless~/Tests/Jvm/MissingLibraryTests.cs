@@ -1,0 +1,97 @@
+using System;
+using System.Diagnostics;
+using System.IO;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests
+{
+    /// <summary>
+    /// A process that has no usable native library plays 50 frames: one error names the platform and says what to do, nothing throws. Processes of
+    /// their own, since this one has the library.
+    /// </summary>
+    [TestFixture]
+    public sealed class MissingLibraryTests
+    {
+        private const string Library = "libcollektive_shim.so";
+        private const string Program = "Collektive.WithoutLibrary.exe";
+        private const int LimitMs = 60000;
+
+        private string folder;
+
+        private static string Assemblies => AppDomain.CurrentDomain.BaseDirectory;
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            folder = Path.Combine(Path.GetTempPath(), "collektive-library-" + Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(folder);
+        }
+
+        [TearDown]
+        public void RemoveFolder() => Directory.Delete(folder, true);
+
+        [TestCase("editor")]
+        [TestCase("player")]
+        public void A_missing_library_is_one_error(string where) => CheckOneError(Play(where), "Linux", "X64");
+
+        [TestCase("editor")]
+        [TestCase("player")]
+        public void A_library_of_another_platform_is_one_error(string where)
+        {
+            File.WriteAllText(Path.Combine(folder, Library), "MZ: not for this platform");
+            CheckOneError(Play(where), "Linux", "X64");
+        }
+
+        [Test]
+        public void Another_library_of_that_name_is_one_error()
+        {
+            File.Copy(Path.Combine(TestJvm.Home, "lib/libjli.so"), Path.Combine(folder, Library));
+            CheckOneError(Play("editor"), "clk_version");
+        }
+
+        [TestCase("editor")]
+        [TestCase("player")]
+        public void On_a_platform_without_the_library_is_one_error(string where)
+        {
+            foreach (var assembly in Directory.GetFiles(Assemblies, "*.dll")) File.Copy(assembly, Path.Combine(folder, Path.GetFileName(assembly)));
+            File.Copy(Path.Combine(Assemblies, Program), Path.Combine(folder, Program));
+            File.Copy(Path.Combine(Assemblies, "stubs/Collektive.Bridge.dll"), Path.Combine(folder, "Collektive.Bridge.dll"), true);
+            CheckOneError(Play(where, folder), "this platform has no JVM inside the process");
+        }
+
+        private static void CheckOneError(string output, params string[] parts)
+        {
+            Assert.That(output, Is.StringStarting("exceptions 0, errors 1, manager off\n"));
+            foreach (var part in parts) Assert.That(output, Is.StringContaining(part));
+            Assert.That(output, Is.StringContaining("Limits in its documentation"));
+        }
+
+        private string Play(string where) => Play(where, Assemblies);
+
+        /// <summary>What the process prints of its errors; its assemblies are those of a folder.</summary>
+        private string Play(string where, string assemblies)
+        {
+            var arguments = "--debug \"" + Path.Combine(assemblies, Program) + "\" " + where;
+            var start = new ProcessStartInfo(Process.GetCurrentProcess().MainModule.FileName, arguments)
+            {
+                UseShellExecute = false,
+                RedirectStandardOutput = true,
+                RedirectStandardError = true,
+            };
+            start.EnvironmentVariables["LD_LIBRARY_PATH"] = folder;
+            using (var process = Process.Start(start))
+            {
+                var output = process.StandardOutput.ReadToEndAsync();
+                var errors = process.StandardError.ReadToEndAsync();
+                if (!process.WaitForExit(LimitMs))
+                {
+                    process.Kill();
+                    Assert.Fail("the process did not end: " + output.Result + errors.Result);
+                }
+                var result = output.Result.IndexOf("exceptions ", StringComparison.Ordinal);
+                Assert.That(result, Is.GreaterThanOrEqualTo(0), output.Result + errors.Result);
+                return output.Result.Substring(result);
+            }
+        }
+    }
+}

@@ -1,0 +1,65 @@
+#if UNITY_EDITOR || UNITY_STANDALONE || !UNITY_5_3_OR_NEWER
+using System.Runtime.InteropServices;
+
+namespace Collektive.Bridge
+{
+    /// <summary>The library's functions, on platforms that may have it.</summary>
+    internal static unsafe partial class Shim
+    {
+        private const string Library = "collektive_shim";
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint clk_version();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern byte* clk_error_text(int code);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_last_error(byte* buffer, int capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_start(JvmConfig* config);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_check(JvmConfig* config);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_state();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_description(byte* buffer, int capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_jvm_stop(int limitMs);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_slot_acquire(int capacity, ulong* slot, Memory* memory);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_slot_grow(ulong slot, int capacity, int keep, Memory* memory);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_slot_release(ulong slot);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_session_open(
+            ulong slot, int offset, int length, int limitMs, ulong* session, Answer* answer);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_step(
+            ulong session, ulong slot, int offset, int length, int limitMs, Answer* answer);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_session_close(ulong session, int limitMs);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_control(ulong slot, int offset, int length, int limitMs, Answer* answer);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_log_read(int* level, byte* buffer, int capacity);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_get_stats(Stats* stats);
+    }
+}
+#endif

@@ -1,0 +1,51 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Collektive.Bridge
+{
+    /// <summary>Whether the native library can be used in this process.</summary>
+    internal static class ShimLibrary
+    {
+        /// <summary>
+        /// What is wrong with the library, on which platform, and what to do; null when it can be used. Found out once: no process loads a library
+        /// that it was refused before.
+        /// </summary>
+        internal static readonly string Problem = FindProblem();
+
+        /// <exception cref="BridgeException">The library cannot be used.</exception>
+        internal static void Check()
+        {
+            if (Problem != null) throw new BridgeException(BridgeError.Host, Problem);
+        }
+
+#if UNITY_5_3_OR_NEWER && !UNITY_EDITOR && !UNITY_STANDALONE
+        private static string FindProblem() => Missing("this platform has no JVM inside the process");
+#else
+        private static string FindProblem()
+        {
+            try
+            {
+                var major = Shim.clk_version() >> 16;
+                if (major == Shim.Major) return null;
+                return "the native library collektive_shim is of version " + major + ", this package needs " + Shim.Major
+                    + ": reinstall the package and restart the editor";
+            }
+            catch (Exception error) when (error is DllNotFoundException || error is EntryPointNotFoundException || error is BadImageFormatException)
+            {
+                return Missing(error.Message);
+            }
+        }
+#endif
+
+        private static string Missing(string reason) =>
+            "there is no native library collektive_shim for this platform, " + OperatingSystem() + " on " + RuntimeInformation.ProcessArchitecture
+                + " (" + reason + "): use a platform that the package supports (Limits in its documentation names them), or reinstall the package if this "
+                + "is one of them, and restart";
+
+        /// <summary>The operating system's name; Mono describes all but Windows as Unix.</summary>
+        private static string OperatingSystem() =>
+            RuntimeInformation.IsOSPlatform(OSPlatform.Linux) ? "Linux"
+                : RuntimeInformation.IsOSPlatform(OSPlatform.OSX) ? "macOS"
+                : RuntimeInformation.IsOSPlatform(OSPlatform.Windows) ? "Windows" : RuntimeInformation.OSDescription;
+    }
+}
