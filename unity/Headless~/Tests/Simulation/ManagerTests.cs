@@ -11,6 +11,18 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class ManagerTests : SimulationFixture
     {
         [Test]
+        public void A_nodes_position_is_that_of_the_beginning_of_the_tick()
+        {
+            var node = MakeNode(1, Vector3.right).Node;
+            Assert.That(node.Position, Is.EqualTo(Vector3.right), "before the first tick");
+            Play(1);
+            node.transform.position = Vector3.up;
+            Assert.That(node.Position, Is.EqualTo(Vector3.right));
+            Play(1);
+            Assert.That(node.Position, Is.EqualTo(Vector3.up));
+        }
+
+        [Test]
         public void A_round_sees_its_sensors_and_drives_its_actuators()
         {
             var node = MakeNode(21);

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Runtime.InteropServices;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -90,26 +89,9 @@ namespace Collektive.Headless.Tests.Simulation
         /// <summary>Processor time that an act takes of this thread.</summary>
         private static double Milliseconds(Action act)
         {
-            var start = ThreadMilliseconds();
+            var start = ThreadClock.Milliseconds;
             act();
-            return ThreadMilliseconds() - start;
-        }
-
-        /// <summary>Processor time of this thread.</summary>
-        private static double ThreadMilliseconds()
-        {
-            const int threadClock = 3;
-            if (clock_gettime(threadClock, out var time) != 0) throw new InvalidOperationException("clock_gettime failed");
-            return time.Seconds * 1000.0 + time.Nanoseconds / 1e6;
-        }
-
-        [DllImport("libc", ExactSpelling = true)]
-        private static extern int clock_gettime(int clock, out Timespec time);
-
-        private struct Timespec
-        {
-            internal long Seconds;
-            internal long Nanoseconds;
+            return ThreadClock.Milliseconds - start;
         }
 
         /// <summary>A loop over points and the distances to others all over the memory: what a tick does too.</summary>

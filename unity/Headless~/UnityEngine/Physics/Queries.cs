@@ -46,6 +46,7 @@ namespace UnityEngine
         public static bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit nearest, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
+            Headless.QueryLog.Rays++;
             nearest = default;
             var unit = direction.normalized;
             if (unit.sqrMagnitude == 0f) return false;
@@ -61,6 +62,7 @@ namespace UnityEngine
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
+            Headless.QueryLog.Rays++;
             var unit = direction.normalized;
             if (unit.sqrMagnitude == 0f) return 0;
             var grid = PhysicsWorld.Grid;

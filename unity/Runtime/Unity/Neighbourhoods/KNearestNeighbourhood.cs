@@ -30,7 +30,7 @@ namespace Collektive.Unity
             if (count <= 0) return;
             // One more than wanted, since the node finds itself. What was far enough last time is nearly so now.
             var grid = Node.Simulation.Grid;
-            var hits = grid.FindNearest(Node.Body.position, count + 1, reach > 0 ? 1.25f * reach : grid.MeanRadius);
+            var hits = grid.FindNearest(Node.Position, count + 1, reach > 0 ? 1.25f * reach : grid.MeanRadius);
             reach = hits.Length == 0 ? 0 : hits[hits.Length - 1].Distance;
             var left = count;
             for (var i = 0; i < hits.Length && left > 0; i++)

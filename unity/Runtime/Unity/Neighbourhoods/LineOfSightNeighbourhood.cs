@@ -5,7 +5,7 @@ namespace Collektive.Unity
     /// <summary>
     /// Neighbours are the nodes within a radius; each collider on the straight line between the two centres adds to the link's attenuation, or
     /// prevents the link. The two nodes' own colliders and triggers are passed over; bodies of other nodes count, unless they are on a
-    /// layer that is not looked at. It costs one ray for each neighbour and tick.
+    /// layer that is not looked at. It costs one ray for each pair of nodes and tick, whichever of the two asks first.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule
@@ -59,24 +59,31 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(SimulationManager manager)
         {
-            var body = Node.Body;
-            var here = body.position;
-            var hits = Node.Simulation.Grid.Find(here, radius);
+            var simulation = Node.Simulation;
+            var hits = simulation.Grid.Find(Node.Position, radius);
             for (var i = 0; i < hits.Length; i++)
             {
                 if (hits[i].Id == Node.Id) continue;
-                var obstacles = CountObstacles(here, body, Node.Simulation.Grid.NodeAt(hits[i]).Body, hits[i].Distance);
+                var obstacles = CountObstacles(simulation.Grid.NodeAt(hits[i]), hits[i].Distance);
                 if (blocking && obstacles > 0) continue;
                 Connect(hits[i].Id, hits[i].Distance, obstacles * attenuation);
             }
         }
 
-        private int CountObstacles(Vector3 here, Transform body, Transform other, float distance)
+        private int CountObstacles(Node other, float distance)
+        {
+            ref var obstacles = ref Node.Simulation.SightLines.Between(Node.Id, other.Id, layers);
+            // Always the same way round: a ray does not see a collider that it begins in.
+            if (obstacles == SightLines.Unknown) obstacles = Node.Id < other.Id ? Cast(Node, other, distance) : Cast(other, Node, distance);
+            return obstacles;
+        }
+
+        private int Cast(Node from, Node to, float distance)
         {
             ref var inTheWay = ref Node.Simulation.QueryMemory.InTheWay;
             int found;
             // A full array may have left some out.
-            while ((found = Physics.RaycastNonAlloc(here, other.position - here, inTheWay, distance, layers,
+            while ((found = Physics.RaycastNonAlloc(from.Position, to.Position - from.Position, inTheWay, distance, layers,
                 QueryTriggerInteraction.Ignore)) == inTheWay.Length)
             {
                 inTheWay = new RaycastHit[2 * inTheWay.Length];
@@ -85,7 +92,7 @@ namespace Collektive.Unity
             for (var i = 0; i < found; i++)
             {
                 var hit = inTheWay[i].collider.transform;
-                if (!hit.IsChildOf(body) && !hit.IsChildOf(other)) obstacles++;
+                if (!hit.IsChildOf(from.Body) && !hit.IsChildOf(to.Body)) obstacles++;
             }
             return obstacles;
         }

@@ -98,7 +98,7 @@ namespace Collektive.Unity
         protected void Connect(Node other)
         {
             // One that never was active has no place yet.
-            if (other.Id >= 0) Connect(other, Vector3.Distance(Node.Body.position, other.Body.position), 0);
+            if (other.Id >= 0) Connect(other, Vector3.Distance(Node.Position, other.Position), 0);
         }
 
         /// <summary>

@@ -7,7 +7,7 @@ namespace Collektive.Unity
     /// <summary>
     /// Where all nodes are at this tick, in cubic cells: finding the nodes around a point costs the nodes near it, not all of them.
     /// A search over more cells than there are nodes looks at all nodes instead.
-    /// Built once per tick; no allocation once its capacity is reached.
+    /// Built once per tick, which also gives the nodes their <see cref="Node.Position"/>; no allocation once its capacity is reached.
     /// </summary>
     internal sealed class NodeGrid
     {
@@ -86,6 +86,7 @@ namespace Collektive.Unity
             {
                 var node = all[i];
                 var position = node.Body.position;
+                node.Position = position;
                 var cell = new Cell { X = CellOf(position.x), Y = CellOf(position.y), Z = CellOf(position.z) };
                 Include(cell);
                 nodes[i] = node;

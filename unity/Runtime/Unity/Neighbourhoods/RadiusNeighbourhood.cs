@@ -21,7 +21,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(SimulationManager manager)
         {
-            Connect(Node.Simulation.Grid.Find(Node.Body.position, radius));
+            Connect(Node.Simulation.Grid.Find(Node.Position, radius));
         }
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);

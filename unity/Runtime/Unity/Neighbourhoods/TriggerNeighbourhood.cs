@@ -1,4 +1,5 @@
-using System.Collections.Generic;
+using System;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -10,52 +11,65 @@ namespace Collektive.Unity
     [AddComponentMenu("Collektive/Neighbourhoods/Trigger Neighbourhood")]
     public sealed class TriggerNeighbourhood : NeighbourhoodRule
     {
-        private readonly List<Collider> inside = new List<Collider>();
-        private readonly List<Node> owners = new List<Node>();
+        private readonly GrowingArray<Visitor> visitors = new GrowingArray<Visitor>();
+
+        private struct Visitor
+        {
+            internal Collider Collider;
+            internal Node Owner;
+        }
 
         /// <inheritdoc/>
         protected override void OnDisable()
         {
             base.OnDisable();
             // A component that is disabled by itself goes on hearing of entries and exits; an inactive GameObject does not.
-            if (gameObject.activeInHierarchy) return;
-            inside.Clear();
-            owners.Clear();
+            if (!gameObject.activeInHierarchy) visitors.Clear();
         }
 
         /// <inheritdoc/>
         protected override void FindNeighbours(SimulationManager manager)
         {
-            for (var i = inside.Count - 1; i >= 0; i--)
+            var all = visitors.Items;
+            var here = Node.Position;
+            var kept = 0;
+            for (var i = 0; i < visitors.Count; i++)
             {
-                if (inside[i].IsGone()) Remove(i);
-            }
-            for (var i = 0; i < owners.Count; i++)
-            {
+                ref var visitor = ref all[i];
+                if (visitor.Collider.IsGone()) continue;
                 // A node with several colliders in the zone counts once.
-                if (owners.IndexOf(owners[i]) == i) Connect(owners[i]);
+                var owner = visitor.Owner;
+                var way = owner.Position;
+                way.x -= here.x;
+                way.y -= here.y;
+                way.z -= here.z;
+                Connect(owner.Id, (float)Math.Sqrt(way.x * way.x + way.y * way.y + way.z * way.z), 0);
+                if (kept < i) all[kept] = visitor;
+                kept++;
             }
+            visitors.Truncate(kept);
         }
 
         private void OnTriggerEnter(Collider other)
         {
-            if (other.isTrigger || inside.Contains(other)) return;
+            if (other.isTrigger || Find(other) < visitors.Count) return;
             var node = other.GetComponentInParent<Node>();
-            if (node == null) return;
-            inside.Add(other);
-            owners.Add(node);
+            if (node != null) visitors.Add(new Visitor { Collider = other, Owner = node });
         }
 
         private void OnTriggerExit(Collider other)
         {
-            var index = inside.IndexOf(other);
-            if (index >= 0) Remove(index);
+            var place = Find(other);
+            if (place == visitors.Count) return;
+            Array.Copy(visitors.Items, place + 1, visitors.Items, place, visitors.Count - place - 1);
+            visitors.Truncate(visitors.Count - 1);
         }
 
-        private void Remove(int index)
+        private int Find(Collider collider)
         {
-            inside.RemoveAt(index);
-            owners.RemoveAt(index);
+            var place = 0;
+            while (place < visitors.Count && !ReferenceEquals(visitors.Items[place].Collider, collider)) place++;
+            return place;
         }
     }
 }

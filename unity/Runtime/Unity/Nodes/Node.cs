@@ -127,6 +127,12 @@ namespace Collektive.Unity
             }
         }
 
+        /// <summary>
+        /// Where the node is at this tick, in metres: read from its transform once a tick, before rules and sensors are asked. What moves the node
+        /// later shows in the next tick.
+        /// </summary>
+        public Vector3 Position { get; internal set; }
+
         internal static List<Node> All => EnabledNodes;
 
         internal Transform Body { get; private set; }
@@ -165,6 +171,7 @@ namespace Collektive.Unity
         {
             Simulation = simulation;
             Id = newId;
+            Position = Body.position;
             random = new RandomStream(simulation.Settings.seed, newId, RandomPurpose.Node);
             LastError = "";
             ForgetAnswer();

@@ -107,6 +107,9 @@ namespace Collektive.Unity
         /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
         internal NodeGrid Grid { get; } = new NodeGrid();
 
+        /// <summary>What rules saw between nodes in this tick.</summary>
+        internal SightLines SightLines { get; } = new SightLines();
+
         internal QueryMemory QueryMemory { get; } = new QueryMemory();
 
         /// <summary>Where sensors write; in a tick.</summary>
@@ -258,6 +261,7 @@ namespace Collektive.Unity
             present.Clear();
             present.AddRange(Nodes);
             Grid.Build(present, Grid.MeanRadius);
+            SightLines.Clear();
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
                 var node = present[i];

@@ -85,7 +85,7 @@ namespace Collektive.Unity
 
         private void RemoveGone()
         {
-            var centre = Node.Body.position;
+            var centre = Node.Position;
             var kept = 0;
             for (var i = 0; i < contacts.Count; i++)
             {

@@ -20,7 +20,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            var place = Node.Body.position;
+            var place = Node.Position;
             Write(ref data, source == null ? AllAt(place) : source.isActiveAndEnabled ? source.IntensityAt(place) : 0);
         }
 

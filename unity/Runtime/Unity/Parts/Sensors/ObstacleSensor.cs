@@ -37,7 +37,7 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var body = Node.Body;
-            var centre = body.position;
+            var centre = Node.Position;
             var memory = Node.Simulation.QueryMemory;
             var count = Overlap(centre, memory);
             var found = 0;

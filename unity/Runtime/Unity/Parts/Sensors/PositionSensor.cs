@@ -7,7 +7,7 @@ namespace Collektive.Unity
     public abstract class PositionSensor<TData> : Sensor<TData>
     {
         /// <inheritdoc/>
-        protected sealed override void Sense(ref TData data) => Write(ref data, Node.Body.position);
+        protected sealed override void Sense(ref TData data) => Write(ref data, Node.Position);
 
         /// <summary>Writes the node's position in metres.</summary>
         protected abstract void Write(ref TData data, Vector3 position);

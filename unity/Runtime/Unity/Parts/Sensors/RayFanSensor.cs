@@ -71,7 +71,7 @@ namespace Collektive.Unity
         {
             // By the hits: when scripts are compiled during play, Unity keeps the directions alone.
             if (hits.Length != rays || angleOfDirections != angle) Spread();
-            var centre = Node.Body.position;
+            var centre = Node.Position;
             var turn = Node.Body.rotation;
             for (var i = 0; i < directions.Length; i++) hits[i] = Cast(centre, turn * directions[i]);
             Write(ref data, hits);

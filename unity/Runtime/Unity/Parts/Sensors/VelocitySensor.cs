@@ -25,7 +25,7 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var now = Node.Simulation.Time;
-            var here = Node.Body.position;
+            var here = Node.Position;
             var velocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
             place = here;
             time = now;

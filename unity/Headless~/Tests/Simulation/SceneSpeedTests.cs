@@ -1,0 +1,108 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>
+    /// What single parts of the package cost in a dense scene: 1,000 nodes on a plane, in processor time of the main thread on Mono. The limits are
+    /// what a frame can bear.
+    /// </summary>
+    [TestFixture]
+    public sealed class SceneSpeedTests : SimulationFixture
+    {
+        private const int Count = 1000;
+        private const int Tries = 15;
+
+        [Test]
+        public void Trigger_rules_of_95_neighbours_take_5_milliseconds_a_tick()
+        {
+            // On a plane of side 10, within 1.8 m of a node are some 95 others.
+            Scatter(Count, 10, node =>
+            {
+                node.AddComponent<SphereCollider>().radius = 0.05f;
+                node.AddComponent<Rigidbody>().isKinematic = true;
+                var zone = new GameObject("Zone");
+                zone.transform.SetParent(node.transform, false);
+                var trigger = zone.AddComponent<SphereCollider>();
+                trigger.isTrigger = true;
+                trigger.radius = 1.8f;
+                zone.AddComponent<TriggerNeighbourhood>();
+            });
+            Play(3);
+            var milliseconds = LeastOfRules();
+            Print("trigger rules, " + Manager.LinkCount + " links", milliseconds);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Manager.LinkCount, Is.GreaterThan(80 * Count));
+            Assert.That(milliseconds, Is.LessThan(5));
+        }
+
+        [Test]
+        public void Line_of_sight_rules_cast_each_pair_once()
+        {
+            Scatter(Count, 30, node => node.AddComponent<LineOfSightNeighbourhood>().Radius = 2);
+            for (var i = 0; i < 100; i++)
+            {
+                var wall = GameObject.CreatePrimitive(PrimitiveType.Cube);
+                wall.transform.position = new Vector3(3 * (i % 10) + 1, 0, 3 * (i / 10) + 1);
+                wall.transform.localScale = new Vector3(0.2f, 1, 1);
+            }
+            Play(2);
+            Print("line of sight rules, " + Manager.LinkCount + " links", LeastOfRules());
+            var before = QueryLog.Rays;
+            Manager.Step();
+            Assert.That(QueryLog.Rays - before, Is.EqualTo(PairsWithin(2)));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        private static void Scatter(int count, float side, Action<GameObject> equip)
+        {
+            var random = new RandomStream(9, 0, RandomPurpose.Scene);
+            for (var i = 0; i < count; i++)
+            {
+                var node = new GameObject("Node");
+                node.SetActive(false);
+                node.transform.position = new Vector3(random.Range(0f, side), 0, random.Range(0f, side));
+                node.AddComponent<Node>();
+                equip(node);
+                node.SetActive(true);
+            }
+        }
+
+        private int PairsWithin(float radius)
+        {
+            var pairs = 0;
+            for (var i = 0; i < Manager.Nodes.Count; i++)
+            {
+                for (var j = 0; j < i; j++)
+                {
+                    if ((Manager.Nodes[i].Position - Manager.Nodes[j].Position).sqrMagnitude <= radius * radius) pairs++;
+                }
+            }
+            return pairs;
+        }
+
+        /// <summary>Milliseconds of asking all rules once, as a tick does.</summary>
+        private double LeastOfRules()
+        {
+            var best = double.MaxValue;
+            var nodes = new List<Node>(Manager.Nodes);
+            for (var i = 0; i < Tries; i++)
+            {
+                Manager.Grid.Build(nodes, Manager.Grid.MeanRadius);
+                Manager.Simulation.SightLines.Clear();
+                var start = ThreadClock.Milliseconds;
+                foreach (var node in Manager.Nodes) node.Rules[0].Run(Manager.Simulation, 0);
+                best = Math.Min(best, ThreadClock.Milliseconds - start);
+                Manager.Step();
+            }
+            return best;
+        }
+
+        private static void Print(string what, double milliseconds) => Console.WriteLine("  " + what + ": " + milliseconds.ToString("0.00") + " ms");
+    }
+}

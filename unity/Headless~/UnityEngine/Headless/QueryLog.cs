@@ -1,0 +1,9 @@
+namespace UnityEngine.Headless
+{
+    /// What physics was asked, for tests.
+    public static class QueryLog
+    {
+        /// Rays cast since the process began.
+        public static long Rays { get; internal set; }
+    }
+}
