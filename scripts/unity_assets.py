@@ -122,10 +122,10 @@ class GameObject:
             yield document(*component)
 
 
-def make_material(maker, name, rgba):
+def make_material(maker, name, shader, rgba):
     maker.write(f"unity/Materials/{name}.mat", [document(21, 2100000, "Material", f"""  serializedVersion: 8
 {OF_OBJECT}  m_Name: {name}
-  m_Shader: {{fileID: 4800000, guid: {maker.guid('unity/Materials/Surface.shader')}, type: 3}}
+  m_Shader: {{fileID: 4800000, guid: {maker.guid(f'unity/Materials/{shader}.shader')}, type: 3}}
   m_Parent: {{fileID: 0}}
   m_ModifiedSerializedProperties: 0
   m_ValidKeywords: []
@@ -320,8 +320,8 @@ def tilted(degrees):
 
 def make_all(root, out):
     maker = Maker(root, out)
-    make_material(maker, "Node", (0.27, 0.55, 0.85, 1))
-    make_material(maker, "Link", (0.75, 0.75, 0.75, 1))
+    make_material(maker, "Node", "Surface", (0.27, 0.55, 0.85, 1))
+    make_material(maker, "Link", "Link", (0.75, 0.75, 0.75, 1))
     make_manager(maker)
     make_node(maker)
     for sample in sorted(os.listdir(os.path.join(root, "unity/Samples~"))):

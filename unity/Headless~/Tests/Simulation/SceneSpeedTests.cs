@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -41,6 +42,34 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(milliseconds, Is.LessThan(5));
         }
 
+        [TestCase(LinkColoring.Direction)]
+        [TestCase(LinkColoring.Length)]
+        public void The_link_view_of_83_000_links_takes_2_milliseconds_a_tick(LinkColoring coloring)
+        {
+            var view = new GameObject("Links").AddComponent<LinkView>();
+            view.Coloring = coloring;
+            ScatterInRadius(Count, 10, 1.75f);
+            Play(1);
+            var milliseconds = LeastOfView(view);
+            Print("link view by " + coloring + ", " + Manager.LinkCount + " links", milliseconds);
+            Assert.That(Manager.LinkCount, Is.InRange(75000, 90000));
+            Assert.That(milliseconds, Is.LessThan(2));
+        }
+
+        [Test]
+        public void The_link_view_of_10_000_nodes_stays_within_its_budget()
+        {
+            var view = new GameObject("Links").AddComponent<LinkView>();
+            ScatterInRadius(10 * Count, 31.6f, 1.75f);
+            Play(1);
+            var milliseconds = LeastOfView(view);
+            Print("link view within its limit, " + Manager.LinkCount + " links", milliseconds);
+            Assert.That(Manager.LinkCount, Is.GreaterThan(750000));
+            Assert.That(milliseconds, Is.LessThan(2));
+            view.Limit = int.MaxValue;
+            Print("link view without a limit, " + Manager.LinkCount + " links", LeastOfView(view));
+        }
+
         [Test]
         public void Line_of_sight_rules_cast_each_pair_once()
         {
@@ -73,6 +102,9 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
+        private static void ScatterInRadius(int count, float side, float radius) =>
+            Scatter(count, side, node => node.AddComponent<RadiusNeighbourhood>().Radius = radius);
+
         private int PairsWithin(float radius)
         {
             var pairs = 0;
@@ -99,6 +131,21 @@ namespace Collektive.Headless.Tests.Simulation
                 foreach (var node in Manager.Nodes) node.Rules[0].Run(Manager.Simulation, 0);
                 best = Math.Min(best, ThreadClock.Milliseconds - start);
                 Manager.Step();
+            }
+            return best;
+        }
+
+        /// <summary>Milliseconds of the view's frame after each of several ticks, that is with all links new.</summary>
+        private double LeastOfView(LinkView view)
+        {
+            var frame = (Action)typeof(LinkView).GetMethod("LateUpdate", BindingFlags.Instance | BindingFlags.NonPublic).CreateDelegate(typeof(Action), view);
+            var best = double.MaxValue;
+            for (var i = 0; i < Tries; i++)
+            {
+                Manager.Step();
+                var start = ThreadClock.Milliseconds;
+                frame();
+                best = Math.Min(best, ThreadClock.Milliseconds - start);
             }
             return best;
         }

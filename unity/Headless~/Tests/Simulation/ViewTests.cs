@@ -14,7 +14,7 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class ViewTests : SimulationFixture
     {
         [Test]
-        public void Each_directed_link_is_a_bar_from_its_sender_half_of_the_way()
+        public void Each_directed_link_is_a_bar_from_its_sender()
         {
             var view = AddLinkView();
             view.Width = 0.1f;
@@ -24,32 +24,15 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var bars = Bars();
             Assert.That(bars.Count, Is.EqualTo(1));
-            Assert.That(bars[0].Place.MultiplyPoint3x4(Vector3.zero), Is.EqualTo(new Vector3(1, 2, 3)));
-            Assert.That(bars[0].Place.MultiplyPoint3x4(Vector3.forward), Is.EqualTo(new Vector3(1, 2, 5)));
-            Assert.That(bars[0].Place.MultiplyVector(Vector3.right).magnitude, Is.EqualTo(0.1f).Within(1e-6f));
-            Assert.That(bars[0].Place.MultiplyVector(Vector3.up).magnitude, Is.EqualTo(0.1f).Within(1e-6f));
+            Assert.That(bars[0].From, Is.EqualTo(new Vector3(1, 2, 3)));
+            Assert.That(bars[0].To, Is.EqualTo(new Vector3(1, 2, 7)));
+            var draw = DrawLog.Draws[0];
+            Assert.That(draw.Properties.GetFloat("_LinkWidth"), Is.EqualTo(0.1f));
+            Assert.That((draw.Bounds.min - new Vector3(0.95f, 1.95f, 2.95f)).magnitude, Is.LessThan(1e-5f), "bars are in it");
+            Assert.That((draw.Bounds.max - new Vector3(1.05f, 2.05f, 7.05f)).magnitude, Is.LessThan(1e-5f));
             Manager.AddLink(1, 0, directed: true);
             Play(1);
             Assert.That(Bars().Count, Is.EqualTo(2));
-        }
-
-        [Test]
-        public void Bars_have_no_slant_whatever_their_direction()
-        {
-            AddLinkView();
-            MakeNode(0, Vector3.zero);
-            foreach (var place in new[] { Vector3.up, Vector3.down, Vector3.left, new Vector3(1, 5, 2) }) Manager.AddLink(0, MakeNode(0, place).Node.Id, true);
-            Play(1);
-            var bars = Bars();
-            Assert.That(bars.Count, Is.EqualTo(4));
-            foreach (var bar in bars)
-            {
-                Vector3 side = bar.Place.MultiplyVector(Vector3.right), top = bar.Place.MultiplyVector(Vector3.up),
-                    way = bar.Place.MultiplyVector(Vector3.forward);
-                Assert.That(Vector3.Dot(side, top), Is.EqualTo(0).Within(1e-6f));
-                Assert.That(Vector3.Dot(side, way), Is.EqualTo(0).Within(1e-6f));
-                Assert.That(Vector3.Dot(top, way), Is.EqualTo(0).Within(1e-6f));
-            }
         }
 
         [Test]
@@ -88,7 +71,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Thousands_of_links_are_a_few_draws_of_at_most_1023_and_nothing_else()
+        public void All_links_are_one_draw_of_48_corners_for_each_pair()
         {
             AddLinkView();
             for (var i = 0; i < 60; i++) MakeNode(0, new Vector3(i, i * i % 7, 0));
@@ -97,16 +80,38 @@ namespace Collektive.Headless.Tests.Simulation
                 for (var j = 0; j < i; j++) Manager.AddLink(i, j);
             }
             Play(1);
-            var instances = 0;
-            foreach (var draw in DrawLog.Draws)
-            {
-                Assert.That(draw.Instances, Is.LessThanOrEqualTo(1023));
-                Assert.That(draw.Material.enableInstancing, Is.True);
-                Assert.That(draw.Mesh.vertexCount, Is.GreaterThan(0));
-                instances += draw.Instances;
-            }
-            Assert.That(instances, Is.EqualTo(60 * 59));
-            Assert.That(DrawLog.Draws.Count, Is.EqualTo(4));
+            Assert.That(Bars().Count, Is.EqualTo(60 * 59));
+            Assert.That(DrawLog.Draws.Count, Is.EqualTo(1));
+            Assert.That((DrawLog.Draws[0].Vertices, DrawLog.Draws[0].Instances), Is.EqualTo((48, 30 * 59)));
+        }
+
+        [Test]
+        public void More_links_than_the_limit_are_not_drawn_and_the_view_says_so_once()
+        {
+            var view = AddLinkView();
+            view.Limit = 3;
+            for (var i = 0; i < 3; i++) MakeNode(0, i * Vector3.right);
+            Manager.AddLink(0, 1);
+            Manager.AddLink(1, 2);
+            Play(2);
+            Assert.That(DrawLog.Draws, Is.Empty);
+            Assert.That(Log.FindAll(line => line.Contains("there are 4 links, and the Link View draws 3 at most")).Count, Is.EqualTo(1));
+            Manager.RemoveLink(1, 2, directed: true);
+            Play(1);
+            Assert.That(Bars().Count, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Nodes_that_leave_and_come_in_any_order_keep_their_own_ends()
+        {
+            AddLinkView();
+            var nodes = new List<ProbeNode>();
+            foreach (var id in new[] { 900, 7, 30 }) nodes.Add(MakeNode(0, id * Vector3.right, id));
+            Manager.AddLink(900, 30, directed: true);
+            Play(1);
+            nodes[1].Node.enabled = false;
+            Play(1);
+            Assert.That(Bars().ConvertAll(bar => (bar.From.x, bar.To.x)), Is.EqualTo(new[] { (900f, 30f) }));
         }
 
         [Test]
@@ -131,28 +136,44 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_view_draws_with_copies_of_its_material_and_leaves_none_of_them_behind()
+        public void A_view_draws_with_its_material_and_leaves_nothing_behind()
         {
+            var before = DrawLog.Buffers;
             var view = AddLinkView();
             MakeNode(0);
             MakeNode(0, Vector3.right);
             Manager.AddLink(0, 1);
             Play(1);
-            Assert.That(DrawLog.Draws[0].Material.shader.name, Is.EqualTo("Collektive/Surface"));
+            var own = DrawLog.Draws[0].Material;
+            Assert.That(own.shader.name, Is.EqualTo("Collektive/Link"));
             Assert.That(view.Material == null, Is.True, "the package's own is nobody's setting");
+            Assert.That(DrawLog.Buffers, Is.EqualTo(before + 2));
             view.enabled = false;
-            var shared = new Material(Shader.Find("Standard")) { color = Color.blue, renderQueue = 1234 };
+            Play(1);
+            Assert.That(own == null, Is.True);
+            Assert.That(DrawLog.Buffers, Is.EqualTo(before));
+            var shared = new Material(Shader.Find("Collektive/Link"));
             view.Material = shared;
             view.enabled = true;
             Play(1);
-            var drawn = DrawLog.Draws[0].Material;
-            Assert.That(drawn.renderQueue, Is.EqualTo(1234));
-            Assert.That(shared.color, Is.EqualTo(Color.blue));
-            Assert.That(view.Material, Is.SameAs(shared));
+            Assert.That(DrawLog.Draws[0].Material, Is.SameAs(shared));
             view.enabled = false;
             Play(1);
-            Assert.That(drawn == null, Is.True);
             Assert.That(shared == null, Is.False);
+        }
+
+        [Test]
+        public void A_material_that_cannot_draw_links_is_an_error()
+        {
+            var view = AddLinkView();
+            view.enabled = false;
+            view.Material = new Material(Shader.Find("Standard"));
+            view.enabled = true;
+            Play(1);
+            Assert.That(view.enabled, Is.False);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("whose shader reads no links"));
+            Assert.That(DrawLog.Draws, Is.Empty);
         }
 
         [Test]
@@ -269,13 +290,22 @@ namespace Collektive.Headless.Tests.Simulation
             return block.GetColor("_BaseColor");
         }
 
-        /// <summary>All instances of this frame's draws.</summary>
-        private static List<(Matrix4x4 Place, Color Color)> Bars()
+        /// <summary>All bars of this frame's draws, as the shader makes them: it draws each from its beginning half of the way.</summary>
+        private static List<(Vector3 From, Vector3 To, Color Color)> Bars()
         {
-            var bars = new List<(Matrix4x4, Color)>();
+            var bars = new List<(Vector3, Vector3, Color)>();
             foreach (var draw in DrawLog.Draws)
             {
-                for (var i = 0; i < draw.Instances; i++) bars.Add((((Matrix4x4[])draw.Data)[draw.Start + i], draw.Material.color));
+                var places = draw.Read<Vector4>("_LinkPlaces");
+                var ends = draw.Read<uint>("_LinkPairs");
+                Color low = draw.Properties.GetColor("_LinkLow"), high = draw.Properties.GetColor("_LinkHigh");
+                for (var i = 0; i < 2 * draw.Instances; i++)
+                {
+                    var shade = ends[i] >> 24;
+                    if (shade == 255) continue;
+                    Vector3 from = places[(int)(ends[i] & 0xFFFFFF)], to = places[(int)(ends[i ^ 1] & 0xFFFFFF)];
+                    bars.Add((from, to, Color.Lerp(low, high, shade / 15f)));
+                }
             }
             return bars;
         }

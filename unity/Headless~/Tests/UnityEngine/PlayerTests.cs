@@ -114,8 +114,7 @@ namespace Collektive.Headless.Tests.Engine
         public void Draws_are_recorded_for_their_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));
-            var mesh = new Mesh();
-            Graphics.RenderMeshInstanced(in parameters, mesh, 0, new Matrix4x4[8], 5);
+            Graphics.RenderPrimitives(in parameters, MeshTopology.Triangles, 3, 5);
             Assert.That(DrawLog.Draws.Count, Is.EqualTo(1));
             Assert.That(DrawLog.Draws[0].Instances, Is.EqualTo(5));
             Loop.Frame(0.02f);

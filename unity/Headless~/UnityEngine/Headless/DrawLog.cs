@@ -8,19 +8,23 @@ namespace UnityEngine.Headless
         public readonly struct Draw
         {
             public readonly Material Material;
-            public readonly Mesh Mesh;
+            /// The caller's own; null for none.
+            public readonly MaterialPropertyBlock Properties;
+            public readonly Bounds Bounds;
+            public readonly int Vertices;
             public readonly int Instances;
-            /// The caller's own array or list of what is drawn from the first instance on; null for a single mesh.
-            public readonly object Data;
-            public readonly int Start;
 
-            internal Draw(Material material, Mesh mesh, int instances, object data, int start)
+            /// A buffer as the shader reads it.
+            public T[] Read<T>(string buffer)
+                where T : struct => Properties.BufferOf(buffer).Data<T>();
+
+            internal Draw(in RenderParams parameters, int vertices, int instances)
             {
-                Material = material;
-                Mesh = mesh;
+                Material = parameters.material;
+                Properties = parameters.matProps;
+                Bounds = parameters.worldBounds;
+                Vertices = vertices;
                 Instances = instances;
-                Data = data;
-                Start = start;
             }
         }
 
@@ -28,11 +32,13 @@ namespace UnityEngine.Headless
 
         public static IReadOnlyList<Draw> Draws => Recorded;
 
+        /// Graphics buffers that were made and not released: Unity warns of each that the garbage collector finds.
+        public static int Buffers { get; internal set; }
+
         /// Gizmos as text, "line (from) (to)", "ray (from) (direction)", "sphere (centre) radius"; for the test to empty.
         public static List<string> Gizmos { get; } = new List<string>();
 
-        internal static void Add(Material material, Mesh mesh, int instances, object data = null, int start = 0) =>
-            Recorded.Add(new Draw(material, mesh, instances, data, start));
+        internal static void Add(in RenderParams parameters, int vertices, int instances) => Recorded.Add(new Draw(parameters, vertices, instances));
 
         internal static void Clear() => Recorded.Clear();
     }

@@ -1,4 +1,3 @@
-using System.Collections.Generic;
 using UnityEngine.Rendering;
 
 namespace UnityEngine
@@ -23,18 +22,11 @@ namespace UnityEngine
     /// Draws are recorded for the frame (`Headless.DrawLog`), not drawn.
     public class Graphics
     {
-        public static void RenderMesh(in RenderParams rparams, Mesh mesh, int submeshIndex, Matrix4x4 objectToWorld, Matrix4x4? prevObjectToWorld = null) =>
-            Headless.DrawLog.Add(rparams.material, mesh, 1);
-
-        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1,
-            int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Length - startInstance : instanceCount,
-                instanceData, startInstance);
-
-        public static void RenderMeshInstanced<T>(in RenderParams rparams, Mesh mesh, int submeshIndex, List<T> instanceData, int instanceCount = -1,
-            int startInstance = 0)
-            where T : unmanaged => Headless.DrawLog.Add(rparams.material, mesh, instanceCount < 0 ? instanceData.Count - startInstance : instanceCount,
-                instanceData, startInstance);
+        public static void RenderPrimitives(in RenderParams rparams, MeshTopology topology, int vertexCount, int instanceCount = 1)
+        {
+            if (rparams.material == null) throw new System.InvalidOperationException("A draw needs a material.");
+            Headless.DrawLog.Add(rparams, vertexCount, instanceCount);
+        }
     }
 
     public sealed class Gizmos

@@ -12,7 +12,8 @@ namespace UnityEngine
         public Material(Shader shader)
         {
             this.shader = shader;
-            color = Color.white;
+            if (shader.name == "Collektive/Link") SetFloat("_LinkWidth", 0.04f);
+            else color = Color.white;
         }
 
         public Material(Material source)

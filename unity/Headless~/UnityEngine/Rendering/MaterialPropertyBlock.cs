@@ -7,12 +7,15 @@ namespace UnityEngine
         readonly Dictionary<int, Vector4> values = new Dictionary<int, Vector4>();
         readonly Dictionary<int, Vector4[]> arrays = new Dictionary<int, Vector4[]>();
 
-        public bool isEmpty => values.Count == 0 && arrays.Count == 0;
+        readonly Dictionary<int, GraphicsBuffer> buffers = new Dictionary<int, GraphicsBuffer>();
+
+        public bool isEmpty => values.Count == 0 && arrays.Count == 0 && buffers.Count == 0;
 
         public void Clear()
         {
             values.Clear();
             arrays.Clear();
+            buffers.Clear();
         }
 
         public void SetInt(string name, int value) => SetInt(Shader.PropertyToID(name), value);
@@ -29,6 +32,12 @@ namespace UnityEngine
         public void SetVectorArray(string name, List<Vector4> values) => SetVectorArray(Shader.PropertyToID(name), values);
         public void SetVectorArray(int nameID, Vector4[] values) => values.CopyTo(ArrayOf(nameID, values.Length), 0);
         public void SetVectorArray(int nameID, List<Vector4> values) => values.CopyTo(ArrayOf(nameID, values.Count), 0);
+
+        public void SetBuffer(string name, GraphicsBuffer value) => SetBuffer(Shader.PropertyToID(name), value);
+        public void SetBuffer(int nameID, GraphicsBuffer value) => buffers[nameID] = value;
+
+        /// What a shader would read.
+        internal GraphicsBuffer BufferOf(string name) => buffers[Shader.PropertyToID(name)];
 
         public float GetFloat(string name) => GetFloat(Shader.PropertyToID(name));
         public float GetFloat(int nameID) => GetVector(nameID).x;
@@ -51,6 +60,7 @@ namespace UnityEngine
         {
             Clear();
             foreach (var pair in other.values) values.Add(pair.Key, pair.Value);
+            foreach (var pair in other.buffers) buffers.Add(pair.Key, pair.Value);
             foreach (var pair in other.arrays) arrays.Add(pair.Key, (Vector4[])pair.Value.Clone());
         }
     }

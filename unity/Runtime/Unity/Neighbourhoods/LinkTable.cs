@@ -15,7 +15,8 @@ namespace Collektive.Unity
     {
         private const int None = -1;
 
-        private struct Way
+        /// <summary>One direction of a pair.</summary>
+        internal struct Way
         {
             internal float Length;
             internal float Attenuation;
@@ -25,7 +26,8 @@ namespace Collektive.Unity
             internal bool ByScript;
         }
 
-        private struct Pair
+        /// <summary>Two nodes, and the links between them that exist: those with holders.</summary>
+        internal struct Pair
         {
             internal int Low;
             internal int High;
@@ -63,6 +65,12 @@ namespace Collektive.Unity
 
         /// <summary>Entries ever used; the argument of <see cref="TryGet"/> is below it.</summary>
         internal int Capacity => 2 * used;
+
+        /// <summary>All pairs, unused ones among them, for views to look at: that copies nothing. Valid until a link is made.</summary>
+        internal Span<Pair> Pairs => new Span<Pair>(pairs, 0, used);
+
+        /// <summary>As many pairs as the table has memory for.</summary>
+        internal int PairCapacity => pairs.Length;
 
         /// <summary>Links that exist.</summary>
         internal int Count { get; private set; }
@@ -209,7 +217,7 @@ namespace Collektive.Unity
             way.Sent = way.Holders > 0;
         }
 
-        private static LinkRecord Record(int from, int to, in Way way) =>
+        internal static LinkRecord Record(int from, int to, in Way way) =>
             new LinkRecord { From = from, To = to, Length = way.Length, Attenuation = way.Attenuation };
 
         private static int Hash(int low, int high)

@@ -6,24 +6,33 @@ using UnityEngine.Rendering;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Draws all links in a few instanced draws, without a GameObject for any of them. Each directed link is drawn from its sender half of the way
-    /// to its receiver: two nodes that hear each other are joined by a whole line. What is drawn is that of the last tick.
+    /// Draws all links at once from two buffers, the nodes' places and the pairs of nodes that are linked, without a GameObject or a matrix for any of
+    /// them. Each directed link is drawn from its sender half of the way to its receiver: two nodes that hear each other are joined by a whole
+    /// line. What is drawn is that of the last tick.
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]
     public sealed class LinkView : MonoBehaviour
     {
-        /// <summary>Unity's limit of instances in one draw.</summary>
-        private const int MaxInstances = 1023;
+        /// <summary>Of the two bars of a pair, as the shader makes them.</summary>
+        private const int CornersOfPair = 48;
+
+        /// <summary>The step that the shader draws nothing for.</summary>
+        private const int NoLink = 255;
 
         [SerializeField]
-        [Tooltip("Material with GPU instancing on; its colour is replaced. None: the package's own.")]
+        [Tooltip("Material with the shader Collektive/Link, or one that reads the same buffers. None: the package's own.")]
         private Material material;
 
         [SerializeField]
         [Min(0.001f)]
         [Tooltip("Thickness of a link in metres.")]
         private float width = 0.04f;
+
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Most links that are drawn; while there are more, none is. 100,000 cost 2 ms of a tick.")]
+        private int limit = 100000;
 
         [SerializeField]
         [Tooltip("What links are coloured by.")]
@@ -33,17 +42,31 @@ namespace Collektive.Unity
         [Tooltip("Colours of numbers; by direction: the high one where two nodes hear each other, the low one where only one does.")]
         private ColorScale scale = new ColorScale();
 
-        private readonly Matrix4x4[][] places = new Matrix4x4[ColorScale.Steps][];
-        private readonly int[] counts = new int[ColorScale.Steps];
-        private readonly Material[] materials = new Material[ColorScale.Steps];
-        // By node id.
-        private Vector3[] positions = Array.Empty<Vector3>();
-        private Mesh mesh;
+        private GraphicsBuffer placesBuffer;
+        private GraphicsBuffer pairsBuffer;
+        private MaterialPropertyBlock properties;
+        private Material used;
+        private Vector4[] places = new Vector4[64];
+        private LinkedPair[] pairs = new LinkedPair[64];
+        // By link: two for each entry of the table.
+        private float[] numbers = Array.Empty<float>();
+        // By node id: where in places the node is.
+        private int[] placeOf = Array.Empty<int>();
         private Bounds bounds;
+        private int count;
+        private bool saidTooMany;
         private SimulationManager drawn;
         private ulong tick;
 
-        /// <summary>Material whose colour is replaced; null: the package's own. Read when the component is enabled.</summary>
+        /// <summary>A pair of nodes as the shader reads it: of each the place, and in the upper 8 bits the step of the link that begins there.</summary>
+        private struct LinkedPair
+        {
+            internal uint Low;
+            internal uint High;
+        }
+
+        /// <summary>Material with the shader Collektive/Link, or one that reads the same buffers; null: the package's own. Read when the component is
+        /// enabled.</summary>
         public Material Material
         {
             get => material;
@@ -55,6 +78,13 @@ namespace Collektive.Unity
         {
             get => width;
             set => width = value;
+        }
+
+        /// <summary>Most directed links that are drawn, 0 or greater; while there are more, none is.</summary>
+        public int Limit
+        {
+            get => limit;
+            set => limit = value;
         }
 
         /// <summary>What links are coloured by.</summary>
@@ -72,140 +102,169 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
-            var shader = material == null ? Shader.Find("Collektive/Surface") : null;
+            var shader = material == null ? Shader.Find("Collektive/Link") : null;
             if (material == null && shader == null)
             {
                 Debug.LogError("Link View on '" + name + "' has no material, and the package's shader is not in this player: name a material", this);
                 enabled = false;
                 return;
             }
-            mesh = MakeMesh();
-            for (var step = 0; step < materials.Length; step++)
+            if (material != null && !material.HasProperty(ShaderNames.Width))
             {
-                materials[step] = material == null ? new Material(shader) : new Material(material);
-                materials[step].enableInstancing = true;
-                places[step] = places[step] ?? Array.Empty<Matrix4x4>();
+                Debug.LogError("Link View on '" + name + "' cannot draw with the material '" + material.name
+                    + "', whose shader reads no links: use one with the shader Collektive/Link, or none", this);
+                enabled = false;
+                return;
             }
+            used = material == null ? new Material(shader) : material;
+            properties = new MaterialPropertyBlock();
             drawn = null;
+            count = 0;
         }
 
         private void OnDisable()
         {
-            Destroy(mesh);
-            for (var step = 0; step < materials.Length; step++)
-            {
-                Destroy(materials[step]);
-                counts[step] = 0;
-            }
+            if (used != material) Destroy(used);
+            placesBuffer?.Release();
+            pairsBuffer?.Release();
+            placesBuffer = null;
+            pairsBuffer = null;
         }
 
         private void LateUpdate()
         {
             var manager = SimulationManager.Current;
             if (manager == null) return;
-            if (drawn != manager || tick != manager.Tick) Collect(manager);
+            if (drawn != manager || tick != manager.Tick) Take(manager);
             drawn = manager;
             tick = manager.Tick;
-            for (var step = 0; step < materials.Length; step++) Draw(step);
+            if (count > 0) Draw();
         }
 
-        private void Draw(int step)
+        private void Draw()
         {
-            if (counts[step] == 0) return;
-            var parameters = new RenderParams(materials[step])
+            properties.SetFloat(ShaderNames.Width, width);
+            properties.SetVector(ShaderNames.Low, scale.low);
+            properties.SetVector(ShaderNames.High, scale.high);
+            var parameters = new RenderParams(used)
             {
                 layer = gameObject.layer,
                 worldBounds = bounds,
+                matProps = properties,
                 shadowCastingMode = ShadowCastingMode.Off,
                 receiveShadows = false,
             };
-            for (var start = 0; start < counts[step]; start += MaxInstances)
-            {
-                Graphics.RenderMeshInstanced(parameters, mesh, 0, places[step], Math.Min(MaxInstances, counts[step] - start), start);
-            }
+            Graphics.RenderPrimitives(parameters, MeshTopology.Triangles, CornersOfPair, count);
         }
 
-        private void Collect(SimulationManager manager)
+        private void Take(SimulationManager manager)
         {
-            TakePositions(manager);
+            count = 0;
             var links = manager.PresentLinks;
+            if (links.Count > limit)
+            {
+                if (!saidTooMany) Debug.LogWarning("there are " + links.Count + " links, and the Link View draws " + limit + " at most: none is drawn while "
+                    + "there are more. Raise its limit, or use smaller neighbourhoods", this);
+                saidTooMany = true;
+                return;
+            }
+            TakePlaces(manager);
+            var all = links.Pairs;
+            if (pairs.Length < all.Length) Array.Resize(ref pairs, links.PairCapacity);
+            if (coloring != LinkColoring.Direction) TakeNumbers(all, links.PairCapacity);
+            for (var i = 0; i < all.Length; i++)
+            {
+                ref var pair = ref all[i];
+                var up = pair.Up.Holders > 0;
+                var down = pair.Down.Holders > 0;
+                if (!up && !down) continue;
+                ref var taken = ref pairs[count++];
+                taken.Low = End(pair.Low, up ? StepOf(2 * i, down) : NoLink);
+                taken.High = End(pair.High, down ? StepOf(2 * i + 1, up) : NoLink);
+            }
+            if (count == 0) return;
+            Upload(ref placesBuffer, ShaderNames.Places, places, manager.Nodes.Count, 4 * sizeof(float));
+            Upload(ref pairsBuffer, ShaderNames.Pairs, pairs, count, 2 * sizeof(uint));
+        }
+
+        private uint End(int id, int step) => (uint)placeOf[id] | (uint)step << 24;
+
+        private int StepOf(int link, bool isBothWays)
+        {
+            if (coloring == LinkColoring.Direction) return isBothWays ? ColorScale.Steps - 1 : 0;
+            return scale.StepOf(numbers[link]);
+        }
+
+        /// <summary>Takes the number of each link, and makes room for it if the scale is automatic.</summary>
+        private void TakeNumbers(Span<LinkTable.Pair> all, int capacity)
+        {
+            if (numbers.Length < 2 * all.Length) Array.Resize(ref numbers, 2 * capacity);
+            var least = float.PositiveInfinity;
+            var most = float.NegativeInfinity;
+            for (var i = 0; i < all.Length; i++)
+            {
+                ref var pair = ref all[i];
+                if (pair.Up.Holders > 0) Include(numbers[2 * i] = NumberOf(pair.Low, pair.High, pair.Up), ref least, ref most);
+                if (pair.Down.Holders > 0) Include(numbers[2 * i + 1] = NumberOf(pair.High, pair.Low, pair.Down), ref least, ref most);
+            }
             scale.Begin();
-            for (var i = 0; i < links.Capacity; i++)
-            {
-                if (links.TryGet(i, out var link)) scale.Include(NumberOf(link, links));
-            }
-            Array.Clear(counts, 0, counts.Length);
-            for (var i = 0; i < links.Capacity; i++)
-            {
-                if (!links.TryGet(i, out var link)) continue;
-                var step = coloring == LinkColoring.Direction ? NumberOf(link, links) > 0 ? ColorScale.Steps - 1 : 0 : scale.StepOf(NumberOf(link, links));
-                Add(step, positions[link.From], positions[link.To]);
-            }
-            for (var step = 0; step < materials.Length; step++) materials[step].Paint(scale.At(step));
+            scale.Include(least);
+            scale.Include(most);
         }
 
-        private float NumberOf(in LinkRecord link, LinkTable links)
+        private static void Include(float number, ref float least, ref float most)
         {
-            switch (coloring)
-            {
-                case LinkColoring.Length: return link.Length;
-                case LinkColoring.Attenuation: return link.Attenuation;
-                case LinkColoring.Value: return Value == null ? 0 : Value(link);
-                default: return links.Contains(link.To, link.From) ? 1 : 0;
-            }
+            if (number < least && number >= float.MinValue) least = number;
+            if (number > most && number <= float.MaxValue) most = number;
         }
 
-        private void TakePositions(SimulationManager manager)
+        private float NumberOf(int from, int to, in LinkTable.Way way)
         {
-            if (positions.Length < manager.IdCapacity) Array.Resize(ref positions, manager.IdCapacity);
+            if (coloring == LinkColoring.Length) return way.Length;
+            if (coloring == LinkColoring.Attenuation) return way.Attenuation;
+            return Value == null ? 0 : Value(LinkTable.Record(from, to, way));
+        }
+
+        private void TakePlaces(SimulationManager manager)
+        {
             var nodes = manager.Nodes;
-            bounds = default;
+            if (placeOf.Length < manager.IdCapacity) Array.Resize(ref placeOf, manager.IdCapacity);
+            if (places.Length < nodes.Count) Array.Resize(ref places, Math.Max(nodes.Count, 2 * places.Length));
+            var least = Vector3.positiveInfinity;
+            var most = Vector3.negativeInfinity;
             for (var i = 0; i < nodes.Count; i++)
             {
-                var position = nodes[i].Body.position;
-                positions[nodes[i].Id] = position;
-                if (i == 0) bounds = new Bounds(position, width * Vector3.one);
-                else bounds.Encapsulate(position);
+                var node = nodes[i];
+                // After physics: the node's own position is that of the tick's beginning.
+                var place = node.Body.position;
+                placeOf[node.Id] = i;
+                places[i] = place;
+                least = Vector3.Min(least, place);
+                most = Vector3.Max(most, place);
             }
+            if (nodes.Count > 0) bounds = new Bounds(0.5f * (least + most), most - least + width * Vector3.one);
         }
 
-        /// <summary>The matrix that lays the mesh from a point half of the way to another; nothing is drawn between nodes at one point.</summary>
-        private void Add(int step, Vector3 from, Vector3 to)
+        /// <summary>Puts the first items into a buffer that holds all of them.</summary>
+        private void Upload<T>(ref GraphicsBuffer buffer, int shaderName, T[] items, int itemCount, int bytes)
         {
-            var way = 0.5f * (to - from);
-            var length = way.magnitude;
-            if (!(length > 0)) return;
-            var side = Vector3.Cross(Mathf.Abs(way.y) < 0.9f * length ? Vector3.up : Vector3.right, way);
-            side *= width / side.magnitude;
-            var top = Vector3.Cross(way, side) / length;
-            if (counts[step] == places[step].Length) Array.Resize(ref places[step], Math.Max(64, 2 * counts[step]));
-            ref var place = ref places[step][counts[step]++];
-            place.m00 = side.x; place.m01 = top.x; place.m02 = way.x; place.m03 = from.x;
-            place.m10 = side.y; place.m11 = top.y; place.m12 = way.y; place.m13 = from.y;
-            place.m20 = side.z; place.m21 = top.z; place.m22 = way.z; place.m23 = from.z;
-            place.m30 = 0; place.m31 = 0; place.m32 = 0; place.m33 = 1;
-        }
-
-        /// <summary>A bar from the origin one metre along z, one metre wide and high, without ends.</summary>
-        private static Mesh MakeMesh()
-        {
-            var corners = new Vector3[16];
-            var normals = new Vector3[16];
-            var triangles = new int[24];
-            for (var side = 0; side < 4; side++)
+            if (buffer == null || buffer.count < items.Length)
             {
-                var outwards = Quaternion.AngleAxis(90 * side, Vector3.forward) * Vector3.up;
-                var along = Vector3.Cross(outwards, Vector3.forward);
-                for (var corner = 0; corner < 4; corner++)
-                {
-                    corners[4 * side + corner] = 0.5f * outwards + (corner % 2 == 0 ? -0.5f : 0.5f) * along + (corner < 2 ? Vector3.zero : Vector3.forward);
-                    normals[4 * side + corner] = outwards;
-                }
-                var first = 4 * side;
-                var order = new[] { 0, 1, 2, 1, 3, 2 };
-                for (var i = 0; i < order.Length; i++) triangles[6 * side + i] = first + order[i];
+                buffer?.Release();
+                buffer = new GraphicsBuffer(GraphicsBuffer.Target.Structured, items.Length, bytes);
+                properties.SetBuffer(shaderName, buffer);
             }
-            return new Mesh { name = "Link", vertices = corners, normals = normals, triangles = triangles };
+            buffer.SetData(items, 0, 0, itemCount);
+        }
+
+        /// <summary>What the shader calls its properties and buffers.</summary>
+        private static class ShaderNames
+        {
+            internal static readonly int Places = Shader.PropertyToID("_LinkPlaces");
+            internal static readonly int Pairs = Shader.PropertyToID("_LinkPairs");
+            internal static readonly int Low = Shader.PropertyToID("_LinkLow");
+            internal static readonly int High = Shader.PropertyToID("_LinkHigh");
+            internal static readonly int Width = Shader.PropertyToID("_LinkWidth");
         }
     }
 }

@@ -19,11 +19,5 @@ namespace Collektive.Unity
             block.SetColor(Scriptable, color);
             renderer.SetPropertyBlock(block);
         }
-
-        internal static void Paint(this Material material, Color color)
-        {
-            if (material.HasProperty(BuiltIn)) material.SetColor(BuiltIn, color);
-            if (material.HasProperty(Scriptable)) material.SetColor(Scriptable, color);
-        }
     }
 }
