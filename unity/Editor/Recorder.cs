@@ -25,9 +25,9 @@ namespace Collektive.Unity.Editor
 
         internal void Draw()
         {
-            if (Jvm.State != JvmState.Running) return;
-            // Not with each repaint: it is a question to the JVM.
-            if (EditorApplication.timeSinceStartup - asked >= Interval) Ask();
+            // Repaints draw the controls of the layout before them; and it is a question to the JVM, which takes time.
+            if (Event.current.type == EventType.Layout && EditorApplication.timeSinceStartup - asked >= Interval) Ask();
+            if (status == null) return;
             EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections
                 + " collections");
             EditorGUILayout.LabelField("Flight recording", status.Recording.ToString().ToLowerInvariant()
@@ -58,7 +58,7 @@ namespace Collektive.Unity.Editor
         private void Ask()
         {
             asked = EditorApplication.timeSinceStartup;
-            status = Jvm.GetStatus();
+            status = Jvm.State == JvmState.Running ? Jvm.GetStatus() : null;
         }
 
         private static string Mebibytes(long bytes) => (bytes >> 20).ToString(CultureInfo.InvariantCulture) + " MB";

@@ -10,6 +10,10 @@ namespace Collektive.Unity.Editor
         internal const int LogLines = 500;
 
         private readonly List<LinkRecord> links = new List<LinkRecord>();
+        private readonly List<NodeRow> rows = new List<NodeRow>();
+        // By node id.
+        private int[] hears = Array.Empty<int>();
+        private int[] heard = Array.Empty<int>();
         private readonly Queue<string> log = new Queue<string>();
 
         internal Diagnostics(SimulationManager manager)
@@ -32,25 +36,16 @@ namespace Collektive.Unity.Editor
             Manager.Logged -= Logged;
         }
 
-        /// <summary>The nodes whose id, name or program contains the filter.</summary>
+        /// <summary>The nodes whose id, name or program contains the filter, valid until the next call.</summary>
         internal List<NodeRow> Nodes(string filter)
         {
-            Manager.CopyLinks(links);
-            var hears = new Dictionary<int, int>();
-            var heard = new Dictionary<int, int>();
-            foreach (var link in links)
+            CountLinks();
+            rows.Clear();
+            for (var i = 0; i < Manager.Nodes.Count; i++)
             {
-                Increase(hears, link.To);
-                Increase(heard, link.From);
-            }
-            var rows = new List<NodeRow>();
-            foreach (var node in Manager.Nodes)
-            {
+                var node = Manager.Nodes[i];
                 var program = node.Program.Length > 0 ? node.Program : Manager.Settings.program;
-                if (!Matches(node, program, filter)) continue;
-                hears.TryGetValue(node.Id, out var hearsCount);
-                heard.TryGetValue(node.Id, out var heardCount);
-                rows.Add(new NodeRow(node, program, hearsCount, heardCount));
+                if (Matches(node, program, filter)) rows.Add(new NodeRow(node, program, hears[node.Id], heard[node.Id]));
             }
             return rows;
         }
@@ -93,10 +88,28 @@ namespace Collektive.Unity.Editor
 
         private static bool Contains(string text, string part) => text.IndexOf(part, StringComparison.OrdinalIgnoreCase) >= 0;
 
-        private static void Increase(Dictionary<int, int> counts, int id)
+        private void CountLinks()
         {
-            counts.TryGetValue(id, out var count);
-            counts[id] = count + 1;
+            if (hears.Length < Manager.IdCapacity)
+            {
+                hears = new int[Manager.IdCapacity];
+                heard = new int[Manager.IdCapacity];
+            }
+            Array.Clear(hears, 0, hears.Length);
+            Array.Clear(heard, 0, heard.Length);
+            var pairs = Manager.PresentLinks.Pairs;
+            for (var i = 0; i < pairs.Length; i++)
+            {
+                ref var pair = ref pairs[i];
+                if (pair.Up.Holders > 0) Count(pair.Low, pair.High);
+                if (pair.Down.Holders > 0) Count(pair.High, pair.Low);
+            }
+        }
+
+        private void Count(int from, int to)
+        {
+            heard[from]++;
+            hears[to]++;
         }
 
         private void Ticked(SimulationManager manager) => Times.Add(manager.Times, manager.HostMicros.Rounds / 1000.0);

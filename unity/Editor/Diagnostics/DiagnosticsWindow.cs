@@ -8,15 +8,19 @@ namespace Collektive.Unity.Editor
     /// recordings.</summary>
     internal sealed class DiagnosticsWindow : EditorWindow
     {
-        private const int MaxRows = 200;
+        private const int MaxErrors = 200;
 
         private static readonly string[] Tabs = { "Nodes", "Errors", "Times", "Log", "JVM" };
 
         private readonly Recorder recorder = new Recorder();
 
         private Diagnostics diagnostics;
+        private List<NodeRow> rows;
+        private Vector2 listScroll;
         private Vector2 scroll;
         private string filter = "";
+        private string filtered;
+        private bool isStale;
         private int tab;
         private int selected = -1;
 
@@ -25,7 +29,11 @@ namespace Collektive.Unity.Editor
         private void OnDisable() => Detach();
 
         /// <summary>Ten times a second, by the editor.</summary>
-        private void OnInspectorUpdate() => Repaint();
+        private void OnInspectorUpdate()
+        {
+            isStale = true;
+            Repaint();
+        }
 
         private void OnGUI()
         {
@@ -37,9 +45,14 @@ namespace Collektive.Unity.Editor
             }
             EditorGUILayout.LabelField("Simulation", Dashboard.State(diagnostics.Manager) + ", tick " + diagnostics.Manager.Tick);
             tab = GUILayout.Toolbar(tab, Tabs);
-            scroll = GUILayout.BeginScrollView(scroll);
             if (tab == 0) DrawNodes();
-            else if (tab == 1) DrawErrors();
+            else DrawTab();
+        }
+
+        private void DrawTab()
+        {
+            scroll = GUILayout.BeginScrollView(scroll);
+            if (tab == 1) DrawErrors();
             else if (tab == 2) DrawTimes();
             else if (tab == 3) DrawLog();
             else recorder.Draw();
@@ -58,34 +71,57 @@ namespace Collektive.Unity.Editor
         {
             diagnostics?.Dispose();
             diagnostics = null;
+            rows = null;
+            isStale = true;
             selected = -1;
         }
 
+        /// <summary>The nodes, and below them what is known of the selected one. Of the list only what is in view is drawn.</summary>
         private void DrawNodes()
         {
             filter = EditorGUILayout.TextField("Filter", filter);
-            var rows = diagnostics.Nodes(filter);
-            for (var i = 0; i < rows.Count && i < MaxRows; i++) DrawNode(rows[i]);
-            if (rows.Count > MaxRows) EditorGUILayout.HelpBox((rows.Count - MaxRows) + " more; narrow the filter.", MessageType.None);
+            // Repaints draw the controls of the layout before them.
+            if (Event.current.type == EventType.Layout && (isStale || filter != filtered)) TakeRows();
+            var height = EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
+            var viewHeight = selected < 0 ? position.height : position.height / 2;
+            var first = Mathf.Clamp((int)(listScroll.y / height), 0, rows.Count);
+            var last = Mathf.Min(first + (int)(viewHeight / height) + 2, rows.Count);
+            listScroll = selected < 0 ? GUILayout.BeginScrollView(listScroll) : GUILayout.BeginScrollView(listScroll, GUILayout.Height(viewHeight));
+            GUILayout.Space(first * height);
+            for (var i = first; i < last; i++) DrawNode(rows[i]);
+            GUILayout.Space((rows.Count - last) * height);
+            GUILayout.EndScrollView();
+            if (selected < 0) return;
+            scroll = GUILayout.BeginScrollView(scroll);
+            var node = diagnostics.Manager.Find(selected);
+            if (node != null) DrawDetails(node);
+            GUILayout.EndScrollView();
+        }
+
+        private void TakeRows()
+        {
+            isStale = false;
+            filtered = filter;
+            rows = diagnostics.Nodes(filter);
         }
 
         private void DrawNode(NodeRow row)
         {
-            var id = row.Node.Id;
-            var title = id + "  " + row.Node.name + "  (" + row.Program + ")  hears " + row.Hears + ", heard by " + row.Heard
-                + (row.Node.LastError.Length > 0 ? "  ERROR" : "");
-            var open = EditorGUILayout.Foldout(selected == id, title, true);
-            if (open && selected != id)
+            var name = row.Node == null ? "(destroyed)" : row.Node.name;
+            var title = row.Id + "  " + name + "  (" + row.Program + ")  hears " + row.Hears + ", heard by " + row.Heard
+                + (row.Node != null && row.Node.LastError.Length > 0 ? "  ERROR" : "");
+            var open = EditorGUILayout.Foldout(selected == row.Id, title, true);
+            if (open && selected != row.Id)
             {
-                selected = id;
-                EditorGUIUtility.PingObject(row.Node);
+                selected = row.Id;
+                if (row.Node != null) EditorGUIUtility.PingObject(row.Node);
             }
-            if (!open && selected == id) selected = -1;
-            if (selected == id) DrawDetails(row.Node);
+            if (!open && selected == row.Id) selected = -1;
         }
 
         private void DrawDetails(Node node)
         {
+            EditorGUILayout.LabelField(node.Id + "  " + node.name, EditorStyles.boldLabel);
             EditorGUI.indentLevel++;
             if (node.LastError.Length > 0) EditorGUILayout.HelpBox(node.LastError, MessageType.Error);
             DrawLines(Diagnostics.TitleOf(node), diagnostics.Values(node.Id));
@@ -102,7 +138,7 @@ namespace Collektive.Unity.Editor
         {
             var errors = diagnostics.Errors();
             if (errors.Count == 0) EditorGUILayout.LabelField("No errors.");
-            for (var i = 0; i < errors.Count && i < MaxRows; i++)
+            for (var i = 0; i < errors.Count && i < MaxErrors; i++)
             {
                 var error = errors[i];
                 EditorGUILayout.LabelField(error.Source + ", node " + error.Node, error.Count + " times, last at tick " + error.LastTick);

@@ -6,12 +6,16 @@ namespace Collektive.Unity.Editor
         internal NodeRow(Node node, string program, int hears, int heard)
         {
             Node = node;
+            Id = node.Id;
             Program = program;
             Hears = hears;
             Heard = heard;
         }
 
+        /// <summary>Equal to null when it was destroyed since.</summary>
         internal Node Node { get; }
+
+        internal int Id { get; }
 
         /// <summary>Its own program, or the manager's.</summary>
         internal string Program { get; }

@@ -21,6 +21,7 @@ namespace UnityEditor
     public sealed class EditorGUIUtility
     {
         public static float singleLineHeight => 18f;
+        public static float standardVerticalSpacing => 2f;
         public static void PingObject(UnityEngine.Object obj) => Headless.Project.Pinged = obj;
     }
 

@@ -9,6 +9,7 @@ namespace UnityEditor
         static readonly Dictionary<Type, EditorWindow> Windows = new Dictionary<Type, EditorWindow>();
 
         public GUIContent titleContent { get; set; }
+        public Rect position { get; set; } = new Rect(0f, 0f, 400f, 600f);
 
         public static T GetWindow<T>(string title) where T : EditorWindow
         {

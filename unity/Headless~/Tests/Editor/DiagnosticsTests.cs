@@ -113,6 +113,65 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void Of_many_nodes_the_window_draws_those_in_view_and_all_are_reached_by_scrolling()
+        {
+            for (var i = 0; i < 1000; i++) MakeNode(0, i * Vector3.right);
+            Play(1);
+            Draw();
+            var rows = Rows();
+            Assert.That(rows.Count, Is.InRange(20, 40));
+            Assert.That(rows[0], Is.StringStarting("foldout 0  "));
+            Gui.Act("scroll", new Vector2(0, 1e6f));
+            Draw();
+            Draw();
+            Assert.That(Rows().Count, Is.EqualTo(0), "beyond the end there is nothing");
+            Gui.Act("scroll", new Vector2(0, 20 * 990));
+            Draw();
+            Draw();
+            Assert.That(Rows()[Rows().Count - 1], Is.StringStarting("foldout 999  "));
+        }
+
+        [Test]
+        public void A_node_that_is_destroyed_between_two_looks_of_the_window_is_drawn_as_such()
+        {
+            var nodes = MakeThree();
+            Draw();
+            Object.DestroyImmediate(nodes[2].Node.gameObject);
+            Draw();
+            Assert.That(Rows()[2], Is.StringStarting("foldout 2  (destroyed)  "));
+            Menus.Send(DiagnosticsWindow.Open(), "OnInspectorUpdate");
+            Draw();
+            Assert.That(Rows().Count, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void A_recording_that_starts_between_layout_and_repaint_shows_at_the_next_layout()
+        {
+            MakeThree();
+            var inspector = UnityEditor.Editor.CreateEditor(Manager);
+            inspector.OnInspectorGUI();
+            var file = Path.Combine(Path.GetTempPath(), "collektive-" + System.Guid.NewGuid().ToString("N") + ".jfr");
+            try
+            {
+                // The recorder asks the JVM twice a second.
+                System.Threading.Thread.Sleep(600);
+                Gui.Passes(inspector.OnInspectorGUI, () =>
+                {
+                    JvmRecording.Start(file);
+                    System.Threading.Thread.Sleep(600);
+                });
+                Assert.That(Gui.Lines, Has.None.EqualTo("button Stop Recording"));
+                Inspect(inspector, "button Stop Recording");
+            }
+            finally
+            {
+                JvmRecording.Stop();
+                Inspect(inspector, "button Start Recording");
+                File.Delete(file);
+            }
+        }
+
+        [Test]
         public void The_window_has_a_tab_for_each_question()
         {
             MakeThree();
@@ -299,6 +358,8 @@ namespace Collektive.Headless.Tests.Editor
             Play(1);
             return nodes;
         }
+
+        private static List<string> Rows() => new List<string>(Gui.Lines).FindAll(line => line.StartsWith("foldout "));
 
         private static void Draw()
         {

@@ -3,7 +3,10 @@ using System.Collections.Generic;
 using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Collektive.Unity.Editor;
 using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Headless;
 using UnityEngine;
 using UnityEngine.Headless;
 
@@ -18,6 +21,13 @@ namespace Collektive.Headless.Tests.Simulation
     {
         private const int Count = 1000;
         private const int Tries = 15;
+
+        [TearDown]
+        public void CloseWindow()
+        {
+            EditorApplication.isPlaying = false;
+            DiagnosticsWindow.Open().Close();
+        }
 
         [Test]
         public void Trigger_rules_of_95_neighbours_take_5_milliseconds_a_tick()
@@ -86,6 +96,47 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.Step();
             Assert.That(QueryLog.Rays - before, Is.EqualTo(PairsWithin(2)));
             Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void The_diagnostics_window_takes_half_a_millisecond_of_an_event()
+        {
+            EditorApplication.isPlaying = true;
+            ScatterInRadius(Count, 10, 1.75f);
+            Play(1);
+            var window = DiagnosticsWindow.Open();
+            var milliseconds = ThreadClock.Least(Tries, () =>
+            {
+                Gui.Clear();
+                Menus.Send(window, "OnGUI");
+            });
+            Print("diagnostics window, an event", milliseconds);
+            var first = ThreadClock.Least(Tries, () =>
+            {
+                Gui.Clear();
+                Menus.Send(window, "OnInspectorUpdate");
+                Menus.Send(window, "OnGUI");
+            });
+            Print("diagnostics window, the first event after a tenth of a second", first);
+            Assert.That(Math.Max(milliseconds, first), Is.LessThan(0.5));
+        }
+
+        [Test]
+        public void Nodes_that_leave_together_cost_no_search_each()
+        {
+            const int count = 10 * Count;
+            var nodes = new Node[count];
+            for (var i = 0; i < count; i++) nodes[i] = new GameObject("Node").AddComponent<Node>();
+            Play(1);
+            var start = ThreadClock.Milliseconds;
+            for (var i = 0; i < count; i++) nodes[i * 7919 % count].enabled = false;
+            var leaving = ThreadClock.Milliseconds - start;
+            Print(count + " nodes leave", leaving);
+            start = ThreadClock.Milliseconds;
+            foreach (var node in nodes) node.enabled = true;
+            Play(1);
+            Print(count + " nodes join", ThreadClock.Milliseconds - start);
+            Assert.That(Manager.Nodes.Count, Is.EqualTo(count));
         }
 
         private static void Scatter(int count, float side, Action<GameObject> equip)

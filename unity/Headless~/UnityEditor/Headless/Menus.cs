@@ -48,9 +48,14 @@ namespace UnityEditor.Headless
 
         public static void ChangePlayMode(PlayModeStateChange change) => EditorApplication.RaisePlayMode(change);
 
-        /// Sends a message by name, if the object has it.
-        public static void Send(object receiver, string message) =>
-            receiver.GetType().GetMethod(message, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic)?.Invoke(receiver, null);
+        /// Sends a message by name, if the object has it; what it throws comes out as it is.
+        public static void Send(object receiver, string message)
+        {
+            var method = receiver.GetType().GetMethod(message, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+            var call = (Action)method?.CreateDelegate(typeof(Action), receiver);
+            if (message == "OnGUI") UnityEngine.Headless.Gui.Passes(call);
+            else call?.Invoke();
+        }
 
         internal static IEnumerable<Type> EditorTypes()
         {

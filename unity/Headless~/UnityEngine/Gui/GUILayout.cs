@@ -24,7 +24,9 @@ namespace UnityEngine
             return Gui.Take("toolbar", selected);
         }
 
-        public static Vector2 BeginScrollView(Vector2 scrollPosition, params GUILayoutOption[] options) => scrollPosition;
+        public static Vector2 BeginScrollView(Vector2 scrollPosition, params GUILayoutOption[] options) => Gui.Take("scroll", scrollPosition);
         public static void EndScrollView() { }
+        public static void Space(float pixels) { }
+        public static GUILayoutOption Height(float height) => null;
     }
 }

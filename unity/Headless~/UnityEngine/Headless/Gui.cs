@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace UnityEngine.Headless
@@ -7,6 +8,8 @@ namespace UnityEngine.Headless
     {
         static readonly List<string> Drawn = new List<string>();
         static readonly Dictionary<string, object> Actions = new Dictionary<string, object>();
+
+        static bool isPassing;
 
         /// One line for each control: "KIND NAME: VALUE", controls that are disabled with "(disabled) " in front.
         public static IReadOnlyList<string> Lines => Drawn;
@@ -19,14 +22,40 @@ namespace UnityEngine.Headless
         /// Forgets what was drawn.
         public static void Clear() => Drawn.Clear();
 
+        /// Draws as the editor does: a pass for the layout, and one for the event, here a repaint or what `Act` has ordered. `between` happens
+        /// between the two. A repaint with more controls than the layout is an error; a pass whose event a control has used may have any.
+        public static void Passes(Action draw, Action between = null)
+        {
+            var shown = Drawn.Count;
+            isPassing = true;
+            Event.current = new Event { type = EventType.Layout };
+            try
+            {
+                draw();
+                var controls = Drawn.Count - shown;
+                Drawn.RemoveRange(shown, controls);
+                between?.Invoke();
+                Event.current = new Event { type = Actions.Count > 0 ? EventType.MouseDown : EventType.Repaint };
+                draw();
+                if (Event.current.type != EventType.Used && Drawn.Count - shown > controls)
+                    throw new ArgumentException($"Getting control {controls}'s position in a group with only {controls} controls when doing repaint");
+            }
+            finally
+            {
+                Event.current = new Event { type = EventType.Layout };
+                isPassing = false;
+            }
+        }
+
         public static void Draw(string kind, string name, string value = null) =>
             Drawn.Add((DisabledDepth > 0 ? "(disabled) " : "") + kind + " " + name + (value == null ? "" : ": " + value));
 
         public static T Take<T>(string name, T value)
         {
-            if (DisabledDepth > 0 || !Actions.TryGetValue(name, out var changed)) return value;
+            if (DisabledDepth > 0 || isPassing && Event.current.type == EventType.Layout || !Actions.TryGetValue(name, out var changed)) return value;
             Actions.Remove(name);
             Changed = true;
+            if (isPassing) Event.current.Use();
             return (T)changed;
         }
 
