@@ -244,7 +244,7 @@ def make_scene(maker, sample):
     camera.add(81, "AudioListener", "  m_Enabled: 1\n")
     light = GameObject(path, "Directional Light", position=(0, 10, 0), rotation=(0.40821788, -0.23456968, 0.10938163, 0.8754261))
     light.add(108, "Light", """  m_Enabled: 1
-  serializedVersion: 10
+  serializedVersion: 11
   m_Type: 1
   m_Color: {r: 1, g: 0.96, b: 0.88, a: 1}
   m_Intensity: 1

@@ -37,8 +37,9 @@ namespace Collektive.Unity.Editor
                 return;
             }
             var made = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
-            GameObjectUtility.SetParentAndAlign(made, command.context as GameObject);
-            GameObjectUtility.EnsureUniqueNameForSibling(made);
+            // Unity gives no context when the entry is executed by its name.
+            var parent = command.context as GameObject;
+            ObjectFactory.PlaceGameObject(made, parent != null ? parent : Selection.activeGameObject);
             Undo.RegisterCreatedObjectUndo(made, "Create " + made.name);
             Selection.activeGameObject = made;
         }

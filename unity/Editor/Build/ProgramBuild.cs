@@ -19,7 +19,7 @@ namespace Collektive.Unity.Editor
             return SchemaCode.MakeJava(project, java)
                 && CompileJava(jdk, java, classes)
                 && CompileKotlin(jdk, kotlin, classes, Path.GetFullPath(project.Programs))
-                && Pack(jdk, java, classes, work, project.Jar);
+                && Pack(jdk, java, classes, work, project);
         }
 
         private static bool CompileJava(string jdk, string java, string classes)
@@ -39,14 +39,15 @@ namespace Collektive.Unity.Editor
             });
         }
 
-        private static bool Pack(string jdk, string java, string classes, string work, string jar)
+        private static bool Pack(string jdk, string java, string classes, string work, SchemaProject project)
         {
             var part = Path.Combine(work, "programs.jar");
             // The schema's service entry lies beside the Java code.
             if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", java, "META-INF", "-C", classes, "." }))
                 return false;
-            if (File.Exists(jar)) File.Delete(jar);
-            File.Move(part, jar);
+            if (File.Exists(project.Jar)) File.Delete(project.Jar);
+            File.Move(part, project.Jar);
+            project.Made();
             return true;
         }
 

@@ -14,7 +14,7 @@ namespace Collektive.Unity.Editor
 
         private static bool Make(SchemaProject project, string language, string folder)
         {
-            var java = Path.Combine(Toolchain.FindJdk(), "bin/java");
+            var java = Toolchain.FindJava();
             var (code, output) = ToolRun.Try(
                 ".", java, "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", Toolchain.Generator, "--flatc", Toolchain.Flatc(),
                 "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema), language, Path.GetFullPath(folder));

@@ -29,12 +29,18 @@ namespace Collektive.Unity.Editor
 
         internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
 
-        /// <summary>Whether the schema or a program was changed after the jar was made.</summary>
+        /// <summary>Names the package's version that made the jar: another one generates other code.</summary>
+        private string Maker => Jar + ".version";
+
+        /// <summary>Notes that the jar was made now, by this version of the package.</summary>
+        internal void Made() => File.WriteAllText(Maker, PackageState.Version);
+
+        /// <summary>Whether the schema or a program was changed after the jar was made, or another version of the package made it.</summary>
         internal bool IsStale
         {
             get
             {
-                if (!File.Exists(Jar)) return true;
+                if (!File.Exists(Jar) || !File.Exists(Maker) || File.ReadAllText(Maker) != PackageState.Version) return true;
                 var made = File.GetLastWriteTimeUtc(Jar);
                 if (File.GetLastWriteTimeUtc(Schema) > made) return true;
                 foreach (var file in Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories))

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Runtime.InteropServices;
+using System.Security.Cryptography;
 
 namespace Collektive.Unity.Editor
 {
@@ -14,6 +15,7 @@ namespace Collektive.Unity.Editor
         /// <summary>The plugin works with this version of the compiler only.</summary>
         internal const string KotlinVersion = "2.4";
 
+        private const string UsualFolder = "/usr/lib/jvm";
         private const string Tools = "Packages/org.collektive.unity/Tools~/";
 
         internal static string Generator => Shipped("collektive-generator.jar");
@@ -29,13 +31,30 @@ namespace Collektive.Unity.Editor
             if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux))
                 throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
             var shipped = Shipped("linux-x64/flatc");
-            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc");
-            if (File.Exists(copy) && File.GetLastWriteTimeUtc(copy) >= File.GetLastWriteTimeUtc(shipped)) return copy;
+            // By content: packages are unpacked with times of any year.
+            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped));
+            if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
-            File.Copy(shipped, copy, true);
-            File.SetLastWriteTimeUtc(copy, DateTime.UtcNow);
-            ToolRun.Do("/bin/chmod", "755", copy);
+            var part = copy + ".part";
+            File.Copy(shipped, part, true);
+            ToolRun.Do("/bin/chmod", "755", part);
+            File.Move(part, copy);
             return copy;
+        }
+
+        /// <summary>
+        /// The command java of version 17 or newer, for what needs no compiler: the package's own, else that of the JDK in the settings, of
+        /// <c>JAVA_HOME</c>, or of the usual folder.
+        /// </summary>
+        /// <exception cref="ToolException">There is none.</exception>
+        internal static string FindJava()
+        {
+            var candidates = new List<string> { Installation.Bundled, ProjectSettings.instance.jdk };
+            AddInstalled(candidates);
+            var found = candidates.Find(home => IsJre(home) && Version(home) >= 17);
+            return found != null ? Path.Combine(found, "bin/java") : throw new ToolException(
+                "no Java 17 or newer was found: install the package that has its own, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, else "
+                + "adoptium.net), and set JAVA_HOME or name its folder in Project Settings > Collektive");
         }
 
         /// <summary>Root of the JDK: what the settings name, else <c>JAVA_HOME</c>, else the newest of the usual folder.</summary>
@@ -46,13 +65,8 @@ namespace Collektive.Unity.Editor
             if (named.Length > 0)
                 return IsJdk(named) ? named
                     : throw new ToolException("the JDK of the project settings, " + named + ", has no bin/javac: correct it in Project Settings > Collektive");
-            var candidates = new List<string> { Environment.GetEnvironmentVariable("JAVA_HOME") ?? "" };
-            if (Directory.Exists("/usr/lib/jvm"))
-            {
-                var installed = Directory.GetDirectories("/usr/lib/jvm");
-                Array.Sort(installed, (a, b) => Version(b).CompareTo(Version(a)));
-                candidates.AddRange(installed);
-            }
+            var candidates = new List<string>();
+            AddInstalled(candidates);
             var found = candidates.Find(home => IsJdk(home) && Version(home) >= 17);
             return found ?? throw new ToolException(
                 "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, else adoptium.net) "
@@ -83,7 +97,28 @@ namespace Collektive.Unity.Editor
             return home;
         }
 
-        private static bool IsJdk(string home) => home.Length > 0 && File.Exists(Path.Combine(home, "bin/javac")) && File.Exists(Path.Combine(home, "release"));
+        private static string Hash(string file)
+        {
+            using (var hash = SHA256.Create())
+            using (var stream = File.OpenRead(file))
+            {
+                return BitConverter.ToString(hash.ComputeHash(stream), 0, 8).Replace("-", "").ToLowerInvariant();
+            }
+        }
+
+        /// <summary>That of <c>JAVA_HOME</c>, then those of the usual folder, the newest first.</summary>
+        private static void AddInstalled(List<string> candidates)
+        {
+            candidates.Add(Environment.GetEnvironmentVariable("JAVA_HOME") ?? "");
+            if (!Directory.Exists(UsualFolder)) return;
+            var installed = Directory.GetDirectories(UsualFolder);
+            Array.Sort(installed, (a, b) => Version(b).CompareTo(Version(a)));
+            candidates.AddRange(installed);
+        }
+
+        private static bool IsJre(string home) => home.Length > 0 && File.Exists(Path.Combine(home, "bin/java")) && File.Exists(Path.Combine(home, "release"));
+
+        private static bool IsJdk(string home) => IsJre(home) && File.Exists(Path.Combine(home, "bin/javac"));
 
         /// <summary>The major version of a JDK; 0 when it does not say.</summary>
         private static int Version(string home)

@@ -19,8 +19,8 @@ namespace UnityEditor
         public static bool isPlaying { get; set; }
         public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
-        /// Calls the entry with that path; false when there is none.
-        public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath, Selection.activeGameObject);
+        /// Calls the entry with that path, without a context; false when there is none.
+        public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
 
         internal static void RaisePlayMode(PlayModeStateChange change)
         {

@@ -19,16 +19,21 @@ namespace UnityEditor
         public static void RegisterCreatedObjectUndo(Object objectToUndo, string name) => Headless.Project.Undoable.Add(name);
     }
 
-    public sealed class GameObjectUtility
+    public static class ObjectFactory
     {
-        public static void SetParentAndAlign(GameObject child, GameObject parent)
+        /// Below the parent if there is one, under a name of its own there, and selected.
+        public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
-            if (parent == null) return;
-            child.transform.SetParent(parent.transform, false);
-            child.layer = parent.layer;
+            if (parent != null)
+            {
+                go.transform.SetParent(parent.transform, false);
+                go.layer = parent.layer;
+            }
+            Name(go);
+            Selection.activeGameObject = go;
         }
 
-        public static void EnsureUniqueNameForSibling(GameObject self)
+        static void Name(GameObject self)
         {
             var taken = new System.Collections.Generic.HashSet<string>();
             var parent = self.transform.parent;

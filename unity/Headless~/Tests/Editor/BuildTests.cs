@@ -66,6 +66,10 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
             Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.True, string.Join("\n", Log));
             Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.False);
+            var version = File.ReadAllText("Library/Collektive/swarm.jar.version");
+            File.WriteAllText("Library/Collektive/swarm.jar.version", "0.0.1");
+            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.True, "another version of the package generates other code");
+            File.WriteAllText("Library/Collektive/swarm.jar.version", version);
 
             var manager = new GameObject("Manager").AddComponent<SimulationManager>();
             manager.Settings.jars.Add("Library/Collektive/swarm.jar");
@@ -126,6 +130,60 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT {
         {
             UseKotlin("1.9.0");
             Assert.Throws<ToolException>(() => Toolchain.FindKotlin());
+        }
+
+        [Test]
+        public void Code_is_generated_by_the_packages_own_JRE()
+        {
+            var bundled = Path.Combine(Path.GetFullPath(Project.PackageCache), "unity/Jvm~/linux-x64");
+            MakeJre(bundled);
+            Write("Assets/Swarm/swarm.fbs", Schema);
+            // Its java notes that it ran.
+            File.Move(bundled + "/bin/java", bundled + "/bin/real");
+            File.WriteAllText(bundled + "/bin/java", "#!/bin/sh\necho ran >>ran.txt\nexec '" + bundled + "/bin/real' \"$@\"\n");
+            ToolRun.Do("/bin/chmod", "755", bundled + "/bin/java");
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
+            Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, string.Join("\n", Log));
+            Assert.That(File.ReadAllText("ran.txt"), Is.EqualTo("ran\n"));
+        }
+
+        [Test]
+        public void Code_is_generated_by_a_JRE_of_the_users()
+        {
+            MakeJre(Path.GetFullPath("jre"));
+            ProjectSettings.instance.jdk = Path.GetFullPath("jre");
+            Assert.That(Toolchain.FindJava(), Is.EqualTo(Path.GetFullPath("jre/bin/java")));
+            Assert.That(Assert.Throws<ToolException>(() => Toolchain.FindJdk()).Message, Is.StringContaining("has no bin/javac"));
+        }
+
+        [Test]
+        public void A_shipped_tool_of_another_content_is_copied_anew_whatever_its_time()
+        {
+            var first = Toolchain.Flatc();
+            Assert.That(Toolchain.Flatc(), Is.EqualTo(first));
+            var shipped = Project.PackageCache + "/unity/Tools~/linux-x64/flatc";
+            File.AppendAllText(shipped, "newer");
+            File.SetLastWriteTimeUtc(shipped, new DateTime(1985, 10, 26));
+            Assert.That(Toolchain.Flatc(), Is.Not.EqualTo(first));
+            Assert.That(File.ReadAllBytes(Toolchain.Flatc()), Is.EqualTo(File.ReadAllBytes(shipped)));
+        }
+
+        [Test]
+        public void An_update_of_the_package_asks_for_a_restart_of_the_editor()
+        {
+            Menus.Load();
+            Assert.That(Log, Is.Empty);
+            SessionState.SetString("Collektive.Version", "0.0.1");
+            Menus.Load();
+            Assert.That(Logged("restart the editor"), Is.StringStarting("Warning: Collektive was updated from 0.0.1 to "));
+        }
+
+        /// <summary>A folder with what a JRE has: a JVM and no compiler.</summary>
+        private static void MakeJre(string folder)
+        {
+            var jdk = Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_JAVA_HOME");
+            Directory.CreateDirectory(folder + "/bin");
+            foreach (var part in new[] { "bin/java", "lib", "release" }) ToolRun.Do("/bin/cp", "-rs", Path.GetFullPath(jdk + "/" + part), folder + "/" + part);
         }
 
         [Test]

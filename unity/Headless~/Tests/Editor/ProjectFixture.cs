@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using NUnit.Framework;
 using UnityEditor;
+using UnityEditor.Headless;
 using UnityEngine;
 using UnityEngine.Headless;
 
@@ -30,6 +31,8 @@ namespace Collektive.Headless.Tests.Editor
             Directory.CreateDirectory(folder);
             Directory.SetCurrentDirectory(folder);
             Unity.Installation.HostJar = null;
+            SessionState.EraseString("Collektive.Version");
+            Menus.Load();
             Copy("schema/types.fbs", "Tools~/types.fbs");
             Copy("build/flatc", "Tools~/linux-x64/flatc");
             Copy("jvm-host/generator/target/collektive-generator.jar", "Tools~/collektive-generator.jar");
@@ -72,7 +75,7 @@ namespace Collektive.Headless.Tests.Editor
 
         private static void Copy(string built, string packed)
         {
-            var target = Path.Combine("Packages/org.collektive.unity/unity", packed);
+            var target = Path.Combine(Project.PackageCache, "unity", packed);
             Directory.CreateDirectory(Path.GetDirectoryName(target));
             File.Copy(Path.Combine(Root, built), target);
         }

@@ -34,6 +34,19 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_kinematic_body_is_given_no_velocity_and_the_user_reads_of_it_once()
+        {
+            var node = MakeNode(3).Node;
+            var actuator = node.gameObject.AddComponent<Fly>();
+            node.GetComponent<Rigidbody>().isKinematic = true;
+            Play(5);
+            Assert.That(Log.FindAll(line => line.Contains("kinematic")), Is.EqualTo(new[]
+            {
+                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a Move actuator",
+            }));
+        }
+
+        [Test]
         public void A_body_is_driven_towards_its_target_and_falls_by_itself()
         {
             var node = MakeNode(500).Node;

@@ -82,6 +82,24 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Of_meshes_that_are_not_convex_the_bounds_count_and_the_user_reads_of_it_once()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
+            sensor.Reach = 3;
+            var mesh = new Mesh { bounds = new Bounds(Vector3.zero, Vector3.one) };
+            for (var i = 0; i < 2; i++)
+            {
+                var rock = new GameObject("Rock");
+                rock.transform.position = new Vector3(2 + i, 0, 0);
+                rock.AddComponent<MeshCollider>().sharedMesh = mesh;
+            }
+            Play(3);
+            Assert.That(sensor.Values.ConvertAll(obstacle => obstacle.Distance), Is.EqualTo(new[] { 1.5f, 2.5f }));
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Log.FindAll(line => line.Contains("'Rock', whose collider is no box, sphere, capsule or convex mesh")).Count, Is.EqualTo(1));
+        }
+
+        [Test]
         public void More_obstacles_than_there_was_room_for_are_all_found()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();

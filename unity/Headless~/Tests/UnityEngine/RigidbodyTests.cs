@@ -7,6 +7,20 @@ namespace Collektive.Headless.Tests.Engine
     public sealed class RigidbodyTests : PhysicsFixture
     {
         [Test]
+        public void A_kinematic_body_takes_no_velocity_and_says_so_each_time()
+        {
+            var body = new GameObject("body").AddComponent<Rigidbody>();
+            body.isKinematic = true;
+            body.linearVelocity = Vector3.one;
+            body.angularVelocity = Vector3.one;
+            Assert.That(Errors, Is.EqualTo(new[]
+            {
+                "Setting linear velocity of a kinematic body is not supported.", "Setting angular velocity of a kinematic body is not supported.",
+            }));
+            Assert.That(body.linearVelocity, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
         public void Free_fall_is_semi_implicit_Euler()
         {
             var ball = Ball(new Vector3(0f, 100f, 0f));

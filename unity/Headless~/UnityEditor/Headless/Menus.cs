@@ -10,12 +10,12 @@ namespace UnityEditor.Headless
     {
         const BindingFlags Statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
 
-        internal static bool Click(string path, GameObject context)
+        internal static bool Click(string path)
         {
             foreach (var method in Marked(typeof(MenuItem)))
             {
                 if (method.GetCustomAttribute<MenuItem>().menuItem != path) continue;
-                method.Invoke(null, method.GetParameters().Length == 0 ? null : new object[] { new MenuCommand(context) });
+                method.Invoke(null, method.GetParameters().Length == 0 ? null : new object[] { new MenuCommand(null) });
                 return true;
             }
             return false;

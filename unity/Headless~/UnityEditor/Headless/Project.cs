@@ -12,6 +12,11 @@ namespace UnityEditor.Headless
         /// The package's folder: the clone's.
         static string Root => Path.Combine(System.Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT") ?? "", "unity");
 
+        /// Where the package manager keeps the package, below the working folder; it is not in `Packages`.
+        public const string PackageCache = "Library/PackageCache/org.collektive.unity@1a2b3c";
+
+        internal static string PhysicalPath(string path) => path.StartsWith(Package) ? PackageCache + path.Substring(Package.Length) : path;
+
         public static int Refreshes { get; internal set; }
         public static string Revealed { get; set; }
         public static UnityEngine.Object Pinged { get; internal set; }

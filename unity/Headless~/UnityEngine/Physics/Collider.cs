@@ -85,7 +85,15 @@ namespace UnityEngine
         internal bool IsStatic => Body is null;
         internal Shape Local => local;
 
-        public Vector3 ClosestPoint(Vector3 position) => Registered ? World.ClosestPoint(position) : position;
+        /// Whether physics knows the shape's closest points.
+        internal virtual bool HasClosestPoint => true;
+
+        public Vector3 ClosestPoint(Vector3 position)
+        {
+            if (HasClosestPoint) return Registered ? World.ClosestPoint(position) : position;
+            Debug.LogError("Physics.ClosestPoint can only be used with a BoxCollider, SphereCollider, CapsuleCollider and a convex MeshCollider.", this);
+            return position;
+        }
         public Vector3 ClosestPointOnBounds(Vector3 position) => bounds.ClosestPoint(position);
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>

@@ -21,9 +21,7 @@ namespace UnityEngine
         public Vector3 impulse { get; internal set; }
         public Vector3 relativeVelocity { get; internal set; }
         public Collider collider { get; internal set; }
-        public Collider thisCollider { get; internal set; }
         public Rigidbody rigidbody => collider.attachedRigidbody;
-        public Rigidbody thisRigidbody => thisCollider.attachedRigidbody;
         public Component body => rigidbody;
         public Transform transform => rigidbody ? rigidbody.transform : collider.transform;
         public GameObject gameObject => transform.gameObject;

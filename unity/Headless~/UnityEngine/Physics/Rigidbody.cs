@@ -111,12 +111,18 @@ namespace UnityEngine
             set => constraints = value ? ownConstraints | RigidbodyConstraints.FreezeRotation : ownConstraints & ~RigidbodyConstraints.FreezeRotation;
         }
 
+        bool TakesVelocity(string kind)
+        {
+            if (isKinematic) Debug.LogWarning($"Setting {kind} velocity of a kinematic body is not supported.", this);
+            return !isKinematic;
+        }
+
         public Vector3 linearVelocity
         {
             get => velocity;
             set
             {
-                if (!Finite.Accepts(value, "Rigidbody.linearVelocity", this)) return;
+                if (!Finite.Accepts(value, "Rigidbody.linearVelocity", this) || !TakesVelocity("linear")) return;
                 velocity = value;
                 if (!value.Equals(Vector3.zero)) WakeUp();
             }
@@ -127,7 +133,7 @@ namespace UnityEngine
             get => spin;
             set
             {
-                if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this)) return;
+                if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this) || !TakesVelocity("angular")) return;
                 spin = value;
                 if (!value.Equals(Vector3.zero)) WakeUp();
             }

@@ -182,7 +182,6 @@ namespace UnityEngine
         /// The touch as seen from one side; sign is 1 for A.
         void Fill(Touch touch, Collider to, Collider other, float sign, float duration)
         {
-            message.thisCollider = to;
             message.collider = other;
             message.Contacts.Clear();
             message.impulse = message.relativeVelocity = Vector3.zero;

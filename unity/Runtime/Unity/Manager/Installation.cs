@@ -10,6 +10,9 @@ namespace Collektive.Unity
     {
         private const string Package = "Packages/org.collektive.unity";
 
+        /// <summary>Gives the real path of one below <c>Packages</c>. The editor, which keeps packages elsewhere, has its own way.</summary>
+        internal static Func<string, string> ToPhysical { get; set; } = Path.GetFullPath;
+
         private static string hostJar;
         private static string javaHome;
 
@@ -48,8 +51,8 @@ namespace Collektive.Unity
         public static string PathOf(string file)
         {
             if (!file.StartsWith(Package + "/", StringComparison.Ordinal)) return Path.GetFullPath(file);
-            var content = Path.GetFullPath(Package + "/unity");
-            return Path.Combine(Directory.Exists(content) ? content : Path.GetFullPath(Package), file.Substring(Package.Length + 1));
+            var content = ToPhysical(Package + "/unity");
+            return Path.Combine(Directory.Exists(content) ? content : ToPhysical(Package), file.Substring(Package.Length + 1));
         }
 
         private static string HomeOf(JvmSettings settings)

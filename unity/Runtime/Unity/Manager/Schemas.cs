@@ -12,7 +12,7 @@ namespace Collektive.Unity
         internal static DataSchema Find(string name)
         {
             var found = new List<DataSchema>();
-            foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
+            foreach (var assembly in LoadedAssemblies())
             {
                 if (assembly.IsDynamic || !References(assembly)) continue;
                 foreach (var type in assembly.GetExportedTypes())
@@ -30,6 +30,14 @@ namespace Collektive.Unity
                 BridgeError.Schema,
                 wish + "; there is: " + names + ". Name one in the Simulation Manager, or generate its code (./collektive generate)");
         }
+
+        /// <summary>Where CoreCLR runs Unity's scripts, the domain also knows assemblies of code that was unloaded.</summary>
+        private static IEnumerable<System.Reflection.Assembly> LoadedAssemblies() =>
+#if UNITY_6000_5_OR_NEWER
+            UnityEngine.Assemblies.CurrentAssemblies.GetLoadedAssemblies();
+#else
+            AppDomain.CurrentDomain.GetAssemblies();
+#endif
 
         private static bool References(System.Reflection.Assembly assembly)
         {

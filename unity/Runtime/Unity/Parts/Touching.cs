@@ -5,9 +5,32 @@ namespace Collektive.Unity
     /// <summary>What messages about touching colliders leave open.</summary>
     internal static class Touching
     {
+        /// <summary>Whether it was said already that bounds count: once is enough.</summary>
+        private static bool saidBounds;
+
         /// <summary>Whether a collider takes no part any more: Unity reports no exit when it is destroyed or disabled while it touches.</summary>
         internal static bool IsGone(this Collider collider) =>
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
+
+        /// <summary>
+        /// The point of a collider that is closest to another one. Unity knows it of boxes, spheres, capsules and convex meshes, and logs an error at each
+        /// question about others: of these it is the closest point of their bounds.
+        /// </summary>
+        internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
+        {
+            if (collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider || collider is MeshCollider mesh && mesh.convex)
+                return collider.ClosestPoint(point);
+            if (!saidBounds)
+            {
+                saidBounds = true;
+                Debug.LogWarning("the closest point of '" + collider.name + "', whose collider is no box, sphere, capsule or convex mesh, is that of its "
+                    + "bounds: make its mesh convex, or keep it on a layer that sensors do not look at", collider);
+            }
+            return collider.bounds.ClosestPoint(point);
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void ResetStatics() => saidBounds = false;
 
         /// <summary>
         /// Whether a vector comes before another: the shorter one, of equally long ones by x, z, y. Unity gives what it finds in no defined

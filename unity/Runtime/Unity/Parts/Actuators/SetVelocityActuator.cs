@@ -12,6 +12,7 @@ namespace Collektive.Unity
         private bool keepVertical;
 
         private Rigidbody body;
+        private bool saidKinematic;
 
         /// <summary>Whether the body's vertical velocity stays, so that it can fall.</summary>
         public bool KeepVertical
@@ -31,8 +32,22 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var velocity = Finite(Read(data));
+            if (body.isKinematic)
+            {
+                SayKinematic();
+                return;
+            }
             if (keepVertical) velocity.y = body.linearVelocity.y;
             body.linearVelocity = velocity;
+        }
+
+        /// <summary>Unity would log at each answer.</summary>
+        private void SayKinematic()
+        {
+            if (saidKinematic) return;
+            saidKinematic = true;
+            Debug.LogWarning(GetType().Name + " on '" + name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a "
+                + "Move actuator", this);
         }
 
         /// <summary>The velocity in the program's answer, in metres per second.</summary>

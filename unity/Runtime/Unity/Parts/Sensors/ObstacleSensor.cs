@@ -5,7 +5,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Perceives the colliders within reach of the node's centre, other nodes' bodies included, its own and triggers not, with the closest point of
-    /// each. Unity knows the closest point of boxes, spheres, capsules and convex meshes: keep others on a layer that is not looked at.
+    /// each. Unity knows the closest point of boxes, spheres, capsules and convex meshes; of others it is that of their bounds.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ObstacleSensor<TData> : Sensor<TData>
@@ -45,7 +45,7 @@ namespace Collektive.Unity
             {
                 var collider = memory.Near[i];
                 if (collider.transform.IsChildOf(body)) continue;
-                Insert(new Obstacle(collider, collider.ClosestPoint(centre) - centre), memory.Obstacles, found++);
+                Insert(new Obstacle(collider, collider.PointClosestTo(centre) - centre), memory.Obstacles, found++);
             }
             Write(ref data, new Span<Obstacle>(memory.Obstacles, 0, found));
         }
