@@ -210,7 +210,8 @@ namespace Collektive.Unity
             accumulated = 0;
             modeBefore = Physics.simulationMode;
             Physics.simulationMode = SimulationMode.Script;
-            for (var i = 0; i < Node.All.Count && Failure.Length == 0; i++) simulation.Join(Node.All[i]);
+            var waiting = Node.All;
+            for (var i = 0; i < waiting.Count && Failure.Length == 0; i++) simulation.Join(waiting[i]);
         }
 
         private void OnDisable()

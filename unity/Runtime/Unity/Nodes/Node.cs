@@ -17,7 +17,9 @@ namespace Collektive.Unity
         internal PartList Actuators;
         internal PartList Rules;
 
+        // A node that is disabled leaves a gap: the order decides about ids, and closing each gap at once would move all behind it.
         private static readonly List<Node> EnabledNodes = new List<Node>();
+        private static int gaps;
 
         /// <summary>Whether it was said already that there is no manager: once is enough for a thousand nodes.</summary>
         private static bool saidAlone;
@@ -43,6 +45,7 @@ namespace Collektive.Unity
         private RoundTiming timing = new RoundTiming();
 
         private RandomStream random;
+        private int place;
         private ActuatorBuffer answers;
         private int answerIndex;
         private KeptAnswer kept;
@@ -133,7 +136,15 @@ namespace Collektive.Unity
         /// </summary>
         public Vector3 Position { get; internal set; }
 
-        internal static List<Node> All => EnabledNodes;
+        /// <summary>Those that are enabled, in the order of their enabling.</summary>
+        internal static List<Node> All
+        {
+            get
+            {
+                CloseGaps();
+                return EnabledNodes;
+            }
+        }
 
         internal Transform Body { get; private set; }
 
@@ -216,6 +227,7 @@ namespace Collektive.Unity
         private static void ResetStatics()
         {
             EnabledNodes.Clear();
+            gaps = 0;
             saidAlone = false;
         }
 
@@ -223,6 +235,7 @@ namespace Collektive.Unity
         {
             // Not in Awake, which is not called again when scripts are compiled during play.
             Body = transform;
+            place = EnabledNodes.Count;
             EnabledNodes.Add(this);
             if (SimulationManager.Current != null) SimulationManager.Current.Simulation.Join(this);
         }
@@ -241,8 +254,26 @@ namespace Collektive.Unity
 
         private void OnDisable()
         {
-            EnabledNodes.Remove(this);
+            if (place < EnabledNodes.Count && ReferenceEquals(EnabledNodes[place], this))
+            {
+                EnabledNodes[place] = null;
+                if (2 * ++gaps > EnabledNodes.Count) CloseGaps();
+            }
             Simulation?.Leave(this);
+        }
+
+        private static void CloseGaps()
+        {
+            var kept = 0;
+            for (var i = 0; i < EnabledNodes.Count; i++)
+            {
+                var node = EnabledNodes[i];
+                if (ReferenceEquals(node, null)) continue;
+                node.place = kept;
+                EnabledNodes[kept++] = node;
+            }
+            EnabledNodes.RemoveRange(kept, EnabledNodes.Count - kept);
+            gaps = 0;
         }
     }
 
