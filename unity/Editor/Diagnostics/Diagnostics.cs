@@ -90,14 +90,14 @@ namespace Collektive.Unity.Editor
 
         private void CountLinks()
         {
-            if (hears.Length < Manager.IdCapacity)
+            if (hears.Length < Manager.Simulation.IdCapacity)
             {
-                hears = new int[Manager.IdCapacity];
-                heard = new int[Manager.IdCapacity];
+                hears = new int[Manager.Simulation.IdCapacity];
+                heard = new int[Manager.Simulation.IdCapacity];
             }
             Array.Clear(hears, 0, hears.Length);
             Array.Clear(heard, 0, heard.Length);
-            var pairs = Manager.PresentLinks.Pairs;
+            var pairs = Manager.Simulation.PresentLinks.Pairs;
             for (var i = 0; i < pairs.Length; i++)
             {
                 ref var pair = ref pairs[i];

@@ -173,12 +173,12 @@ namespace Collektive.Headless.Tests
                 metadata.AddMarker("source", 25, 0, 0);
                 var replay = Record(writer => Frame(writer, 0), metadata);
                 Assert.AreEqual(
-                    "{\"title\":\"\\\"A\\\\\\u000a<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5," +
-                    "\"arena\":{\"min\":[-1,0,-2.5],\"max\":[3,4,5]}," +
-                    "\"scalar\":{\"name\":\"warmth\",\"unit\":\"°C\",\"min\":-1.5,\"max\":2}," +
-                    "\"shapes\":[{\"kind\":\"box\",\"centre\":[1,2,3],\"size\":[4,5,6],\"rotation\":[0,0,0,1]}," +
-                    "{\"kind\":\"sphere\",\"centre\":[1.5,0,0],\"radius\":2}]," +
-                    "\"markers\":[{\"name\":\"source\",\"position\":[25,0,0]}]}",
+                    "{\"title\":\"\\\"A\\\\\\n<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5," +
+                    "\"arena\":{\"min\":[-1.0,0.0,-2.5],\"max\":[3.0,4.0,5.0]}," +
+                    "\"scalar\":{\"name\":\"warmth\",\"unit\":\"°C\",\"min\":-1.5,\"max\":2.0}," +
+                    "\"shapes\":[{\"kind\":\"box\",\"centre\":[1.0,2.0,3.0],\"size\":[4.0,5.0,6.0],\"rotation\":[0.0,0.0,0.0,1.0]}," +
+                    "{\"kind\":\"sphere\",\"centre\":[1.5,0.0,0.0],\"radius\":2.0}]," +
+                    "\"markers\":[{\"name\":\"source\",\"position\":[25.0,0.0,0.0]}]}",
                     replay.Json);
             }
             finally

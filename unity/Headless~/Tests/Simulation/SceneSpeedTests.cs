@@ -176,7 +176,7 @@ namespace Collektive.Headless.Tests.Simulation
             var nodes = new List<Node>(Manager.Nodes);
             for (var i = 0; i < Tries; i++)
             {
-                Manager.Grid.Build(nodes, Manager.Grid.MeanRadius);
+                Manager.Simulation.Grid.Build(nodes, Manager.Simulation.Grid.MeanRadius);
                 Manager.Simulation.SightLines.Clear();
                 var start = ThreadClock.Milliseconds;
                 foreach (var node in Manager.Nodes) node.Rules[0].Run(Manager.Simulation, 0);

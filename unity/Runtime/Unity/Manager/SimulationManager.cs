@@ -108,10 +108,6 @@ namespace Collektive.Unity
         /// <summary>The simulation from the last time that the manager was enabled; it stays, with its errors, when the manager is disabled.</summary>
         internal Simulation Simulation => simulation ?? (simulation = new Simulation(settings, globals, this));
 
-        internal int IdCapacity => Simulation.IdCapacity;
-        internal LinkTable PresentLinks => Simulation.PresentLinks;
-        internal NodeGrid Grid => Simulation.Grid;
-
         /// <summary>
         /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> hears <paramref name="a"/>, and unless it is
         /// <paramref name="directed"/> also the other way round. The length is the distance now. May be called from any script's
@@ -152,14 +148,17 @@ namespace Collektive.Unity
         /// For neighbourhood rules: it is up to date while they are asked.
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances) =>
-            Grid.Copy(Grid.Find(centre, radius), found, distances);
+            Simulation.Grid.Copy(Simulation.Grid.Find(centre, radius), found, distances);
 
         /// <summary>
         /// The <paramref name="count"/> nodes nearest to a point at the beginning of this tick, or all if there are fewer, the nearest first and
         /// by id at equal distances. For neighbourhood rules: it is up to date while they are asked.
         /// </summary>
-        public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances) =>
-            Grid.Copy(count < 1 ? default : Grid.FindNearest(centre, count, Grid.MeanRadius), found, distances);
+        public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
+        {
+            var grid = Simulation.Grid;
+            grid.Copy(count < 1 ? default : grid.FindNearest(centre, count, grid.MeanRadius), found, distances);
+        }
 
         /// <summary>Does one tick now, paused or not.</summary>
         public void Step()

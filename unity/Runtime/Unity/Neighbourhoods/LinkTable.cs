@@ -15,33 +15,6 @@ namespace Collektive.Unity
     {
         private const int None = -1;
 
-        /// <summary>One direction of a pair.</summary>
-        internal struct Way
-        {
-            internal float Length;
-            internal float Attenuation;
-            internal int Holders;
-            internal bool Sent;
-            internal bool Dirty;
-            internal bool ByScript;
-        }
-
-        /// <summary>Two nodes, and the links between them that exist: those with holders.</summary>
-        internal struct Pair
-        {
-            internal int Low;
-            internal int High;
-            internal int Generation;
-            internal int NextInBucket;
-            // From the lower id to the higher, and back.
-            internal Way Up;
-            internal Way Down;
-
-            internal bool IsHeld => Up.Holders > 0 || Down.Holders > 0;
-
-            internal bool IsDirty => Up.Dirty || Down.Dirty;
-        }
-
         private struct Change
         {
             internal LinkHandle Handle;
@@ -49,7 +22,7 @@ namespace Collektive.Unity
             internal float Attenuation;
         }
 
-        private Pair[] pairs = new Pair[64];
+        private LinkPair[] pairs = new LinkPair[64];
         private int[] buckets = new int[64];
         // Pairs with a way that is.
         private readonly GrowingArray<int> dirty = new GrowingArray<int>();
@@ -67,7 +40,7 @@ namespace Collektive.Unity
         internal int Capacity => 2 * used;
 
         /// <summary>All pairs, unused ones among them, for views to look at: that copies nothing. Valid until a link is made.</summary>
-        internal Span<Pair> Pairs => new Span<Pair>(pairs, 0, used);
+        internal Span<LinkPair> Pairs => new Span<LinkPair>(pairs, 0, used);
 
         /// <summary>As many pairs as the table has memory for.</summary>
         internal int PairCapacity => pairs.Length;
@@ -209,7 +182,7 @@ namespace Collektive.Unity
             dirty.Truncate(waiting);
         }
 
-        private static void Flush(StepRequest request, int from, int to, ref Way way)
+        private static void Flush(StepRequest request, int from, int to, ref LinkWay way)
         {
             way.Dirty = false;
             if (way.Holders > 0) request.SetLink(Record(from, to, way));
@@ -217,7 +190,7 @@ namespace Collektive.Unity
             way.Sent = way.Holders > 0;
         }
 
-        internal static LinkRecord Record(int from, int to, in Way way) =>
+        internal static LinkRecord Record(int from, int to, in LinkWay way) =>
             new LinkRecord { From = from, To = to, Length = way.Length, Attenuation = way.Attenuation };
 
         private static int Hash(int low, int high)
@@ -227,31 +200,31 @@ namespace Collektive.Unity
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static bool IsAlive(in Pair pair, in LinkHandle handle) =>
+        private static bool IsAlive(in LinkPair pair, in LinkHandle handle) =>
             pair.Generation == handle.Generation && (handle.Up ? pair.Up : pair.Down).Holders > 0;
 
-        private ref Way WayOf(int index, int from, int to)
+        private ref LinkWay WayOf(int index, int from, int to)
         {
             ref var pair = ref pairs[index];
             if (from <= to) return ref pair.Up;
             return ref pair.Down;
         }
 
-        private void Hold(int index, ref Pair pair, ref Way way)
+        private void Hold(int index, ref LinkPair pair, ref LinkWay way)
         {
             if (way.Holders++ > 0) return;
             Count++;
             Touch(index, ref pair, ref way);
         }
 
-        private void Release(int index, ref Pair pair, ref Way way)
+        private void Release(int index, ref LinkPair pair, ref LinkWay way)
         {
             if (--way.Holders > 0) return;
             Count--;
             Touch(index, ref pair, ref way);
         }
 
-        private void Drop(ref Way way)
+        private void Drop(ref LinkWay way)
         {
             if (way.Holders > 0) Count--;
             way.Holders = 0;
@@ -260,7 +233,7 @@ namespace Collektive.Unity
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void SetValues(int index, ref Pair pair, ref Way way, float length, float attenuation)
+        private void SetValues(int index, ref LinkPair pair, ref LinkWay way, float length, float attenuation)
         {
             if (way.Length == length && way.Attenuation == attenuation) return;
             way.Length = length;
@@ -269,7 +242,7 @@ namespace Collektive.Unity
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void Touch(int index, ref Pair pair, ref Way way)
+        private void Touch(int index, ref LinkPair pair, ref LinkWay way)
         {
             if (!pair.IsDirty) dirty.Add(index);
             way.Dirty = true;

@@ -83,7 +83,7 @@ namespace Collektive.Unity
 
         private void TakeNumbers(SimulationManager manager)
         {
-            if (painted.Length < manager.IdCapacity) Array.Resize(ref painted, manager.IdCapacity);
+            if (painted.Length < manager.Simulation.IdCapacity) Array.Resize(ref painted, manager.Simulation.IdCapacity);
             scale.Begin();
             for (var i = 0; i < manager.Nodes.Count; i++)
             {

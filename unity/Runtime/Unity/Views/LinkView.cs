@@ -160,7 +160,7 @@ namespace Collektive.Unity
         private void Take(SimulationManager manager)
         {
             count = 0;
-            var links = manager.PresentLinks;
+            var links = manager.Simulation.PresentLinks;
             if (links.Count > limit)
             {
                 if (!saidTooMany) Debug.LogWarning("there are " + links.Count + " links, and the Link View draws " + limit + " at most: none is drawn while "
@@ -196,7 +196,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Takes the number of each link, and makes room for it if the scale is automatic.</summary>
-        private void TakeNumbers(Span<LinkTable.Pair> all, int capacity)
+        private void TakeNumbers(Span<LinkPair> all, int capacity)
         {
             if (numbers.Length < 2 * all.Length) Array.Resize(ref numbers, 2 * capacity);
             var least = float.PositiveInfinity;
@@ -218,7 +218,7 @@ namespace Collektive.Unity
             if (number > most && number <= float.MaxValue) most = number;
         }
 
-        private float NumberOf(int from, int to, in LinkTable.Way way)
+        private float NumberOf(int from, int to, in LinkWay way)
         {
             if (coloring == LinkColoring.Length) return way.Length;
             if (coloring == LinkColoring.Attenuation) return way.Attenuation;
@@ -228,7 +228,7 @@ namespace Collektive.Unity
         private void TakePlaces(SimulationManager manager)
         {
             var nodes = manager.Nodes;
-            if (placeOf.Length < manager.IdCapacity) Array.Resize(ref placeOf, manager.IdCapacity);
+            if (placeOf.Length < manager.Simulation.IdCapacity) Array.Resize(ref placeOf, manager.Simulation.IdCapacity);
             if (places.Length < nodes.Count) Array.Resize(ref places, Math.Max(nodes.Count, 2 * places.Length));
             var least = Vector3.positiveInfinity;
             var most = Vector3.negativeInfinity;

@@ -1,0 +1,29 @@
+namespace Collektive.Unity
+{
+    /// <summary>Two nodes, and the links between them that exist: those with holders.</summary>
+    internal struct LinkPair
+    {
+        internal int Low;
+        internal int High;
+        internal int Generation;
+        internal int NextInBucket;
+        // From the lower id to the higher, and back.
+        internal LinkWay Up;
+        internal LinkWay Down;
+
+        internal bool IsHeld => Up.Holders > 0 || Down.Holders > 0;
+
+        internal bool IsDirty => Up.Dirty || Down.Dirty;
+    }
+
+    /// <summary>One direction of a pair.</summary>
+    internal struct LinkWay
+    {
+        internal float Length;
+        internal float Attenuation;
+        internal int Holders;
+        internal bool Sent;
+        internal bool Dirty;
+        internal bool ByScript;
+    }
+}
