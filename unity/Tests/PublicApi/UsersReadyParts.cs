@@ -92,13 +92,13 @@ namespace Collektive.Unity.PublicApi.Tests
 
     internal sealed class UsersRule : NeighbourhoodRule
     {
-        private readonly List<Node> found = new List<Node>();
-        private readonly List<float> distances = new List<float>();
-
-        protected override void FindNeighbours(SimulationManager manager)
+        protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            manager.FindNearestNodes(transform.position, 4, found, distances);
-            for (var i = 0; i < found.Count; i++) Connect(found[i], distances[i], found[i].TryGetAnswer(out float answer) ? answer : 0);
+            foreach (var near in neighbours.FindNearest(4))
+            {
+                var answered = neighbours.NodeOf(near).TryGetAnswer(out float answer);
+                neighbours.Add(near, answered ? answer : 0);
+            }
         }
     }
 }

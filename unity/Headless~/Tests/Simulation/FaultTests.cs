@@ -594,9 +594,9 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class SuicidalRule : NeighbourhoodRule
         {
-            protected override void FindNeighbours(SimulationManager manager)
+            protected override void FindNeighbours(NeighbourCollector neighbours)
             {
-                foreach (var node in manager.Nodes) Connect(node);
+                foreach (var node in neighbours.Nodes) neighbours.Add(node);
                 Object.DestroyImmediate(this);
             }
         }
@@ -608,9 +608,9 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class NodeKillingRule : NeighbourhoodRule
         {
-            protected override void FindNeighbours(SimulationManager manager)
+            protected override void FindNeighbours(NeighbourCollector neighbours)
             {
-                foreach (var node in manager.Nodes) Connect(node);
+                foreach (var node in neighbours.Nodes) neighbours.Add(node);
                 Object.DestroyImmediate(Node.gameObject);
             }
         }
@@ -634,7 +634,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class ThrowingRule : NeighbourhoodRule
         {
-            protected override void FindNeighbours(SimulationManager manager) => throw new InvalidOperationException("broken on purpose");
+            protected override void FindNeighbours(NeighbourCollector neighbours) => throw new InvalidOperationException("broken on purpose");
         }
 
         public sealed class ThrowingSensor : Sensor<probe.SensorDataValue>

@@ -350,28 +350,24 @@ namespace Collektive.Headless.Tests.Simulation
 
             public List<Node> Others { get; } = new List<Node>();
 
-            public void Name(Node other) => Connect(other);
+            public void Name(Node other) => kept.Add(other);
 
-            protected override void FindNeighbours(SimulationManager manager)
+            private NeighbourCollector kept;
+
+            protected override void FindNeighbours(NeighbourCollector neighbours)
             {
+                kept = neighbours;
                 if (MakeAt >= 0) Others.Add(MakeNode(1, new Vector3(1, 0, 0), MakeAt).Node);
                 MakeAt = -1;
-                foreach (var other in Others) Connect(other, Length, Attenuation);
+                foreach (var other in Others) neighbours.Add(other, Length, Attenuation);
             }
         }
 
         public sealed class SecondNearest : NeighbourhoodRule
         {
-            private readonly List<Node> found = new List<Node>();
-            private readonly List<float> distances = new List<float>();
-
             public SecondNearest() => Directed = true;
 
-            protected override void FindNeighbours(SimulationManager manager)
-            {
-                manager.FindNearestNodes(Node.transform.position, 3, found, distances);
-                Connect(found[2], distances[2], 0);
-            }
+            protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.Add(neighbours.FindNearest(3)[2]);
         }
     }
 }

@@ -152,7 +152,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         private sealed class RecordedRule : NeighbourhoodRule
         {
-            protected override void FindNeighbours(SimulationManager manager) => Note("rule " + Node.Id);
+            protected override void FindNeighbours(NeighbourCollector neighbours) => Note("rule " + Node.Id);
         }
 
         private sealed class RecordedSensor : Sensor<SensorDataValue>

@@ -50,8 +50,8 @@ namespace Collektive.Headless.Tests.Simulation
         /// Windows of both come in turn, always as many; the best of each counts. Those that go their own ways make, lose or change the length of every
         /// fourth link in each tick.
         /// </summary>
-        [TestCase(typeof(Orbit), 4)]
-        [TestCase(typeof(Wander), 6)]
+        [TestCase(typeof(Orbit), 5)]
+        [TestCase(typeof(Wander), 8)]
         public void Ten_thousand_nodes_sense_and_act_in_the_time_of_few_plain_loops(Type walk, int loops)
         {
             const int count = 10000;

@@ -15,11 +15,11 @@ namespace Collektive.Unity
         public List<Node> Neighbours => neighbours;
 
         /// <inheritdoc/>
-        protected override void FindNeighbours(SimulationManager manager)
+        protected override void FindNeighbours(NeighbourCollector collector)
         {
             for (var i = 0; i < neighbours.Count; i++)
             {
-                if (neighbours[i] != null) Connect(neighbours[i]);
+                if (neighbours[i] != null) collector.Add(neighbours[i]);
             }
         }
 

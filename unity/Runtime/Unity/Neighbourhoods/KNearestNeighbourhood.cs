@@ -25,18 +25,16 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected override void FindNeighbours(SimulationManager manager)
+        protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            if (count <= 0) return;
             // One more than wanted, since the node finds itself. What was far enough last time is nearly so now.
-            var grid = Node.Simulation.Grid;
-            var hits = grid.FindNearest(Node.Position, count + 1, reach > 0 ? 1.25f * reach : grid.MeanRadius);
-            reach = hits.Length == 0 ? 0 : hits[hits.Length - 1].Distance;
+            var nearest = neighbours.FindNearest(count < 1 ? 0 : count + 1, 1.25f * reach);
+            reach = nearest.Length == 0 ? 0 : nearest[nearest.Length - 1].Distance;
             var left = count;
-            for (var i = 0; i < hits.Length && left > 0; i++)
+            for (var i = 0; i < nearest.Length && left > 0; i++)
             {
-                if (hits[i].Id == Node.Id) continue;
-                Connect(hits[i].Id, hits[i].Distance, 0);
+                if (nearest[i].Id == Node.Id) continue;
+                neighbours.Add(nearest[i]);
                 left--;
             }
         }

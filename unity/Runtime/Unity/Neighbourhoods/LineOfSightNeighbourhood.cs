@@ -57,16 +57,14 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected override void FindNeighbours(SimulationManager manager)
+        protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            var simulation = Node.Simulation;
-            var hits = simulation.Grid.Find(Node.Position, radius);
-            for (var i = 0; i < hits.Length; i++)
+            var near = neighbours.FindWithin(radius);
+            for (var i = 0; i < near.Length; i++)
             {
-                if (hits[i].Id == Node.Id) continue;
-                var obstacles = CountObstacles(simulation.Grid.NodeAt(hits[i]), hits[i].Distance);
-                if (blocking && obstacles > 0) continue;
-                Connect(hits[i].Id, hits[i].Distance, obstacles * attenuation);
+                if (near[i].Id == Node.Id) continue;
+                var obstacles = CountObstacles(neighbours.NodeOf(near[i]), near[i].Distance);
+                if (!blocking || obstacles == 0) neighbours.Add(near[i], obstacles * attenuation);
             }
         }
 

@@ -4,17 +4,11 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Decides who hears a node. Before each tick <see cref="FindNeighbours"/> names the neighbours of that moment; the rule makes and
-    /// removes the links. Several rules may stand on one node: a link exists while one of them, or a script, wants it.
+    /// Decides who hears a node. Before each tick <see cref="FindNeighbours"/> collects the neighbours of that moment; the rule makes
+    /// and removes the links. Several rules may stand on one node: a link exists while one of them, or a script, wants it.
     /// </summary>
     public abstract class NeighbourhoodRule : NodePart
     {
-        // Scratch of one update, of the rule that is asked; a rule at a time, on the main thread. By node id: 1 + place among the wanted, 0 for all others.
-        private static int[] places = Array.Empty<int>();
-        private static Neighbour[] wanted = new Neighbour[64];
-        private static int wantedCount;
-        private static NeighbourhoodRule asked;
-
         [SerializeField]
         [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
         private bool directed;
@@ -25,17 +19,10 @@ namespace Collektive.Unity
         private float lengthTolerance = 0.25f;
 
         // What is looked at in each tick, and place for place what is needed when a link changes.
-        private Neighbour[] held = Array.Empty<Neighbour>();
+        private NeighbourCollector.Neighbour[] held = Array.Empty<NeighbourCollector.Neighbour>();
         private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
         private int drops;
-
-        private struct Neighbour
-        {
-            internal int Id;
-            internal float Length;
-            internal float Attenuation;
-        }
 
         /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
         public bool Directed
@@ -64,20 +51,18 @@ namespace Collektive.Unity
         /// <summary>Brings the links of this rule up to date.</summary>
         internal sealed override void Run(Simulation simulation, int index)
         {
-            if (places.Length < simulation.IdCapacity) Array.Resize(ref places, simulation.IdCapacity);
-            asked = this;
+            var neighbours = simulation.Neighbours;
+            neighbours.Begin(Node);
             try
             {
-                FindNeighbours(simulation.Manager);
+                FindNeighbours(neighbours);
                 // Not when the rule or its node left in the rule's own call, and the links with it.
-                if (IsAttached && Node.Id >= 0) TakeWanted(simulation.Links);
+                if (IsAttached && Node.Id >= 0) Take(neighbours, simulation.Links);
             }
             finally
             {
                 // After an exception the links stay as they were.
-                for (var w = 0; w < wantedCount; w++) places[wanted[w].Id] = 0;
-                wantedCount = 0;
-                asked = null;
+                neighbours.End();
             }
         }
 
@@ -87,84 +72,15 @@ namespace Collektive.Unity
             heldCount = 0;
         }
 
-        /// <summary>Names this node's neighbours by <see cref="Connect(Node)"/>. Called once before each tick; must not allocate.</summary>
-        protected abstract void FindNeighbours(SimulationManager manager);
+        /// <summary>Adds this node's neighbours of now to <paramref name="neighbours"/>. Called once before each tick; must not allocate.</summary>
+        protected abstract void FindNeighbours(NeighbourCollector neighbours);
 
-        /// <summary>
-        /// Names a neighbour; the link gets the distance of the two nodes as its length, and no attenuation. A node that takes no part in the
-        /// simulation, the node itself, and a node named before are passed over.
-        /// </summary>
-        /// <exception cref="InvalidOperationException">It was not called from <see cref="FindNeighbours"/>.</exception>
-        protected void Connect(Node other)
-        {
-            // One that never was active has no place yet.
-            if (other.Id >= 0) Connect(other, Vector3.Distance(Node.Position, other.Position), 0);
-        }
-
-        /// <summary>
-        /// Names a neighbour with the link's length in metres and attenuation (0 = clear). A node that takes no part in the simulation, the
-        /// node itself, and a node named before are passed over.
-        /// </summary>
-        /// <exception cref="InvalidOperationException">It was not called from <see cref="FindNeighbours"/>.</exception>
-        /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or no number.</exception>
-        protected void Connect(Node other, float length, float attenuation)
-        {
-            if (!ReferenceEquals(asked, this)) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
-            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
-            if (!IsAmount(attenuation))
-                throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
-            // Nodes may have joined since the update began.
-            if (other.Id >= places.Length) Array.Resize(ref places, other.Simulation.IdCapacity);
-            Connect(other.Id, length, attenuation);
-        }
-
-        internal void Connect(int id, float length, float attenuation)
-        {
-            if (id < 0 || id == Node.Id || places[id] != 0) return;
-            EnsureCapacity(wantedCount + 1);
-            ref var neighbour = ref wanted[wantedCount];
-            neighbour.Id = id;
-            neighbour.Length = length;
-            neighbour.Attenuation = attenuation;
-            places[id] = ++wantedCount;
-        }
-
-        /// <summary>Names all nodes that a search found, without attenuation.</summary>
-        internal void Connect(Span<NodeGrid.Hit> hits)
-        {
-            EnsureCapacity(wantedCount + hits.Length);
-            // A large scene comes by here a million times a second.
-            var self = Node.Id;
-            var marks = places;
-            var all = wanted;
-            var count = wantedCount;
-            for (var i = 0; i < hits.Length; i++)
-            {
-                ref var hit = ref hits[i];
-                var id = hit.Id;
-                if (id == self || marks[id] != 0) continue;
-                ref var neighbour = ref all[count];
-                neighbour.Id = id;
-                neighbour.Length = hit.Distance;
-                neighbour.Attenuation = 0;
-                marks[id] = ++count;
-            }
-            wantedCount = count;
-        }
-
-        private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
-
-        private static void EnsureCapacity(int count)
-        {
-            if (count > wanted.Length) Array.Resize(ref wanted, Math.Max(count, wanted.Length * 2));
-        }
-
-        private void TakeWanted(LinkTable table)
+        private void Take(NeighbourCollector neighbours, LinkTable table)
         {
             var dropped = table.Drops != drops;
             drops = table.Drops;
-            var marks = places;
-            var all = wanted;
+            var marks = neighbours.Places;
+            var all = neighbours.All;
             var kept = held;
             var tolerance = lengthTolerance;
             var left = heldCount;
@@ -187,7 +103,7 @@ namespace Collektive.Unity
                 h++;
             }
             heldCount = left;
-            for (var w = 0; w < wantedCount; w++)
+            for (var w = 0; w < neighbours.Count; w++)
             {
                 ref var mark = ref marks[all[w].Id];
                 if (mark == 0) continue;
@@ -199,16 +115,15 @@ namespace Collektive.Unity
                 }
                 Hold(table, heldCount++, all[w]);
             }
-            wantedCount = 0;
         }
 
-        private void Hold(LinkTable table, int place, in Neighbour now)
+        private void Hold(LinkTable table, int place, in NeighbourCollector.Neighbour now)
         {
             held[place] = now;
             links[place] = table.Hold(Node.Id, now.Id, !directed, now.Length, now.Attenuation);
         }
 
-        private void Change(LinkTable table, int place, in Neighbour now, bool dropped)
+        private void Change(LinkTable table, int place, in NeighbourCollector.Neighbour now, bool dropped)
         {
             // The link is gone when the other node left and came back.
             if (dropped && !table.IsAlive(links[place]))

@@ -28,7 +28,7 @@ namespace Collektive.Unity
         private Entry[] entries = new Entry[64];
         private int[] starts = new int[129];
         private int count;
-        private Hit[] hits = new Hit[64];
+        private NearNode[] hits = new NearNode[64];
         private int hitCount;
         private int mask;
         private float cellSize = 1;
@@ -54,14 +54,6 @@ namespace Collektive.Unity
             internal int Row;
             internal int Place;
             internal int Id;
-        }
-
-        /// <summary>A node near a point.</summary>
-        internal struct Hit
-        {
-            internal int Place;
-            internal int Id;
-            internal float Distance;
         }
 
         /// <summary>
@@ -109,18 +101,18 @@ namespace Collektive.Unity
         }
 
         /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order; valid until the next search.</summary>
-        internal Span<Hit> Find(Vector3 centre, float radius)
+        internal Span<NearNode> Find(Vector3 centre, float radius)
         {
             Count(radius);
             Collect(centre, radius);
-            return new Span<Hit>(hits, 0, hitCount);
+            return new Span<NearNode>(hits, 0, hitCount);
         }
 
         /// <summary>
         /// The nodes nearest to a point, at most <paramref name="wanted"/> (1 or more), by distance and at equal distances by id; valid until the next
         /// search. It is fastest when <paramref name="guess"/> metres hold a few more than these.
         /// </summary>
-        internal Span<Hit> FindNearest(Vector3 centre, int wanted, float guess)
+        internal Span<NearNode> FindNearest(Vector3 centre, int wanted, float guess)
         {
             var radius = Math.Max(guess, 1e-3f);
             Collect(centre, radius);
@@ -130,11 +122,11 @@ namespace Collektive.Unity
                 Collect(centre, radius);
             }
             Count(radius);
-            return new Span<Hit>(hits, 0, MoveNearestToFront(wanted));
+            return new Span<NearNode>(hits, 0, MoveNearestToFront(wanted));
         }
 
         /// <summary>Copies hits to lists, emptied first.</summary>
-        internal void Copy(Span<Hit> found, List<Node> to, List<float> distances)
+        internal void Copy(Span<NearNode> found, List<Node> to, List<float> distances)
         {
             to.Clear();
             distances.Clear();
@@ -146,7 +138,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>The node of a hit.</summary>
-        internal Node NodeAt(in Hit hit) => nodes[hit.Place];
+        internal Node NodeAt(in NearNode hit) => nodes[hit.Place];
 
         private void Count(float radius)
         {
@@ -215,8 +207,8 @@ namespace Collektive.Unity
                 if (hitCount == hits.Length) Array.Resize(ref hits, hitCount * 2);
                 ref var hit = ref hits[hitCount++];
                 hit.Place = entry.Place;
-                hit.Id = entry.Id;
-                hit.Distance = (float)Math.Sqrt(squared);
+                hit.IdOfNode = entry.Id;
+                hit.Metres = (float)Math.Sqrt(squared);
             }
         }
 
@@ -236,7 +228,7 @@ namespace Collektive.Unity
             return sorted;
         }
 
-        private static bool IsNearer(in Hit a, in Hit b) => a.Distance < b.Distance || a.Distance == b.Distance && a.Id < b.Id;
+        private static bool IsNearer(in NearNode a, in NearNode b) => a.Metres < b.Metres || a.Metres == b.Metres && a.IdOfNode < b.IdOfNode;
 
         private void Include(in Cell cell)
         {

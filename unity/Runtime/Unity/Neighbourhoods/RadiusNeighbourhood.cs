@@ -19,10 +19,7 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected override void FindNeighbours(SimulationManager manager)
-        {
-            Connect(Node.Simulation.Grid.Find(Node.Position, radius));
-        }
+        protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.AddWithin(radius);
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);
     }

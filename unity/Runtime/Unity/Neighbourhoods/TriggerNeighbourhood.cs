@@ -28,7 +28,7 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected override void FindNeighbours(SimulationManager manager)
+        protected override void FindNeighbours(NeighbourCollector neighbours)
         {
             var all = visitors.Items;
             var here = Node.Position;
@@ -43,7 +43,7 @@ namespace Collektive.Unity
                 way.x -= here.x;
                 way.y -= here.y;
                 way.z -= here.z;
-                Connect(owner.Id, (float)Math.Sqrt(way.x * way.x + way.y * way.y + way.z * way.z), 0);
+                neighbours.Add(owner.Id, (float)Math.Sqrt(way.x * way.x + way.y * way.y + way.z * way.z), 0);
                 if (kept < i) all[kept] = visitor;
                 kept++;
             }

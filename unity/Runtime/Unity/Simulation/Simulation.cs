@@ -36,6 +36,7 @@ namespace Collektive.Unity
             Manager = manager;
             this.globals = globals;
             ScriptLinks = new ScriptLinks(this);
+            Neighbours = new NeighbourCollector(this);
             Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
         }
 
@@ -109,6 +110,9 @@ namespace Collektive.Unity
 
         /// <summary>What rules saw between nodes in this tick.</summary>
         internal SightLines SightLines { get; } = new SightLines();
+
+        /// <summary>What rules add neighbours to.</summary>
+        internal NeighbourCollector Neighbours { get; }
 
         internal QueryMemory QueryMemory { get; } = new QueryMemory();
 

@@ -1,0 +1,16 @@
+namespace Collektive.Unity
+{
+    /// <summary>A node near a point, as a search found it at the beginning of this tick.</summary>
+    public struct NearNode
+    {
+        internal int Place;
+        internal int IdOfNode;
+        internal float Metres;
+
+        /// <summary>Its id.</summary>
+        public int Id => IdOfNode;
+
+        /// <summary>Metres from the point.</summary>
+        public float Distance => Metres;
+    }
+}

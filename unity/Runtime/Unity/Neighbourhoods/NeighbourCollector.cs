@@ -1,0 +1,160 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Collects the neighbours of a node from a rule, and knows which nodes are near. For use in <see cref="NeighbourhoodRule.FindNeighbours"/>
+    /// only, where it is given. The node itself, nodes that take no part in the simulation, and nodes added before are passed over.
+    /// Allocates nothing once its capacity is reached.
+    /// </summary>
+    public sealed class NeighbourCollector
+    {
+        private readonly Simulation simulation;
+        private Neighbour[] all = new Neighbour[64];
+        // By node id: 1 + place in the list, 0 for those that are not in it.
+        private int[] places = Array.Empty<int>();
+        // Whose neighbours are collected; null outside of a rule's call.
+        private Node node;
+        private int self;
+
+        internal NeighbourCollector(Simulation simulation) => this.simulation = simulation;
+
+        internal struct Neighbour
+        {
+            internal int Id;
+            internal float Length;
+            internal float Attenuation;
+        }
+
+        /// <summary>All nodes that take part, ascending by id.</summary>
+        public IReadOnlyList<Node> Nodes => simulation.Nodes;
+
+        internal int Count { get; private set; }
+
+        internal Neighbour[] All => all;
+
+        internal int[] Places => places;
+
+        /// <summary>Adds a node; the link's length is the distance of the two nodes, its attenuation 0.</summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        public void Add(Node other)
+        {
+            CheckAsked();
+            // One that never was active has no position yet.
+            if (other.Id >= 0) Add(other.Id, Vector3.Distance(node.Position, other.Position), 0);
+        }
+
+        /// <summary>Adds a node with the link's length in metres and attenuation (0 = clear).</summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or no number.</exception>
+        public void Add(Node other, float length, float attenuation)
+        {
+            CheckAsked();
+            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
+            CheckAttenuation(attenuation);
+            Add(other.Id, length, attenuation);
+        }
+
+        /// <summary>Adds a node that a search found; the link's length is its distance.</summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">The attenuation is negative, infinite or no number.</exception>
+        public void Add(in NearNode near, float attenuation = 0)
+        {
+            CheckAsked();
+            CheckAttenuation(attenuation);
+            Add(near.IdOfNode, near.Metres, attenuation);
+        }
+
+        /// <summary>Adds all nodes within <paramref name="radius"/> metres.</summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        public void AddWithin(float radius)
+        {
+            var found = FindWithin(radius);
+            EnsureCapacity(Count + found.Length);
+            // A large scene comes by here a million times a second.
+            var own = self;
+            var marks = places;
+            var list = all;
+            var count = Count;
+            for (var i = 0; i < found.Length; i++)
+            {
+                ref var near = ref found[i];
+                var id = near.IdOfNode;
+                if (id == own || marks[id] != 0) continue;
+                ref var neighbour = ref list[count];
+                neighbour.Id = id;
+                neighbour.Length = near.Metres;
+                neighbour.Attenuation = 0;
+                marks[id] = ++count;
+            }
+            Count = count;
+        }
+
+        /// <summary>The nodes within <paramref name="radius"/> metres of the node, itself among them, in no order. Valid until the next search.</summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        public Span<NearNode> FindWithin(float radius)
+        {
+            CheckAsked();
+            return simulation.Grid.Find(node.Position, radius);
+        }
+
+        /// <summary>
+        /// The nodes nearest to the node, itself among them, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until
+        /// the next search. It is fastest when <paramref name="guess"/> metres hold a few more than these; 0 for no guess.
+        /// </summary>
+        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        public Span<NearNode> FindNearest(int count, float guess = 0)
+        {
+            CheckAsked();
+            var grid = simulation.Grid;
+            return count < 1 ? default : grid.FindNearest(node.Position, count, guess > 0 ? guess : grid.MeanRadius);
+        }
+
+        /// <summary>The node that a search found.</summary>
+        public Node NodeOf(in NearNode near) => simulation.Grid.NodeAt(near);
+
+        internal void Begin(Node asked)
+        {
+            node = asked;
+            self = asked.Id;
+            if (places.Length < simulation.IdCapacity) Array.Resize(ref places, simulation.IdCapacity);
+        }
+
+        internal void End()
+        {
+            for (var i = 0; i < Count; i++) places[all[i].Id] = 0;
+            Count = 0;
+            node = null;
+        }
+
+        internal void Add(int id, float length, float attenuation)
+        {
+            // Nodes may have joined since the update began.
+            if (id >= places.Length) Array.Resize(ref places, simulation.IdCapacity);
+            if (id < 0 || id == self || places[id] != 0) return;
+            EnsureCapacity(Count + 1);
+            all[Count] = new Neighbour { Id = id, Length = length, Attenuation = attenuation };
+            places[id] = ++Count;
+        }
+
+        private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
+
+        private static void CheckAttenuation(float attenuation)
+        {
+            if (IsAmount(attenuation)) return;
+            throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
+        }
+
+        private void CheckAsked()
+        {
+            if (node is null) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
+        }
+
+        private void EnsureCapacity(int count)
+        {
+            if (count > all.Length) Array.Resize(ref all, Math.Max(count, all.Length * 2));
+        }
+    }
+}
