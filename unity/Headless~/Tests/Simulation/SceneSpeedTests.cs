@@ -118,7 +118,9 @@ namespace Collektive.Headless.Tests.Simulation
                 Menus.Send(window, "OnGUI");
             });
             Print("diagnostics window, the first event after a tenth of a second", first);
-            Assert.That(Math.Max(milliseconds, first), Is.LessThan(0.5));
+            Assert.That(milliseconds, Is.LessThan(0.5));
+            // It reads the list anew.
+            Assert.That(first, Is.LessThan(1));
         }
 
         [Test]
