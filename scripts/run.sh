@@ -72,16 +72,23 @@ programs_jar() {
 }
 
 compile_programs() {
-  local schema=$1 programs=$2 work=$3 jdk sources
+  local schema=$1 programs=$2 work=$3
+  mkdir -p "$work/generated" "$work/classes"
+  generator "$schema" --jvm "$work/generated"
+  compile_jvm "$work/generated" "$work/classes" "-Xplugin=$COMPILER_PLUGIN" "$programs"
+  "$(find_jdk)/bin/jar" --create --file "$work/programs.jar" -C "$work/classes" .
+}
+
+# compile_jvm GENERATED CLASSES [OPTION OR SOURCE]...: flatc's Java first, then the generated Kotlin and the sources.
+compile_jvm() {
+  local generated=$1 classes=$2 jdk sources
+  shift 2
   jdk=$(find_jdk)
-  mkdir -p "$work/java" "$work/classes"
-  generator "$schema" --java "$work/java"
-  mapfile -d '' -t sources < <(find "$work/java" -name '*.java' -print0)
-  "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$work/classes" "${sources[@]}"
-  cp -R "$work/java/META-INF" "$work/classes/"
+  mapfile -d '' -t sources < <(find "$generated" -name '*.java' -print0)
+  "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$classes" "${sources[@]}"
   "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
-    -no-stdlib -no-reflect -jvm-target 17 "-Xplugin=$COMPILER_PLUGIN" -cp "$HOST_JAR:$work/classes" -d "$work/classes" "$programs"
-  "$jdk/bin/jar" --create --file "$work/programs.jar" -C "$work/classes" .
+    -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$classes" -d "$classes" "$generated" "$@"
+  cp -R "$generated/META-INF" "$classes/"
 }
 
 # scripts_dll SCHEMA SCRIPTS: prints the assembly of a folder of C# and the schema's generated code, compiled when they changed.

@@ -197,6 +197,13 @@ generate_test_schemas() {
   for schema in "$PROBE/probe.fbs" "$ROOT"/schema/test/*.fbs; do
     generator "$schema" --csharp "$1/$(basename "$schema" .fbs)"
   done
+  # With sensor and actuator data swapped: the tests read what sensors write, and write what actuators read.
+  mkdir -p "$BUILD/swapped/shared"
+  for schema in features.fbs shared/cells.fbs; do
+    sed -E 's/\btest\./swapped./; s/\bSensorData\b/Swap/; s/\bActuatorData\b/SensorData/; s/\bSwap\b/ActuatorData/' \
+      "$ROOT/schema/test/$schema" >"$BUILD/swapped/$schema"
+  done
+  generator "$BUILD/swapped/features.fbs" --csharp "$1/swapped"
 }
 
 # test_csharp RESULTS JDK [RUNTIME [PART OF A TEST'S NAME]]: all C# tests on one runtime and one JVM.
@@ -246,22 +253,22 @@ test_roundtrip() {
   [ -d "$modules/frames/target/test-classes" ] || fail "the suite roundtrip needs the tests of frames: run ./collektive test jvm first"
   jdk=$(find_jdk)
   classes="$work:$modules/frames/target/test-classes:$HOST_JAR"
-  build_roundtrip "$work" "$classes" "$jdk"
+  build_roundtrip "$work"
   ROUNDTRIP_CSHARP="$CSHARP/RoundTrip.exe" ROUNDTRIP_CLASSES="$classes" ROUNDTRIP_JAVA="$jdk/bin/java" python_tests "$1" "$ROOT/schema/test"
 }
 
-# build_roundtrip CLASSES CLASSPATH JDK: both sides' code of the test schemas, and the C# half of the suite.
+# build_roundtrip CLASSES: both sides' code of the test schemas, and the C# half of the suite.
 build_roundtrip() {
   local tests="$ROOT/unity/Headless~/Tests/Schema" bridge=("-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll")
-  local schema sources
+  local schema
+  setup_kotlin
   build_test_schemas
   assembly TestSchemas.dll "$BUILD/csharp-tests" -- "${GENERATED_CODE_SYMBOLS[@]}" "${bridge[@]}"
   assembly RoundTrip.exe "$tests/Dump.cs" "$tests/RandomData.cs" "$tests/RoundTrip.cs" -- "${bridge[@]}" -target:exe
   rm -rf "$1"
   mkdir -p "$1"
-  for schema in "$ROOT"/schema/test/*.fbs; do generator "$schema" --java "$1/java"; done
-  mapfile -d '' -t sources < <(find "$1/java" -name '*.java' -print0)
-  "$3/bin/javac" --release 17 -Xlint:all,-options -Werror -d "$1" -cp "$2" "${sources[@]}"
+  for schema in "$ROOT"/schema/test/*.fbs; do generator "$schema" --jvm "$1/generated"; done
+  compile_jvm "$1/generated" "$1"
 }
 
 # The suites below use other commands, which lock build/ themselves.

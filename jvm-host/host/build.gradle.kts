@@ -14,12 +14,15 @@ dependencies {
     implementation(libs.slf4j)
     // The tests generate and compile a user's jar, and dump what programs see of the modules.
     testImplementation(project(":generator"))
+    // Before kotlin-abi, which contains parts of it.
+    testImplementation(libs.kotlin.compiler)
     testImplementation(libs.kotlin.abi)
     testImplementation(libs.kotlin.metadata)
 }
 
 kotlin.sourceSets.named("test") {
     kotlin.srcDir("src/testFixtures/kotlin")
+    kotlin.srcDir("../frames/src/testFixtures/kotlin")
 }
 
 tasks.test {

@@ -20,17 +20,18 @@ dependencies {
 val schemaCode = tasks.register<GeneratorJava>("schemaCode") {
     generator.from(generatorPath)
     schemas.from(fileTree("$rootDir/unity/Samples~") { include("*/*.fbs") })
-    product = "--java"
+    product = "--jvm"
 }
 
 sourceSets.main {
     java.srcDir(schemaCode)
+    kotlin.srcDir(schemaCode)
 }
 
-// By which the host finds the schemas.
+// By which the host finds the schemas, and tools read their data.
 tasks.processResources {
     from(schemaCode) {
-        include("META-INF/services/*")
+        include("META-INF/**")
     }
 }
 

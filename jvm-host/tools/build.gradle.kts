@@ -10,10 +10,12 @@ dependencies {
     // The tests generate and compile a user's jar.
     testImplementation(project(":host"))
     testImplementation(project(":generator"))
+    testImplementation(libs.kotlin.compiler)
 }
 
 kotlin.sourceSets.named("test") {
     kotlin.srcDir("../host/src/testFixtures/kotlin")
+    kotlin.srcDir("../frames/src/testFixtures/kotlin")
 }
 
 tasks.jar {

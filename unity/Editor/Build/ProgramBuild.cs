@@ -13,37 +13,37 @@ namespace Collektive.Unity.Editor
             var kotlin = Toolchain.FindKotlin();
             var work = Path.GetFullPath("Library/Collektive/Build/" + project.Name);
             if (Directory.Exists(work)) Directory.Delete(work, true);
-            var java = Path.Combine(work, "java");
+            var generated = Path.Combine(work, "generated");
             var classes = Path.Combine(work, "classes");
             Directory.CreateDirectory(classes);
-            return SchemaCode.MakeJava(project, java)
-                && CompileJava(jdk, java, classes)
-                && CompileKotlin(jdk, kotlin, classes, Path.GetFullPath(project.Programs))
-                && Pack(jdk, java, classes, work, project);
+            return SchemaCode.MakeJvm(project, generated)
+                && CompileJava(jdk, generated, classes)
+                && CompileKotlin(jdk, kotlin, classes, generated, Path.GetFullPath(project.Programs))
+                && Pack(jdk, generated, classes, work, project);
         }
 
-        private static bool CompileJava(string jdk, string java, string classes)
+        private static bool CompileJava(string jdk, string generated, string classes)
         {
             var arguments = new List<string> { "--release", "17", "-nowarn", "-proc:none", "-cp", Installation.HostJar, "-d", classes };
-            arguments.AddRange(Directory.GetFiles(java, "*.java", SearchOption.AllDirectories));
+            arguments.AddRange(Directory.GetFiles(generated, "*.java", SearchOption.AllDirectories));
             return Run("javac", Path.Combine(jdk, "bin/javac"), arguments);
         }
 
-        private static bool CompileKotlin(string jdk, string kotlin, string classes, string programs)
+        private static bool CompileKotlin(string jdk, string kotlin, string classes, string generated, string programs)
         {
             return Run("the Kotlin compiler", Path.Combine(jdk, "bin/java"), new List<string>
             {
                 "-Xmx1g", "-XX:+UseSerialGC", "-cp", Path.Combine(kotlin, "lib/*"), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
                 "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-Xplugin=" + Toolchain.CompilerPlugin,
-                "-cp", Installation.HostJar + Path.PathSeparator + classes, "-d", classes, programs,
+                "-cp", Installation.HostJar + Path.PathSeparator + classes, "-d", classes, generated, programs,
             });
         }
 
-        private static bool Pack(string jdk, string java, string classes, string work, SchemaProject project)
+        private static bool Pack(string jdk, string generated, string classes, string work, SchemaProject project)
         {
             var part = Path.Combine(work, "programs.jar");
-            // The schema's service entry lies beside the Java code.
-            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", java, "META-INF", "-C", classes, "." }))
+            // The schema's service entry and binary form lie beside the generated code.
+            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;
             if (File.Exists(project.Jar)) File.Delete(project.Jar);
             File.Move(part, project.Jar);

@@ -10,7 +10,7 @@ namespace Collektive.Unity.Editor
         internal static bool MakeCSharp(SchemaProject project) => Make(project, "--csharp", project.Generated);
 
         /// <summary>Makes the Java that programs use.</summary>
-        internal static bool MakeJava(SchemaProject project, string folder) => Make(project, "--java", folder);
+        internal static bool MakeJvm(SchemaProject project, string folder) => Make(project, "--jvm", folder);
 
         private static bool Make(SchemaProject project, string language, string folder)
         {

@@ -59,7 +59,7 @@ namespace Collektive.Headless.Bench
         /// <summary>Makes one node due; its data are element <paramref name="index"/>.</summary>
         internal void Sense(StepRequest request, int node, int index, long tick)
         {
-            var sensors = (SensorBuffer<SensorDataDraft>)request.Sensors;
+            var sensors = (SensorBuffer<SensorData>)request.Sensors;
             sensors.Clear(index);
             var data = sensors.Items[index];
             data.Intensity = (node * 37 + (int)(tick % 64)) % 101;
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Bench
         /// <summary>Reads all answers; their sum, so that nothing is optimised away.</summary>
         internal static float Act(StepAnswer answer)
         {
-            var actuators = (ActuatorBuffer<ActuatorDataValue>)answer.Actuators;
+            var actuators = (ActuatorBuffer<ActuatorData>)answer.Actuators;
             var sum = 0f;
             for (var i = 0; i < actuators.Count; i++)
             {

@@ -83,18 +83,18 @@ namespace Collektive.Headless.Faults
         [DllImport("libc", ExactSpelling = true)]
         private static extern IntPtr signal(int number, IntPtr handler);
 
-        private sealed class NullSensor : Sensor<probe.SensorDataValue>
+        private sealed class NullSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data)
+            protected override void Sense(ref probe.SensorData data)
             {
                 enabled = false;
                 Text(null);
             }
         }
 
-        private sealed class DividingSensor : Sensor<probe.SensorDataValue>
+        private sealed class DividingSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data)
+            protected override void Sense(ref probe.SensorData data)
             {
                 enabled = false;
                 Divide(1, 0);

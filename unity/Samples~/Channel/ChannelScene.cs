@@ -68,7 +68,7 @@ namespace Collektive.Samples.Channel
             }
             values[0] = IsConnected() ? 1 : 0;
             values[1] = count;
-            values[2] = target.TryGetAnswer(out ActuatorDataValue answer) ? answer.Distance : -1;
+            values[2] = target.TryGetAnswer(out ActuatorData answer) ? answer.Distance : -1;
         }
 
         /// <inheritdoc/>
@@ -125,7 +125,7 @@ namespace Collektive.Samples.Channel
             return reached.Contains(target.Id);
         }
 
-        private static bool IsInChannel(Node node) => node.TryGetAnswer(out ActuatorDataValue answer) && answer.InChannel;
+        private static bool IsInChannel(Node node) => node.TryGetAnswer(out ActuatorData answer) && answer.InChannel;
 
         private static float DistanceToWall(Vector3 place) => Mathf.Abs(Mathf.Abs(place.x) - WallPlace);
 

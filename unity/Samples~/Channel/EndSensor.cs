@@ -6,7 +6,7 @@ namespace Collektive.Samples.Channel
 {
     /// <summary>Knows whether the channel begins or ends at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/End Sensor")]
-    public sealed class EndSensor : Sensor<SensorDataValue>
+    public sealed class EndSensor : Sensor<SensorData>
     {
         [SerializeField]
         [Tooltip("Whether the channel begins here.")]
@@ -31,7 +31,7 @@ namespace Collektive.Samples.Channel
         }
 
         /// <inheritdoc/>
-        protected override void Sense(ref SensorDataValue data)
+        protected override void Sense(ref SensorData data)
         {
             data.Source = source;
             data.Target = target;

@@ -6,9 +6,9 @@ namespace Collektive.Samples.Channel
 {
     /// <summary>Perceives where the node is.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Position Sensor")]
-    public sealed class PositionSensor : PositionSensor<SensorDataValue>
+    public sealed class PositionSensor : PositionSensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataValue data, Vector3 position) => data.Position = position.ToValue();
+        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
     }
 }

@@ -7,13 +7,13 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Counts bumps into other walkers; the program does not hear of them.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Bump Sensor")]
-    public sealed class BumpSensor : ContactSensor<SensorDataDraft>
+    public sealed class BumpSensor : ContactSensor<SensorData>
     {
         /// <summary>In how many rounds the walker touched another one.</summary>
         public int Rounds { get; private set; }
 
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, Span<Contact> contacts)
+        protected override void Write(ref SensorData data, Span<Contact> contacts)
         {
             foreach (var contact in contacts)
             {

@@ -42,7 +42,7 @@ namespace Collektive.Samples.Crowd
         public override string ShadeName => "density";
 
         /// <inheritdoc/>
-        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorDataValue answer) ? answer.Density : 0;
+        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0;
 
         /// <summary>
         /// Walkers at their goals; rounds in which a walker touched another since the beginning, over all walkers; walkers that hear a warning;
@@ -57,7 +57,7 @@ namespace Collektive.Samples.Crowd
                 way.y = 0;
                 if (way.magnitude < Arrived) values[0]++;
                 values[1] += bumps[i].Rounds;
-                if (!goals[i].Node.TryGetAnswer(out ActuatorDataValue answer)) continue;
+                if (!goals[i].Node.TryGetAnswer(out ActuatorData answer)) continue;
                 if (answer.Warned) values[2]++;
                 values[3] = System.Math.Max(values[3], answer.Density);
             }

@@ -6,7 +6,7 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Knows where the walker wants to go.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Goal Sensor")]
-    public sealed class GoalSensor : Sensor<SensorDataDraft>
+    public sealed class GoalSensor : Sensor<SensorData>
     {
         [SerializeField]
         [Tooltip("Where the walker wants to go.")]
@@ -20,6 +20,6 @@ namespace Collektive.Samples.Crowd
         }
 
         /// <inheritdoc/>
-        protected override void Sense(ref SensorDataDraft data) => data.Goal = goal.ToValue();
+        protected override void Sense(ref SensorData data) => data.Goal = goal.ToValue();
     }
 }

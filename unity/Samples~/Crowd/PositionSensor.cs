@@ -6,9 +6,9 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Perceives where the walker is.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Position Sensor")]
-    public sealed class PositionSensor : PositionSensor<SensorDataDraft>
+    public sealed class PositionSensor : PositionSensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, Vector3 position) => data.Position = position.ToValue();
+        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
     }
 }

@@ -6,9 +6,9 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Walks as the program says.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Walk Actuator")]
-    public sealed class WalkActuator : SetVelocityActuator<ActuatorDataValue>
+    public sealed class WalkActuator : SetVelocityActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorDataValue data) => data.Velocity.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
     }
 }

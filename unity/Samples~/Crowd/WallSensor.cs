@@ -7,10 +7,10 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Perceives walls and pillars; other walkers are on another layer, and are heard of.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Wall Sensor")]
-    public sealed class WallSensor : ObstacleSensor<SensorDataDraft>
+    public sealed class WallSensor : ObstacleSensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, Span<Obstacle> obstacles)
+        protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
         {
             foreach (var obstacle in obstacles) data.Obstacles.Add(obstacle.Vector.ToValue());
         }

@@ -6,12 +6,12 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Colours walkers by the density around them, and those who heard a warning red.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Warning Color")]
-    public sealed class WarningColor : ColorActuator<ActuatorDataValue>
+    public sealed class WarningColor : ColorActuator<ActuatorData>
     {
         private static readonly Color Free = new Color(0.3f, 0.6f, 0.9f);
         private static readonly Color Dense = new Color(1, 0.8f, 0.2f);
 
         /// <inheritdoc/>
-        protected override Color Read(ActuatorDataValue data) => data.Warned ? Color.red : Color.Lerp(Free, Dense, data.Density);
+        protected override Color Read(ActuatorData data) => data.Warned ? Color.red : Color.Lerp(Free, Dense, data.Density);
     }
 }

@@ -6,9 +6,9 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives the intensity of a source at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Intensity Sensor")]
-    public sealed class IntensitySensor : IntensitySensor<SensorDataDraft>
+    public sealed class IntensitySensor : IntensitySensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, float intensity) => data.Intensity = intensity;
+        protected override void Write(ref SensorData data, float intensity) => data.Intensity = intensity;
     }
 }

@@ -6,9 +6,9 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Drives the node's rigid body towards the program's target.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Move Actuator")]
-    public sealed class MoveActuator : MoveActuator<ActuatorDataValue>
+    public sealed class MoveActuator : MoveActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorDataValue data) => data.Target.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
     }
 }

@@ -7,7 +7,7 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives colliders around the node, obstacles and other bodies alike.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
-    public sealed class ObstacleSensor : ObstacleSensor<SensorDataDraft>
+    public sealed class ObstacleSensor : ObstacleSensor<SensorData>
     {
         /// <summary>Colliders that touch the node's own body at the last tick: closest points within a radius of the centre.</summary>
         public int Contacts { get; private set; }
@@ -16,7 +16,7 @@ namespace Collektive.Samples.GradientAscent
         public float BodyRadius { get; set; } = 0.25f;
 
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, Span<Obstacle> obstacles)
+        protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
         {
             Contacts = 0;
             foreach (var obstacle in obstacles)

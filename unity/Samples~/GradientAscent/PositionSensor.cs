@@ -6,9 +6,9 @@ namespace Collektive.Samples.GradientAscent
 {
     /// <summary>Perceives where the node is.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Position Sensor")]
-    public sealed class PositionSensor : PositionSensor<SensorDataDraft>
+    public sealed class PositionSensor : PositionSensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorDataDraft data, Vector3 position) => data.Position = position.ToValue();
+        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
     }
 }

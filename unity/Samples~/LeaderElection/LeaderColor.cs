@@ -6,12 +6,12 @@ namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Gives all nodes of one leader the same colour.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Color")]
-    public sealed class LeaderColor : ColorActuator<ActuatorDataValue>
+    public sealed class LeaderColor : ColorActuator<ActuatorData>
     {
         /// <summary>A hue in 0..1, far from those of neighbouring ids.</summary>
         public static float HueOf(int leader) => leader * 0.61803399f % 1;
 
         /// <inheritdoc/>
-        protected override Color Read(ActuatorDataValue data) => Color.HSVToRGB(HueOf(data.Leader), 0.7f, 1);
+        protected override Color Read(ActuatorData data) => Color.HSVToRGB(HueOf(data.Leader), 0.7f, 1);
     }
 }

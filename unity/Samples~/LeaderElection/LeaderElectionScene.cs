@@ -41,7 +41,7 @@ namespace Collektive.Samples.LeaderElection
         public override string ShadeName => "leader";
 
         /// <inheritdoc/>
-        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorDataValue answer) ? LeaderColor.HueOf(answer.Leader) : 0;
+        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? LeaderColor.HueOf(answer.Leader) : 0;
 
         /// <summary>
         /// Nodes whose leader is there, leads itself and is near enough; how many leaders they have; and the greatest distance of one from its
@@ -99,7 +99,7 @@ namespace Collektive.Samples.LeaderElection
             foreach (var leader in leaders) leader.gameObject.SetActive(false);
         }
 
-        private Node LeaderOf(Node node) => node.TryGetAnswer(out ActuatorDataValue answer) ? manager.Find(answer.Leader) : null;
+        private Node LeaderOf(Node node) => node.TryGetAnswer(out ActuatorData answer) ? manager.Find(answer.Leader) : null;
 
         private void MakeNode(Vector3 place)
         {

@@ -6,9 +6,9 @@ namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Shows a lamp above each leader.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Lamp")]
-    public sealed class LeaderLamp : EnableActuator<ActuatorDataValue>
+    public sealed class LeaderLamp : EnableActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override bool Read(ActuatorDataValue data) => data.Leader == Node.Id;
+        protected override bool Read(ActuatorData data) => data.Leader == Node.Id;
     }
 }

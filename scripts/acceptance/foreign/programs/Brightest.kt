@@ -6,7 +6,7 @@ import org.collektive.api.Program
 
 /** The greatest brightness anywhere, by gossip. */
 @Program("brightest")
-public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorDataT {
+public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorData {
     val mine = sensors.brightness()
     val heard = mutableListOf<Int>()
     val best = share(mine) { field ->
@@ -14,8 +14,5 @@ public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorDataT {
         heard += values.map { it.id }
         maxOf(mine, values.maxOfOrNull { it.value } ?: mine)
     }
-    return ActuatorDataT().also {
-        it.brightest = best
-        it.seen = heard.toIntArray()
-    }
+    return ActuatorData(brightest = best, seen = heard.toIntArray())
 }

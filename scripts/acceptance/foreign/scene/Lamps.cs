@@ -4,11 +4,11 @@ using UnityEngine;
 
 namespace Lamps
 {
-    public sealed class BrightnessSensor : Sensor<lamps.SensorDataDraft>
+    public sealed class BrightnessSensor : Sensor<lamps.SensorData>
     {
         public float Brightness;
 
-        protected override void Sense(ref lamps.SensorDataDraft data)
+        protected override void Sense(ref lamps.SensorData data)
         {
             data.Brightness = Brightness;
             data.Labels.Add(name);

@@ -6,7 +6,7 @@ import jdk.jfr.Event
 import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
-import probe.ActuatorDataT
+import probe.ActuatorData
 import probe.SensorData
 import java.lang.Thread.sleep
 import java.nio.ByteBuffer
@@ -17,10 +17,10 @@ import kotlin.concurrent.thread
 
 /** Counts its rounds; in one whose sensor says 1 it does what the parameter names. */
 @Program("fault", parameters = [Parameter("fault", "none", "What goes wrong when the value is 1.")])
-public fun Aggregate<Int>.fault(sensors: SensorData, device: Device): ActuatorDataT {
+public fun Aggregate<Int>.fault(sensors: SensorData, device: Device): ActuatorData {
     val rounds = evolve(0) { it + 1 }
     if (sensors.value() == 1f) misbehave(device.parameters["fault"], sensors)
-    return ActuatorDataT().also { it.value = rounds.toFloat() }
+    return ActuatorData(rounds.toFloat())
 }
 
 private val hoard = ArrayList<Any>()

@@ -39,7 +39,7 @@ namespace Collektive.Headless.Tests.Bridge
                 session.Step(0.05, Limit);
                 Assert.That(session.Answer.NodeCount, Is.EqualTo(Nodes));
                 Assert.That(session.Answer.EngineLinks, Is.EqualTo(2 * Nodes));
-                var actuators = (ActuatorBuffer<ActuatorDataValue>)session.Answer.Actuators;
+                var actuators = (ActuatorBuffer<ActuatorData>)session.Answer.Actuators;
                 for (var i = 0; i < Nodes; i++)
                 {
                     Assert.That(session.Answer.Node(i), Is.EqualTo(i));
@@ -113,12 +113,12 @@ namespace Collektive.Headless.Tests.Bridge
                     each.Request.AddDue(1);
                     each.Request.Sensors.EnsureCapacity(1);
                     each.Request.Sensors.Clear(0);
-                    ((SensorBuffer<SensorDataValue>)each.Request.Sensors).Items[0].Value = each == session ? 1 : 10;
+                    ((SensorBuffer<SensorData>)each.Request.Sensors).Items[0].Value = each == session ? 1 : 10;
                 }
                 other.Step(0.1, Limit);
                 session.Step(0.1, Limit);
-                Assert.That(((ActuatorBuffer<ActuatorDataValue>)other.Answer.Actuators)[0].Value, Is.EqualTo(20));
-                Assert.That(((ActuatorBuffer<ActuatorDataValue>)session.Answer.Actuators)[0].Value, Is.EqualTo(2));
+                Assert.That(((ActuatorBuffer<ActuatorData>)other.Answer.Actuators)[0].Value, Is.EqualTo(20));
+                Assert.That(((ActuatorBuffer<ActuatorData>)session.Answer.Actuators)[0].Value, Is.EqualTo(2));
             }
         }
 
@@ -173,7 +173,7 @@ namespace Collektive.Headless.Tests.Bridge
 
         private void Fill(Func<int, float> value)
         {
-            var sensors = (SensorBuffer<SensorDataValue>)session.Request.Sensors;
+            var sensors = (SensorBuffer<SensorData>)session.Request.Sensors;
             sensors.EnsureCapacity(Nodes);
             session.Request.ClearDue();
             for (var i = 0; i < Nodes; i++)

@@ -21,9 +21,9 @@ import it.unibo.collektive.aggregate.api.neighboring
 import org.collektive.api.Program
 
 @Program(""count"")
-public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT {
+public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
     val heard = neighboring(sensors.intensity())
-    return ActuatorDataT().also { it.hops = heard.neighbors.size.toFloat() }
+    return ActuatorData(hops = heard.neighbors.size.toFloat())
 }
 ";
 

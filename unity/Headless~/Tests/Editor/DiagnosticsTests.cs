@@ -367,9 +367,9 @@ namespace Collektive.Headless.Tests.Editor
             Menus.Send(DiagnosticsWindow.Open(), "OnGUI");
         }
 
-        private sealed class BrokenSensor : Unity.Sensor<probe.SensorDataValue>
+        private sealed class BrokenSensor : Unity.Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data) => throw new System.InvalidOperationException("out of order");
+            protected override void Sense(ref probe.SensorData data) => throw new System.InvalidOperationException("out of order");
         }
     }
 }

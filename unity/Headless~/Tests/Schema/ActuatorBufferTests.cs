@@ -9,15 +9,15 @@ namespace Collektive.Headless.Tests.Schema
     [TestFixture]
     public class ActuatorBufferTests
     {
-        private ActuatorBuffer<ActuatorDataValue> actuators;
+        private ActuatorBuffer<ActuatorData> actuators;
         private byte[] frame;
         private int position;
 
         [SetUp]
         public void MakeFrame()
         {
-            actuators = (ActuatorBuffer<ActuatorDataValue>)new BlocksSchema().CreateActuators();
-            var writer = new StructSensorBuffer<ActuatorDataValue>(8);
+            actuators = (ActuatorBuffer<ActuatorData>)new BlocksSchema().CreateActuators();
+            var writer = new StructSensorBuffer<ActuatorData>(8);
             writer.EnsureCapacity(3);
             for (var i = 0; i < 3; i++) writer.Items[i].Target.X = i;
             var builder = new FlatBufferBuilder(64);
@@ -33,7 +33,7 @@ namespace Collektive.Headless.Tests.Schema
             actuators.Attach(new ByteBuffer(frame), position);
             Assert.That(actuators.Count, Is.EqualTo(3));
             Assert.That(actuators[2].Target.X, Is.EqualTo(2f));
-            Assert.That(actuators.DataType, Is.EqualTo(typeof(ActuatorDataValue)));
+            Assert.That(actuators.DataType, Is.EqualTo(typeof(ActuatorData)));
         }
 
         [TestCase(-1)]
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Schema
             actuators.KeepFormer(2, ref kept);
             NextFrame(20);
             Assert.That(actuators.Former(2).Target.X, Is.EqualTo(12));
-            Assert.That(((KeptAnswer<ActuatorDataValue>)kept).Value.Target.X, Is.EqualTo(2));
+            Assert.That(((KeptAnswer<ActuatorData>)kept).Value.Target.X, Is.EqualTo(2));
             Assert.Throws<ArgumentOutOfRangeException>(() => actuators.KeepFormer(3, ref kept));
         }
 
@@ -79,7 +79,7 @@ namespace Collektive.Headless.Tests.Schema
         private void NextFrame(float first)
         {
             actuators.Retain();
-            var writer = new StructSensorBuffer<ActuatorDataValue>(8);
+            var writer = new StructSensorBuffer<ActuatorData>(8);
             writer.EnsureCapacity(3);
             for (var i = 0; i < 3; i++) writer.Items[i].Target.X = first + i;
             var builder = new FlatBufferBuilder(64);

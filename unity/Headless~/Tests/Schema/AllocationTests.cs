@@ -28,8 +28,8 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void StructsAreStagedAndReadWithoutAllocation()
         {
-            var sensors = (SensorBuffer<Blocks.SensorDataValue>)new Blocks.BlocksSchema().CreateSensors();
-            var reader = new StructActuatorBuffer<Blocks.SensorDataValue>();
+            var sensors = (SensorBuffer<Blocks.SensorData>)new Blocks.BlocksSchema().CreateSensors();
+            var reader = new StructActuatorBuffer<Blocks.SensorData>();
             var sum = 0f;
             Assert.That(AllocatedBy(() =>
             {
@@ -51,8 +51,8 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void TablesAreStagedAndReadWithoutAllocation()
         {
-            var sensors = (SensorBuffer<Features.SensorDataDraft>)new Features.FeaturesSchema().CreateSensors();
-            var reader = new TableActuatorBuffer<Features.SensorData>(new TableShape());
+            var sensors = (SensorBuffer<Features.SensorData>)new Features.FeaturesSchema().CreateSensors();
+            var reader = new TableActuatorBuffer<swapped.features.ActuatorData>(new TableShape());
             var sum = 0L;
             Assert.That(AllocatedBy(() =>
             {
@@ -69,12 +69,12 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void AnswersAreRetainedAndKeptWithoutAllocation()
         {
-            var writer = new TableSensorBuffer<Features.ActuatorDataDraft, Features.ActuatorDataDraft.Row>();
+            var writer = new TableSensorBuffer<swapped.features.SensorData, swapped.features.SensorData.Row>();
             writer.EnsureCapacity(Nodes);
             for (var i = 0; i < Nodes; i++) new RandomData(i).Fill(writer.Items[i]);
             var table = new Features.FeaturesSchema().CreateActuators();
-            var structs = new StructActuatorBuffer<Blocks.SensorDataValue>();
-            var blocks = new StructSensorBuffer<Blocks.SensorDataValue>(8);
+            var structs = new StructActuatorBuffer<Blocks.SensorData>();
+            var blocks = new StructSensorBuffer<Blocks.SensorData>(8);
             blocks.EnsureCapacity(Nodes);
             Assert.That(AllocationOfKeeping(table, writer), Is.EqualTo(0));
             Assert.That(AllocationOfKeeping(structs, blocks), Is.EqualTo(0));
@@ -96,7 +96,7 @@ namespace Collektive.Headless.Tests.Schema
             });
         }
 
-        private static void Sense(SensorBuffer<Features.SensorDataDraft> sensors, int index)
+        private static void Sense(SensorBuffer<Features.SensorData> sensors, int index)
         {
             sensors.Clear(index);
             var data = sensors.Items[index];
@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void GlobalDataIsStagedWithoutAllocation()
         {
-            var globals = (GlobalBuffer<test.globals.GlobalDataDraft>)new test.globals.GlobalsSchema().CreateGlobals();
+            var globals = (GlobalBuffer<test.globals.GlobalData>)new test.globals.GlobalsSchema().CreateGlobals();
             Assert.That(AllocatedBy(() =>
             {
                 globals.Clear();

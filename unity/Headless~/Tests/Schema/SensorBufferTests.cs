@@ -10,15 +10,15 @@ namespace Collektive.Headless.Tests.Schema
     [TestFixture]
     public class SensorBufferTests
     {
-        private SensorBuffer<Features.SensorDataDraft> tables;
-        private SensorBuffer<Blocks.SensorDataValue> structs;
+        private SensorBuffer<Features.SensorData> tables;
+        private SensorBuffer<Blocks.SensorData> structs;
         private FlatBufferBuilder builder;
 
         [SetUp]
         public void MakeBuffers()
         {
-            tables = (SensorBuffer<Features.SensorDataDraft>)new Features.FeaturesSchema().CreateSensors();
-            structs = (SensorBuffer<Blocks.SensorDataValue>)new Blocks.BlocksSchema().CreateSensors();
+            tables = (SensorBuffer<Features.SensorData>)new Features.FeaturesSchema().CreateSensors();
+            structs = (SensorBuffer<Blocks.SensorData>)new Blocks.BlocksSchema().CreateSensors();
             builder = new FlatBufferBuilder(64);
         }
 
@@ -33,7 +33,7 @@ namespace Collektive.Headless.Tests.Schema
             AssertDefaults(data);
         }
 
-        private static void AssertDefaults(Features.SensorDataDraft data)
+        private static void AssertDefaults(Features.SensorData data)
         {
             Assert.That(data.Flag, Is.True);
             Assert.That(data.Number, Is.EqualTo(int.MinValue));
@@ -57,7 +57,7 @@ namespace Collektive.Headless.Tests.Schema
                 tables.EnsureCapacity(3);
                 for (var k = 0; k < 3; k++) random.Fill(tables.Items[k]);
                 builder.Clear();
-                var reader = new TableActuatorBuffer<Features.SensorData>(new TableShape());
+                var reader = new TableActuatorBuffer<swapped.features.ActuatorData>(new TableShape());
                 Attach(reader, tables.Write(builder, 3));
                 Assert.That(reader.Count, Is.EqualTo(3));
                 for (var k = 0; k < 3; k++) Assert.That(Dump.Of(reader[k]), Is.EqualTo(Dump.Of(tables.Items[k])));
@@ -76,8 +76,8 @@ namespace Collektive.Headless.Tests.Schema
         {
             var random = new RandomData(6);
             structs.EnsureCapacity(4);
-            for (var i = 0; i < 4; i++) structs.Items[i] = random.Mirror<Blocks.SensorDataValue>();
-            var reader = new StructActuatorBuffer<Blocks.SensorDataValue>();
+            for (var i = 0; i < 4; i++) structs.Items[i] = random.Mirror<Blocks.SensorData>();
+            var reader = new StructActuatorBuffer<Blocks.SensorData>();
             Attach(reader, structs.Write(builder, 4));
             Assert.That(reader.Count, Is.EqualTo(4));
             for (var i = 0; i < 4; i++) Assert.That(Dump.Of(reader[i]), Is.EqualTo(Dump.Of(structs.Items[i])));
@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void NoElementsMakeAnEmptyTable()
         {
-            var reader = new StructActuatorBuffer<Blocks.SensorDataValue>();
+            var reader = new StructActuatorBuffer<Blocks.SensorData>();
             Attach(reader, structs.Write(builder, 0));
             Assert.That(reader.Count, Is.EqualTo(0));
         }
@@ -196,7 +196,7 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void GlobalDataIsStagedLikeATable()
         {
-            var globals = (GlobalBuffer<test.globals.GlobalDataDraft>)new test.globals.GlobalsSchema().CreateGlobals();
+            var globals = (GlobalBuffer<test.globals.GlobalData>)new test.globals.GlobalsSchema().CreateGlobals();
             Assert.That(globals.Data.Gain, Is.EqualTo(2.5));
             globals.Data.Wind = new Vector3Value(float.NaN, 0, 0);
             Assert.That(globals.FindNotFinite(), Is.EqualTo("wind.x"));

@@ -168,29 +168,29 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.GetComponent<Rigidbody>().linearVelocity.x, Is.EqualTo(0));
         }
 
-        public sealed class Move : MoveActuator<ActuatorDataValue>
+        public sealed class Move : MoveActuator<ActuatorData>
         {
-            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+            protected override Vector3 Read(ActuatorData data) => new Vector3(data.Value, 0, 0);
         }
 
-        public sealed class Push : AddForceActuator<ActuatorDataValue>
+        public sealed class Push : AddForceActuator<ActuatorData>
         {
-            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+            protected override Vector3 Read(ActuatorData data) => new Vector3(data.Value, 0, 0);
         }
 
-        public sealed class Fly : SetVelocityActuator<ActuatorDataValue>
+        public sealed class Fly : SetVelocityActuator<ActuatorData>
         {
-            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(data.Value, 0, 0);
+            protected override Vector3 Read(ActuatorData data) => new Vector3(data.Value, 0, 0);
         }
 
-        public sealed class Tint : ColorActuator<ActuatorDataValue>
+        public sealed class Tint : ColorActuator<ActuatorData>
         {
-            protected override Color Read(ActuatorDataValue data) => data.Value > 0 ? Color.red : Color.blue;
+            protected override Color Read(ActuatorData data) => data.Value > 0 ? Color.red : Color.blue;
         }
 
-        public sealed class Switch : EnableActuator<ActuatorDataValue>
+        public sealed class Switch : EnableActuator<ActuatorData>
         {
-            protected override bool Read(ActuatorDataValue data) => data.Value > 0;
+            protected override bool Read(ActuatorData data) => data.Value > 0;
         }
     }
 }

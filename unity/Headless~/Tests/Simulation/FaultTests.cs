@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(1);
             node.Node.gameObject.AddComponent<ForeignSensor>();
             Play(1);
-            Assert.That(Manager.Failure, Is.StringContaining("ForeignSensor").And.StringContaining("SensorDataValue"));
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignSensor").And.StringContaining("SensorData"));
         }
 
         [Test]
@@ -458,7 +458,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(selected.By("ThrowingSensor on 'Probe' failed 10 times"), Is.SameAs(sensor));
             var foreign = actuator.gameObject.AddComponent<ForeignActuator>();
             Assert.That(new Selection(() => Play(1)).By("ForeignActuator"), Is.SameAs(foreign));
-            Assert.That(Manager.Failure, Is.StringContaining("ForeignActuator").And.StringContaining("ActuatorDataValue"));
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignActuator").And.StringContaining("ActuatorData"));
         }
 
         [Test]
@@ -489,7 +489,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             MakeNode(1);
             Play(2);
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => throw new InvalidOperationException("broken writer"));
+            Manager.SetGlobals<probe.GlobalData>(data => throw new InvalidOperationException("broken writer"));
             Play(3);
             Assert.That(Manager.Failure, Is.EqualTo("tick 3 failed: broken writer"));
             Assert.That(Errors, Has.Some.StringContaining("InvalidOperationException"));
@@ -577,19 +577,19 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class SteppingActuator : Actuator<probe.ActuatorDataValue>
+        public sealed class SteppingActuator : Actuator<probe.ActuatorData>
         {
-            protected override void Act(probe.ActuatorDataValue data) => SimulationManager.Current.Step();
+            protected override void Act(probe.ActuatorData data) => SimulationManager.Current.Step();
         }
 
-        public sealed class SuicidalSensor : Sensor<probe.SensorDataValue>
+        public sealed class SuicidalSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data) => Object.DestroyImmediate(this);
+            protected override void Sense(ref probe.SensorData data) => Object.DestroyImmediate(this);
         }
 
-        public sealed class SuicidalActuator : Actuator<probe.ActuatorDataValue>
+        public sealed class SuicidalActuator : Actuator<probe.ActuatorData>
         {
-            protected override void Act(probe.ActuatorDataValue data) => Object.DestroyImmediate(this);
+            protected override void Act(probe.ActuatorData data) => Object.DestroyImmediate(this);
         }
 
         public sealed class SuicidalRule : NeighbourhoodRule
@@ -601,9 +601,9 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class NodeKillingSensor : Sensor<probe.SensorDataValue>
+        public sealed class NodeKillingSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data) => Object.DestroyImmediate(Node.gameObject);
+            protected override void Sense(ref probe.SensorData data) => Object.DestroyImmediate(Node.gameObject);
         }
 
         public sealed class NodeKillingRule : NeighbourhoodRule
@@ -615,11 +615,11 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class RestlessSensor : Sensor<probe.SensorDataValue>
+        public sealed class RestlessSensor : Sensor<probe.SensorData>
         {
             public int Calls { get; private set; }
 
-            protected override void Sense(ref probe.SensorDataValue data)
+            protected override void Sense(ref probe.SensorData data)
             {
                 Calls++;
                 enabled = false;
@@ -627,9 +627,9 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class ThrowingActuator : Actuator<probe.ActuatorDataValue>
+        public sealed class ThrowingActuator : Actuator<probe.ActuatorData>
         {
-            protected override void Act(probe.ActuatorDataValue data) => throw new InvalidOperationException("broken on purpose");
+            protected override void Act(probe.ActuatorData data) => throw new InvalidOperationException("broken on purpose");
         }
 
         public sealed class ThrowingRule : NeighbourhoodRule
@@ -637,9 +637,9 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void FindNeighbours(NeighbourCollector neighbours) => throw new InvalidOperationException("broken on purpose");
         }
 
-        public sealed class ThrowingSensor : Sensor<probe.SensorDataValue>
+        public sealed class ThrowingSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorDataValue data) => throw new InvalidOperationException("broken on purpose");
+            protected override void Sense(ref probe.SensorData data) => throw new InvalidOperationException("broken on purpose");
         }
 
         public sealed class BrokenScene : SceneBuilder

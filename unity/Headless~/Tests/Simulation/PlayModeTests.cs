@@ -204,18 +204,18 @@ namespace Collektive.Headless.Tests.Simulation
             return values;
         }
 
-        public sealed class KillingSensor : Sensor<probe.SensorDataValue>
+        public sealed class KillingSensor : Sensor<probe.SensorData>
         {
             public Action Kill;
 
-            protected override void Sense(ref probe.SensorDataValue data) => Kill?.Invoke();
+            protected override void Sense(ref probe.SensorData data) => Kill?.Invoke();
         }
 
-        public sealed class KillingActuator : Actuator<probe.ActuatorDataValue>
+        public sealed class KillingActuator : Actuator<probe.ActuatorData>
         {
             public Action Kill;
 
-            protected override void Act(probe.ActuatorDataValue data) => Kill?.Invoke();
+            protected override void Act(probe.ActuatorData data) => Kill?.Invoke();
         }
     }
 }

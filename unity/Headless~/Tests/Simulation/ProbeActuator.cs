@@ -4,12 +4,12 @@ using probe;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Keeps what the program answered.</summary>
-    public sealed class ProbeActuator : Actuator<ActuatorDataValue>
+    public sealed class ProbeActuator : Actuator<ActuatorData>
     {
-        public ActuatorDataValue Last;
+        public ActuatorData Last;
         public int Calls;
 
-        protected override void Act(ActuatorDataValue data)
+        protected override void Act(ActuatorData data)
         {
             Last = data;
             Calls++;

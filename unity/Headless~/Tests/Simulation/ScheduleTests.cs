@@ -175,12 +175,12 @@ namespace Collektive.Headless.Tests.Simulation
             other.Node.Sleep(10);
             Play(3);
             Rejoin(other);
-            Assert.That(other.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False);
             Assert.That(other.Node.AnswerTick, Is.EqualTo(0));
             var rejoiner = node.Node.gameObject.AddComponent<Rejoiner>();
             rejoiner.Of = other;
             Play(1);
-            Assert.That(other.Node.TryGetAnswer(out ActuatorDataValue _), Is.False, "the answer was for the one that left");
+            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False, "the answer was for the one that left");
             Assert.That(other.Actuator.Calls, Is.EqualTo(2));
             rejoiner.Of = null;
             Play(1);
@@ -194,11 +194,11 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("count", Asynchronous(0.2f));
             var node = MakeNode(0);
             Play(3);
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.True);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData _), Is.True);
             Manager.enabled = false;
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData _), Is.False);
             Manager.enabled = true;
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue _), Is.False);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData _), Is.False);
             Play(2);
             Expect(node, 1, 1);
         }
@@ -286,18 +286,18 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void Global_data_reach_programs_from_the_next_tick_on()
         {
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = 1);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 1);
             Configure("windy");
             var node = MakeNode(0);
             Play(1);
             Assert.That(node.Answer, Is.EqualTo(-1), "what was set for an earlier simulation is gone");
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = 3);
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = data.Wind + 1);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 3);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = data.Wind + 1);
             Play(1);
             Assert.That(node.Answer, Is.EqualTo(4));
             Play(2);
             Assert.That(node.Answer, Is.EqualTo(4));
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = data.Wind * 2);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = data.Wind * 2);
             Play(1);
             Assert.That(node.Answer, Is.EqualTo(8));
         }
@@ -308,18 +308,18 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("windy");
             MakeNode(0);
             Play(1);
-            Manager.SetGlobals<probe.GlobalDataDraft>(data => data.Wind = float.NaN);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = float.NaN);
             Play(1);
             Assert.That(Manager.Failure, Is.StringContaining("not finite").And.StringContaining("wind"));
             Configure("windy");
             Manager.SetGlobals<string>(data => { });
             Play(1);
-            Assert.That(Manager.Failure, Is.StringContaining("System.String").And.StringContaining("GlobalDataDraft"));
+            Assert.That(Manager.Failure, Is.StringContaining("System.String").And.StringContaining("GlobalData"));
         }
 
         private static void Expect(ProbeNode node, float value, ulong tick)
         {
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue answer), Is.True);
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData answer), Is.True);
             Assert.That(answer.Value, Is.EqualTo(value));
             Assert.That(node.Node.AnswerTick, Is.EqualTo(tick));
         }
@@ -350,23 +350,23 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>Makes another node leave and come back while the tick acts.</summary>
-        public sealed class Rejoiner : Actuator<ActuatorDataValue>
+        public sealed class Rejoiner : Actuator<ActuatorData>
         {
             public ProbeNode Of;
 
-            protected override void Act(ActuatorDataValue data)
+            protected override void Act(ActuatorData data)
             {
                 if (Of != null) Rejoin(Of);
             }
         }
 
         /// <summary>Asks another node for its answer.</summary>
-        public sealed class Asker : Actuator<ActuatorDataValue>
+        public sealed class Asker : Actuator<ActuatorData>
         {
             public Node Of;
             public float Heard;
 
-            protected override void Act(ActuatorDataValue data) => Heard = Of.TryGetAnswer(out ActuatorDataValue answer) ? answer.Value : -1;
+            protected override void Act(ActuatorData data) => Heard = Of.TryGetAnswer(out ActuatorData answer) ? answer.Value : -1;
         }
     }
 }

@@ -293,67 +293,67 @@ namespace Collektive.Headless.Tests.Simulation
             return source;
         }
 
-        public sealed class Position : PositionSensor<SensorDataValue>
+        public sealed class Position : PositionSensor<SensorData>
         {
             public Vector3 Value { get; private set; }
 
-            protected override void Write(ref SensorDataValue data, Vector3 position) => Value = position;
+            protected override void Write(ref SensorData data, Vector3 position) => Value = position;
         }
 
-        public sealed class Velocity : VelocitySensor<SensorDataValue>
+        public sealed class Velocity : VelocitySensor<SensorData>
         {
             public Vector3 Value { get; private set; }
 
-            protected override void Write(ref SensorDataValue data, Vector3 velocity) => Value = velocity;
+            protected override void Write(ref SensorData data, Vector3 velocity) => Value = velocity;
         }
 
-        public sealed class Body : RigidbodySensor<SensorDataValue>
+        public sealed class Body : RigidbodySensor<SensorData>
         {
             public float Mass { get; private set; }
 
-            protected override void Write(ref SensorDataValue data, Rigidbody body) => Mass = body.mass;
+            protected override void Write(ref SensorData data, Rigidbody body) => Mass = body.mass;
         }
 
-        public sealed class Obstacles : ObstacleSensor<SensorDataValue>
+        public sealed class Obstacles : ObstacleSensor<SensorData>
         {
             public List<Obstacle> Values { get; } = new List<Obstacle>();
 
-            protected override void Write(ref SensorDataValue data, Span<Obstacle> obstacles)
+            protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
             {
                 Values.Clear();
                 foreach (var obstacle in obstacles) Values.Add(obstacle);
             }
         }
 
-        public sealed class Rays : RayFanSensor<SensorDataValue>
+        public sealed class Rays : RayFanSensor<SensorData>
         {
             public List<RayHit> Values { get; } = new List<RayHit>();
 
-            protected override void Write(ref SensorDataValue data, Span<RayHit> hits)
+            protected override void Write(ref SensorData data, Span<RayHit> hits)
             {
                 Values.Clear();
                 foreach (var hit in hits) Values.Add(hit);
             }
         }
 
-        public sealed class Contacts : ContactSensor<SensorDataValue>
+        public sealed class Contacts : ContactSensor<SensorData>
         {
             public List<Contact> Values { get; } = new List<Contact>();
 
-            protected override void Write(ref SensorDataValue data, Span<Contact> contacts)
+            protected override void Write(ref SensorData data, Span<Contact> contacts)
             {
                 Values.Clear();
                 foreach (var contact in contacts) Values.Add(contact);
             }
         }
 
-        public sealed class Zones : ZoneSensor<SensorDataValue>
+        public sealed class Zones : ZoneSensor<SensorData>
         {
             public List<string> Told { get; } = new List<string>();
 
             public Collider Last { get; private set; }
 
-            protected override void Write(ref SensorDataValue data, Span<Zone> zones)
+            protected override void Write(ref SensorData data, Span<Zone> zones)
             {
                 foreach (var zone in zones)
                 {
@@ -363,11 +363,11 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class Intensity : IntensitySensor<SensorDataValue>
+        public sealed class Intensity : IntensitySensor<SensorData>
         {
             public float Value { get; private set; }
 
-            protected override void Write(ref SensorDataValue data, float intensity) => Value = intensity;
+            protected override void Write(ref SensorData data, float intensity) => Value = intensity;
         }
     }
 }

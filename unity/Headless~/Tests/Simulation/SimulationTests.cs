@@ -135,7 +135,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         private static float Value(Node node)
         {
-            Assert.That(node.TryGetAnswer(out ActuatorDataValue data), Is.True);
+            Assert.That(node.TryGetAnswer(out ActuatorData data), Is.True);
             return data.Value;
         }
 
@@ -155,20 +155,20 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void FindNeighbours(NeighbourCollector neighbours) => Note("rule " + Node.Id);
         }
 
-        private sealed class RecordedSensor : Sensor<SensorDataValue>
+        private sealed class RecordedSensor : Sensor<SensorData>
         {
             internal float Value { get; set; }
 
-            protected override void Sense(ref SensorDataValue data)
+            protected override void Sense(ref SensorData data)
             {
                 data.Value = Value;
                 Note("sensor " + Node.Id);
             }
         }
 
-        private sealed class RecordedActuator : Actuator<ActuatorDataValue>
+        private sealed class RecordedActuator : Actuator<ActuatorData>
         {
-            protected override void Act(ActuatorDataValue data) => Note("actuator " + Node.Id);
+            protected override void Act(ActuatorData data) => Note("actuator " + Node.Id);
         }
     }
 }

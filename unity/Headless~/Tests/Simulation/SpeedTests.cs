@@ -66,7 +66,7 @@ namespace Collektive.Headless.Tests.Simulation
                 node.AddComponent<Node>();
                 node.AddComponent<RadiusNeighbourhood>().Radius = 2;
                 node.AddComponent<Place>();
-                ((MoveActuator<ActuatorDataValue>)node.AddComponent(walk)).MaxSpeed = 2;
+                ((MoveActuator<ActuatorData>)node.AddComponent(walk)).MaxSpeed = 2;
                 node.SetActive(true);
             }
             Play(10);
@@ -150,57 +150,57 @@ namespace Collektive.Headless.Tests.Simulation
             node.AddComponent<Switch>().Target = node.GetComponentInChildren<Renderer>();
         }
 
-        public sealed class Place : PositionSensor<SensorDataValue>
+        public sealed class Place : PositionSensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Vector3 position) => data.Position = position.ToValue();
+            protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
         }
 
-        public sealed class Speed : VelocitySensor<SensorDataValue>
+        public sealed class Speed : VelocitySensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Vector3 velocity) => data.Value = velocity.x;
+            protected override void Write(ref SensorData data, Vector3 velocity) => data.Value = velocity.x;
         }
 
-        public sealed class Mass : RigidbodySensor<SensorDataValue>
+        public sealed class Mass : RigidbodySensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Rigidbody body) => data.Value += body.mass;
+            protected override void Write(ref SensorData data, Rigidbody body) => data.Value += body.mass;
         }
 
-        public sealed class Near : ObstacleSensor<SensorDataValue>
+        public sealed class Near : ObstacleSensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Span<Obstacle> obstacles)
+            protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
             {
                 foreach (var obstacle in obstacles) data.Value += obstacle.Distance;
             }
         }
 
-        public sealed class Far : RayFanSensor<SensorDataValue>
+        public sealed class Far : RayFanSensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Span<RayHit> hits)
+            protected override void Write(ref SensorData data, Span<RayHit> hits)
             {
                 foreach (var hit in hits) data.Value += hit.Distance;
             }
         }
 
-        public sealed class Touched : ContactSensor<SensorDataValue>
+        public sealed class Touched : ContactSensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Span<Contact> contacts)
+            protected override void Write(ref SensorData data, Span<Contact> contacts)
             {
                 foreach (var contact in contacts) data.Value += contact.Impulse.x;
             }
         }
 
-        public sealed class Inside : ZoneSensor<SensorDataValue>
+        public sealed class Inside : ZoneSensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, Span<Zone> zones) => data.Value += zones.Length;
+            protected override void Write(ref SensorData data, Span<Zone> zones) => data.Value += zones.Length;
         }
 
-        public sealed class Bright : IntensitySensor<SensorDataValue>
+        public sealed class Bright : IntensitySensor<SensorData>
         {
-            protected override void Write(ref SensorDataValue data, float intensity) => data.Value += intensity;
+            protected override void Write(ref SensorData data, float intensity) => data.Value += intensity;
         }
 
         /// <summary>Sways about a place of its own, so that what is near changes and never grows.</summary>
-        public sealed class Sway : MoveActuator<ActuatorDataValue>
+        public sealed class Sway : MoveActuator<ActuatorData>
         {
             private Vector3 home;
 
@@ -210,13 +210,13 @@ namespace Collektive.Headless.Tests.Simulation
                 home = transform.position;
             }
 
-            protected override Vector3 Read(ActuatorDataValue data) => home + new Vector3(SimulationManager.Current.Tick % 2 == 0 ? 0.2f : -0.2f, 0, 0);
+            protected override Vector3 Read(ActuatorData data) => home + new Vector3(SimulationManager.Current.Tick % 2 == 0 ? 0.2f : -0.2f, 0, 0);
         }
 
         /// <summary>Goes around the middle of the plane.</summary>
-        public sealed class Orbit : MoveActuator<ActuatorDataValue>
+        public sealed class Orbit : MoveActuator<ActuatorData>
         {
-            protected override Vector3 Read(ActuatorDataValue data)
+            protected override Vector3 Read(ActuatorData data)
             {
                 var place = Node.transform.position;
                 return new Vector3(place.x + (place.z - Side / 2), 0, place.z - (place.x - Side / 2));
@@ -224,11 +224,11 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>Goes straight on in a direction of its own, and back from the end of the plane.</summary>
-        public sealed class Wander : MoveActuator<ActuatorDataValue>
+        public sealed class Wander : MoveActuator<ActuatorData>
         {
             private Vector3 way;
 
-            protected override Vector3 Read(ActuatorDataValue data)
+            protected override Vector3 Read(ActuatorData data)
             {
                 if (way == Vector3.zero) way = Quaternion.Euler(0, Node.Random.Range(0f, 360f), 0) * new Vector3(0, 0, 10);
                 var place = Node.transform.position;
@@ -238,19 +238,19 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class Push : AddForceActuator<ActuatorDataValue>
+        public sealed class Push : AddForceActuator<ActuatorData>
         {
-            protected override Vector3 Read(ActuatorDataValue data) => new Vector3(0, 0, 1e-3f);
+            protected override Vector3 Read(ActuatorData data) => new Vector3(0, 0, 1e-3f);
         }
 
-        public sealed class Tint : ColorActuator<ActuatorDataValue>
+        public sealed class Tint : ColorActuator<ActuatorData>
         {
-            protected override Color Read(ActuatorDataValue data) => new Color(data.Value % 1, 0, 0);
+            protected override Color Read(ActuatorData data) => new Color(data.Value % 1, 0, 0);
         }
 
-        public sealed class Switch : EnableActuator<ActuatorDataValue>
+        public sealed class Switch : EnableActuator<ActuatorData>
         {
-            protected override bool Read(ActuatorDataValue data) => data.Value > 0;
+            protected override bool Read(ActuatorData data) => data.Value > 0;
         }
     }
 }

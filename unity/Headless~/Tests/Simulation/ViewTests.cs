@@ -226,7 +226,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 13;
             Play(1);
-            Assert.That(node.Node.TryGetAnswer(out ActuatorDataValue last), Is.True, "the last good one");
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData last), Is.True, "the last good one");
             Assert.That(last.Value, Is.EqualTo(3));
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 0;
@@ -238,9 +238,9 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_node_shows_its_last_answer_in_the_type_of_the_schema_only()
         {
             var node = MakeNode(4).Node;
-            Assert.That(node.TryGetAnswer(out ActuatorDataValue _), Is.False, "before the first tick");
+            Assert.That(node.TryGetAnswer(out ActuatorData _), Is.False, "before the first tick");
             Play(1);
-            Assert.That(node.TryGetAnswer(out ActuatorDataValue data), Is.True);
+            Assert.That(node.TryGetAnswer(out ActuatorData data), Is.True);
             Assert.That(data.Value, Is.EqualTo(8));
             Assert.That(node.AnswerTime, Is.EqualTo(0.05).Within(1e-6));
             Assert.That(node.AnswerTick, Is.EqualTo(1));
@@ -310,9 +310,9 @@ namespace Collektive.Headless.Tests.Simulation
             return bars;
         }
 
-        public sealed class DoubleView : FieldView<ActuatorDataValue>
+        public sealed class DoubleView : FieldView<ActuatorData>
         {
-            protected override float Read(ActuatorDataValue data) => data.Value;
+            protected override float Read(ActuatorData data) => data.Value;
         }
     }
 }

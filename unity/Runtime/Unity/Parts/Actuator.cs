@@ -20,7 +20,7 @@ namespace Collektive.Unity
 
     /// <summary>Does in the scene what a node's program answered.</summary>
     /// <typeparam name="TData">
-    /// The generated type of the schema's actuator data: <c>ActuatorDataValue</c> for a struct, <c>ActuatorData</c> for a table.
+    /// The generated type <c>ActuatorData</c> of the schema: a copy of a struct, a view of a table that is valid during the call.
     /// </typeparam>
     public abstract class Actuator<TData> : Actuator
     {

@@ -12,7 +12,7 @@ namespace Collektive.Unity
     /// Writes what a node perceives into the data of its next round. Several sensors of one node fill different fields of the same data.
     /// </summary>
     /// <typeparam name="TData">
-    /// The generated type of the schema's sensor data: <c>SensorDataValue</c> for a struct, <c>SensorDataDraft</c> for a table.
+    /// The generated type <c>SensorData</c> of the schema.
     /// </typeparam>
     public abstract class Sensor<TData> : Sensor
     {

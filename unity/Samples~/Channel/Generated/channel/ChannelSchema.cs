@@ -3,7 +3,6 @@
 // </auto-generated>
 
 using System.Collections.Generic;
-using System.Runtime.InteropServices;
 using Bridge = Collektive.Bridge;
 
 namespace channel
@@ -20,14 +19,14 @@ namespace channel
         static ChannelSchema()
         {
             {
-                var mirror = default(global::channel.ActuatorDataValue);
-                Bridge::MirrorLayout.Size<global::channel.ActuatorDataValue>(8);
+                var mirror = default(global::channel.ActuatorData);
+                Bridge::MirrorLayout.Size<global::channel.ActuatorData>(8);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.InChannel, 0);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Distance, 4);
             }
             {
-                var mirror = default(global::channel.SensorDataValue);
-                Bridge::MirrorLayout.Size<global::channel.SensorDataValue>(16);
+                var mirror = default(global::channel.SensorData);
+                Bridge::MirrorLayout.Size<global::channel.SensorData>(16);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Position, 0);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Source, 12);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Target, 13);
@@ -48,54 +47,9 @@ namespace channel
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::StructSensorBuffer<global::channel.SensorDataValue>(4);
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::StructSensorBuffer<global::channel.SensorData>(4);
 
         /// <inheritdoc/>
-        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::channel.ActuatorDataValue>();
-    }
-}
-
-namespace channel
-{
-    /// <summary>Mirror of the struct <c>ActuatorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct ActuatorDataValue : Bridge::IMirror
-    {
-        /// <summary>Whether the node is part of the channel.</summary>
-        public bool InChannel;
-
-        /// <summary>Metres along links to the source; -1 while there is no way.</summary>
-        public float Distance;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (!float.IsFinite(Distance)) return "distance";
-            return null;
-        }
-    }
-}
-
-namespace channel
-{
-    /// <summary>Mirror of the struct <c>SensorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct SensorDataValue : Bridge::IMirror
-    {
-        /// <summary>Where the node is, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value Position;
-
-        /// <summary>Whether the channel begins at this node.</summary>
-        public bool Source;
-
-        /// <summary>Whether the channel ends at this node.</summary>
-        public bool Target;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (Position.FindNotFinite() is string path0) return "position." + path0;
-            return null;
-        }
+        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::channel.ActuatorData>();
     }
 }

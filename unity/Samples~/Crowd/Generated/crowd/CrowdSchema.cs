@@ -3,7 +3,6 @@
 // </auto-generated>
 
 using System.Collections.Generic;
-using System.Runtime.InteropServices;
 using Bridge = Collektive.Bridge;
 
 namespace crowd
@@ -20,8 +19,8 @@ namespace crowd
         static CrowdSchema()
         {
             {
-                var mirror = default(global::crowd.ActuatorDataValue);
-                Bridge::MirrorLayout.Size<global::crowd.ActuatorDataValue>(20);
+                var mirror = default(global::crowd.ActuatorData);
+                Bridge::MirrorLayout.Size<global::crowd.ActuatorData>(20);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Velocity, 0);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Density, 12);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Warned, 16);
@@ -33,7 +32,7 @@ namespace crowd
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Y, 4);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Z, 8);
             }
-            global::crowd.SensorDataDraft.Row.Check();
+            global::crowd.SensorData.Row.Check();
         }
 
         /// <inheritdoc/>
@@ -43,115 +42,9 @@ namespace crowd
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::crowd.SensorDataDraft, global::crowd.SensorDataDraft.Row>();
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::crowd.SensorData, global::crowd.SensorData.Row>();
 
         /// <inheritdoc/>
-        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::crowd.ActuatorDataValue>();
-    }
-}
-
-namespace crowd
-{
-    /// <summary>Mirror of the struct <c>ActuatorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct ActuatorDataValue : Bridge::IMirror
-    {
-        /// <summary>Where to and how fast, in metres per second.</summary>
-        public global::org.collektive.schema.Vector3Value Velocity;
-
-        /// <summary>Walkers per square metre around it.</summary>
-        public float Density;
-
-        /// <summary>Whether it is too dense near by.</summary>
-        public bool Warned;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (Velocity.FindNotFinite() is string path0) return "velocity." + path0;
-            if (!float.IsFinite(Density)) return "density";
-            return null;
-        }
-    }
-}
-
-namespace crowd
-{
-    /// <summary>Staging of the table <c>SensorData</c>.</summary>
-    public sealed class SensorDataDraft : Bridge::Draft<SensorDataDraft.Row>
-    {
-        private static readonly Bridge::RowLayout layout = new Bridge::RowLayout(4, 32, 4, 16, 28);
-        private int child2;
-
-        /// <summary>Makes a draft with the defaults of the schema.</summary>
-        public SensorDataDraft() : base(layout)
-        {
-            Clear();
-        }
-
-        /// <summary>Where the walker is, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value? Position;
-
-        /// <summary>Where it wants to go, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value? Goal;
-
-        /// <summary>From the walker to the nearest point of each wall and pillar around it, in metres.</summary>
-        public Bridge::DraftList<global::org.collektive.schema.Vector3Value> Obstacles { get; } = new Bridge::DraftList<global::org.collektive.schema.Vector3Value>();
-
-        /// <inheritdoc/>
-        public override void Clear()
-        {
-            Position = null;
-            Goal = null;
-            Obstacles.Clear();
-        }
-
-        /// <inheritdoc/>
-        public override string FindNotFinite()
-        {
-            if (Position.HasValue && Position.Value.FindNotFinite() is string path0) return "position." + path0;
-            if (Goal.HasValue && Goal.Value.FindNotFinite() is string path1) return "goal." + path1;
-            for (var i = 0; i < Obstacles.Count; i++) if (Obstacles[i].FindNotFinite() is string path) return "obstacles[" + i + "]." + path;
-            return null;
-        }
-
-        /// <inheritdoc/>
-        public override ulong WriteChildren(Bridge::DraftWriter writer)
-        {
-            child2 = writer.Values(Obstacles, false, 4);
-            var absent = 0UL;
-            if (!Position.HasValue) absent |= 1UL << 0;
-            if (!Goal.HasValue) absent |= 1UL << 1;
-            if (child2 == 0) absent |= 1UL << 2;
-            return absent;
-        }
-
-        /// <inheritdoc/>
-        public override void Fill(ref Row row, int vtable, int place)
-        {
-            row.VTable = vtable - place;
-            row.Field0 = Position.GetValueOrDefault();
-            row.Field1 = Goal.GetValueOrDefault();
-            row.Field2 = child2 == 0 ? 0 : place - 28 - child2;
-        }
-
-        /// <summary>The table as it lies in a frame.</summary>
-        [StructLayout(LayoutKind.Sequential)]
-        public struct Row
-        {
-            internal int VTable;
-            internal global::org.collektive.schema.Vector3Value Field0;
-            internal global::org.collektive.schema.Vector3Value Field1;
-            internal int Field2;
-
-            internal static void Check()
-            {
-                var row = default(Row);
-                Bridge::MirrorLayout.Size<Row>(32);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field0, 4);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field1, 16);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field2, 28);
-            }
-        }
+        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::crowd.ActuatorData>();
     }
 }

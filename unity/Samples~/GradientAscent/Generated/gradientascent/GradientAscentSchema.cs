@@ -3,7 +3,6 @@
 // </auto-generated>
 
 using System.Collections.Generic;
-using System.Runtime.InteropServices;
 using Bridge = Collektive.Bridge;
 
 namespace gradientascent
@@ -20,8 +19,8 @@ namespace gradientascent
         static GradientAscentSchema()
         {
             {
-                var mirror = default(global::gradientascent.ActuatorDataValue);
-                Bridge::MirrorLayout.Size<global::gradientascent.ActuatorDataValue>(12);
+                var mirror = default(global::gradientascent.ActuatorData);
+                Bridge::MirrorLayout.Size<global::gradientascent.ActuatorData>(12);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Target, 0);
             }
             {
@@ -31,7 +30,7 @@ namespace gradientascent
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Y, 4);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Z, 8);
             }
-            global::gradientascent.SensorDataDraft.Row.Check();
+            global::gradientascent.SensorData.Row.Check();
         }
 
         /// <inheritdoc/>
@@ -41,107 +40,9 @@ namespace gradientascent
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::gradientascent.SensorDataDraft, global::gradientascent.SensorDataDraft.Row>();
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::TableSensorBuffer<global::gradientascent.SensorData, global::gradientascent.SensorData.Row>();
 
         /// <inheritdoc/>
-        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::gradientascent.ActuatorDataValue>();
-    }
-}
-
-namespace gradientascent
-{
-    /// <summary>Mirror of the struct <c>ActuatorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct ActuatorDataValue : Bridge::IMirror
-    {
-        /// <summary>Where the node should go, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value Target;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (Target.FindNotFinite() is string path0) return "target." + path0;
-            return null;
-        }
-    }
-}
-
-namespace gradientascent
-{
-    /// <summary>Staging of the table <c>SensorData</c>.</summary>
-    public sealed class SensorDataDraft : Bridge::Draft<SensorDataDraft.Row>
-    {
-        private static readonly Bridge::RowLayout layout = new Bridge::RowLayout(4, 24, 4, 8, 20);
-        private int child2;
-
-        /// <summary>Makes a draft with the defaults of the schema.</summary>
-        public SensorDataDraft() : base(layout)
-        {
-            Clear();
-        }
-
-        /// <summary>What the node measures of the source, 0..100.</summary>
-        public float Intensity;
-
-        /// <summary>Where the node is, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value? Position;
-
-        /// <summary>From the node to the nearest point of each obstacle it senses, in metres.</summary>
-        public Bridge::DraftList<global::org.collektive.schema.Vector3Value> Obstacles { get; } = new Bridge::DraftList<global::org.collektive.schema.Vector3Value>();
-
-        /// <inheritdoc/>
-        public override void Clear()
-        {
-            Intensity = 0.0f;
-            Position = null;
-            Obstacles.Clear();
-        }
-
-        /// <inheritdoc/>
-        public override string FindNotFinite()
-        {
-            if (!float.IsFinite(Intensity)) return "intensity";
-            if (Position.HasValue && Position.Value.FindNotFinite() is string path1) return "position." + path1;
-            for (var i = 0; i < Obstacles.Count; i++) if (Obstacles[i].FindNotFinite() is string path) return "obstacles[" + i + "]." + path;
-            return null;
-        }
-
-        /// <inheritdoc/>
-        public override ulong WriteChildren(Bridge::DraftWriter writer)
-        {
-            child2 = writer.Values(Obstacles, false, 4);
-            var absent = 0UL;
-            if (!Position.HasValue) absent |= 1UL << 1;
-            if (child2 == 0) absent |= 1UL << 2;
-            return absent;
-        }
-
-        /// <inheritdoc/>
-        public override void Fill(ref Row row, int vtable, int place)
-        {
-            row.VTable = vtable - place;
-            row.Field0 = Intensity;
-            row.Field1 = Position.GetValueOrDefault();
-            row.Field2 = child2 == 0 ? 0 : place - 20 - child2;
-        }
-
-        /// <summary>The table as it lies in a frame.</summary>
-        [StructLayout(LayoutKind.Sequential)]
-        public struct Row
-        {
-            internal int VTable;
-            internal float Field0;
-            internal global::org.collektive.schema.Vector3Value Field1;
-            internal int Field2;
-
-            internal static void Check()
-            {
-                var row = default(Row);
-                Bridge::MirrorLayout.Size<Row>(24);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field0, 4);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field1, 8);
-                Bridge::MirrorLayout.Offset(ref row, ref row.Field2, 20);
-            }
-        }
+        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::gradientascent.ActuatorData>();
     }
 }

@@ -3,7 +3,6 @@
 // </auto-generated>
 
 using System.Collections.Generic;
-using System.Runtime.InteropServices;
 using Bridge = Collektive.Bridge;
 
 namespace leaderelection
@@ -20,14 +19,14 @@ namespace leaderelection
         static LeaderElectionSchema()
         {
             {
-                var mirror = default(global::leaderelection.ActuatorDataValue);
-                Bridge::MirrorLayout.Size<global::leaderelection.ActuatorDataValue>(8);
+                var mirror = default(global::leaderelection.ActuatorData);
+                Bridge::MirrorLayout.Size<global::leaderelection.ActuatorData>(8);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Leader, 0);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Distance, 4);
             }
             {
-                var mirror = default(global::leaderelection.SensorDataValue);
-                Bridge::MirrorLayout.Size<global::leaderelection.SensorDataValue>(12);
+                var mirror = default(global::leaderelection.SensorData);
+                Bridge::MirrorLayout.Size<global::leaderelection.SensorData>(12);
                 Bridge::MirrorLayout.Offset(ref mirror, ref mirror.Position, 0);
             }
             {
@@ -46,48 +45,9 @@ namespace leaderelection
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>
-        public override Bridge::SensorBuffer CreateSensors() => new Bridge::StructSensorBuffer<global::leaderelection.SensorDataValue>(4);
+        public override Bridge::SensorBuffer CreateSensors() => new Bridge::StructSensorBuffer<global::leaderelection.SensorData>(4);
 
         /// <inheritdoc/>
-        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::leaderelection.ActuatorDataValue>();
-    }
-}
-
-namespace leaderelection
-{
-    /// <summary>Mirror of the struct <c>ActuatorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct ActuatorDataValue : Bridge::IMirror
-    {
-        /// <summary>Id of the node's leader; its own id when it leads.</summary>
-        public int Leader;
-
-        /// <summary>Metres along links to the nearest leader; -1 while none is known.</summary>
-        public float Distance;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (!float.IsFinite(Distance)) return "distance";
-            return null;
-        }
-    }
-}
-
-namespace leaderelection
-{
-    /// <summary>Mirror of the struct <c>SensorData</c>.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    public struct SensorDataValue : Bridge::IMirror
-    {
-        /// <summary>Where the node is, in metres.</summary>
-        public global::org.collektive.schema.Vector3Value Position;
-
-        /// <inheritdoc/>
-        public string FindNotFinite()
-        {
-            if (Position.FindNotFinite() is string path0) return "position." + path0;
-            return null;
-        }
+        public override Bridge::ActuatorBuffer CreateActuators() => new Bridge::StructActuatorBuffer<global::leaderelection.ActuatorData>();
     }
 }

@@ -17,30 +17,27 @@ public final class Programs {
 
   /** The sum of this node's value and those of its neighbours, the number of successful rounds, a random number, the wind. */
   @Program(name = "sum")
-  public static ActuatorDataT sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
+  public static ActuatorData sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
     long sum = sensors.value();
     int rounds = aggregate.alignedOn("rounds", () -> aggregate.<Integer>evolve(0, n -> n + 1));
     Field<Integer, Integer> near = aggregate.neighboring(sensors.value(), InMemory.INSTANCE);
     for (FieldEntry<Integer, Integer> entry : near.getNeighbors().getList()) sum = sum * 31 + entry.getValue();
     GlobalData globals = (GlobalData) device.getGlobals();
-    ActuatorDataT result = new ActuatorDataT();
-    result.setValue(sum);
-    result.setText(rounds + "/" + device.getRandom().nextInt() + "/" + (globals == null ? "calm" : globals.wind()));
-    return result;
+    return new ActuatorData(sum, rounds + "/" + device.getRandom().nextInt() + "/" + (globals == null ? "calm" : globals.wind()));
   }
 
   @Program(name = "probe")
-  public static ActuatorDataT probe(Aggregate<Integer> aggregate, SensorData sensors) {
-    ActuatorDataT result = new ActuatorDataT();
-    result.setValue(aggregate.alignedOn("rounds", () -> aggregate.<Integer>evolve(0, n -> n + 1)));
+  public static ActuatorData probe(Aggregate<Integer> aggregate, SensorData sensors) {
+    String text = null;
+    int round = aggregate.alignedOn("rounds", () -> aggregate.<Integer>evolve(0, n -> n + 1));
     String label = sensors.label() == null ? "" : sensors.label();
-    if (label.startsWith("text:")) result.setText("x".repeat(Integer.parseInt(label.substring(5))));
+    if (label.startsWith("text:")) text = "x".repeat(Integer.parseInt(label.substring(5)));
     switch (label) {
       case "throw": throw new IllegalStateException("broken\nin two lines");
       case "recurse": return recurse(aggregate, sensors);
       case "memory": return exhaust();
       case "null": return null;
-      case "surrogate": result.setText("\ud800"); break;
+      case "surrogate": text = "\ud800"; break;
       case "share-view": aggregate.neighboring(sensors, InMemory.INSTANCE); break;
       case "keep-view": aggregate.evolve(sensors, old -> sensors); break;
       case "print": System.out.println("hello"); System.err.print("care"); System.err.println("ful"); break;
@@ -51,10 +48,10 @@ public final class Programs {
       case "loop": while (true) { Thread.onSpinWait(); }
       default: break;
     }
-    return result;
+    return new ActuatorData(round, text);
   }
 
-  private static ActuatorDataT recurse(Aggregate<Integer> aggregate, SensorData sensors) {
+  private static ActuatorData recurse(Aggregate<Integer> aggregate, SensorData sensors) {
     return aggregate.alignedOn("deeper", () -> recurse(aggregate, sensors));
   }
 
@@ -68,7 +65,7 @@ public final class Programs {
     }
   }
 
-  private static ActuatorDataT exhaust() {
+  private static ActuatorData exhaust() {
     List<long[]> all = new ArrayList<>();
     while (true) all.add(new long[1 << 20]);
   }

@@ -19,14 +19,14 @@ import org.collektive.api.Program
         Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater."),
     ],
 )
-public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorDataT {
+public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorData {
     val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
     val fromSource = distanceTo(sensors.source(), metric)
     val toTarget = distanceTo(sensors.target(), metric)
     val length = gradientCast(sensors.target(), fromSource, metric)
     val way = fromSource + toTarget
-    return ActuatorDataT().apply {
-        inChannel = way.isFinite() && way <= length + device.parameters.double("width")
-        distance = if (fromSource.isFinite()) fromSource.toFloat() else -1f
-    }
+    return ActuatorData(
+        inChannel = way.isFinite() && way <= length + device.parameters.double("width"),
+        distance = if (fromSource.isFinite()) fromSource.toFloat() else -1f,
+    )
 }

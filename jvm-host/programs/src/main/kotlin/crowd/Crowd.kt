@@ -8,7 +8,7 @@ import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
 import org.collektive.schema.Vector3
-import org.collektive.schema.Vector3T
+import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
@@ -23,7 +23,7 @@ import kotlin.math.sqrt
         Parameter("hops", "2", "How far a warning spreads."),
     ],
 )
-public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDataT {
+public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorData {
     val position = requireNotNull(sensors.position()) { "the sensors give no position" }
     val goal = requireNotNull(sensors.goal()) { "the sensors give no goal" }
     val here = Point2D(position.x().toDouble(), position.z().toDouble())
@@ -46,11 +46,7 @@ public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDa
     val crowding = close / DENSITY_AREA
     val isWarned = hopDistanceTo(crowding > device.parameters.double("limit")) <= device.parameters.int("hops")
     val pace = if (isWarned) speed / 2 else speed
-    return ActuatorDataT().apply {
-        velocity = way.velocity(pace)
-        density = crowding.toFloat()
-        warned = isWarned
-    }
+    return ActuatorData(velocity = way.velocity(pace), density = crowding.toFloat(), warned = isWarned)
 }
 
 /** The direction in which a walker wants to go: a sum of vectors on the ground. */
@@ -75,13 +71,10 @@ private class Steering {
         z += push * (-toZ - SIDESTEP * toX)
     }
 
-    fun velocity(speed: Double): Vector3T {
+    fun velocity(speed: Double): Vector3Value {
         val length = sqrt(x * x + z * z)
         val scale = if (length > 1) speed / length else speed
-        return Vector3T().also {
-            it.x = (scale * x).toFloat()
-            it.z = (scale * z).toFloat()
-        }
+        return Vector3Value(x = (scale * x).toFloat(), z = (scale * z).toFloat())
     }
 }
 

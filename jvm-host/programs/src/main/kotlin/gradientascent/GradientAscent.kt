@@ -6,7 +6,7 @@ import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
 import org.collektive.schema.Vector3
-import org.collektive.schema.Vector3T
+import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
@@ -16,7 +16,7 @@ import kotlin.math.sqrt
  * The result is the point one step away in the direction of the sum, at the same height.
  */
 @Program("gradient-ascent", parameters = [Parameter("step", "1.0", "Metres from a node to its target, 0 or greater.")])
-public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): ActuatorDataT {
+public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): ActuatorData {
     val position = requireNotNull(sensors.position()) { "the sensors give no position" }
     val here = Sample(position.x(), position.y(), position.z(), sensors.intensity())
     var x = 0.0
@@ -39,13 +39,7 @@ public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): A
     }
     val length = length(x, 0.0, z)
     val scale = if (length < TOO_SMALL) 0.0 else device.parameters.double("step") / length
-    return ActuatorDataT().apply {
-        target = Vector3T().apply {
-            this.x = (here.x + scale * x).toFloat()
-            this.y = here.y
-            this.z = (here.z + scale * z).toFloat()
-        }
-    }
+    return ActuatorData(Vector3Value((here.x + scale * x).toFloat(), here.y, (here.z + scale * z).toFloat()))
 }
 
 /** What a node shares with its neighbours: its position, and the intensity that it senses there. */

@@ -17,12 +17,9 @@ import org.collektive.api.Program
     "leader-election",
     parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")],
 )
-public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorDataT {
+public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorData {
     val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
     val elected = boundedElection(device.parameters.double("radius"), metric)
     val toNearest = distanceTo(elected == localId, metric)
-    return ActuatorDataT().apply {
-        leader = elected
-        distance = if (toNearest.isFinite()) toNearest.toFloat() else -1f
-    }
+    return ActuatorData(leader = elected, distance = if (toNearest.isFinite()) toNearest.toFloat() else -1f)
 }

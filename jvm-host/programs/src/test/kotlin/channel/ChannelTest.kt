@@ -21,7 +21,7 @@ class ChannelTest {
                 row
         }
 
-    private fun Map<Int, ActuatorDataT>.marked() = filterValues { it.inChannel }.keys
+    private fun Map<Int, ActuatorData>.marked() = filterValues { it.inChannel }.keys
 
     @Test
     fun `the channel contains the shortest path and the nodes close to it`() {

@@ -3,7 +3,8 @@ package crowd
 import com.google.flatbuffers.FlatBufferBuilder
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
-import org.collektive.schema.Vector3T
+import org.collektive.schema.Vector3
+import org.collektive.schema.Vector3Value
 import org.junit.jupiter.api.Test
 import samples.Swarm
 import kotlin.math.PI
@@ -16,7 +17,7 @@ import kotlin.test.assertTrue
 
 /** Walkers on the ground; those within 6 m of each other are linked. */
 class CrowdTest {
-    private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorDataT>) -> T): T =
+    private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorData>) -> T): T =
         Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place ->
             sensors(place, walkers.getValue(id))
         }, Aggregate<Int>::crowd).use {
@@ -71,20 +72,20 @@ class CrowdTest {
 
     private class Walker(val place: Point2D, val goal: Point2D?, val obstacles: List<Point2D> = emptyList())
 
-    private fun Vector3T.onGround() = x to z
+    private fun Vector3Value.onGround() = x to z
 
-    private fun vector(point: Point2D) = Vector3T().also {
-        it.x = point.x.toFloat()
-        it.z = point.y.toFloat()
-    }
+    private fun FlatBufferBuilder.vector(point: Point2D) = Vector3.createVector3(this, point.x.toFloat(), 0f, point.y.toFloat())
 
     private fun sensors(place: Point2D, walker: Walker): SensorData {
         val builder = FlatBufferBuilder()
-        val data = SensorDataT()
-        data.position = vector(place)
-        data.goal = walker.goal?.let(::vector)
-        data.obstacles = walker.obstacles.map(::vector).toTypedArray()
-        builder.finish(SensorData.pack(builder, data))
+        SensorData.startObstaclesVector(builder, walker.obstacles.size)
+        walker.obstacles.asReversed().forEach { builder.vector(it) }
+        val obstacles = builder.endVector()
+        SensorData.startSensorData(builder)
+        SensorData.addPosition(builder, builder.vector(place))
+        walker.goal?.let { SensorData.addGoal(builder, builder.vector(it)) }
+        SensorData.addObstacles(builder, obstacles)
+        builder.finish(SensorData.endSensorData(builder))
         return SensorData.getRootAsSensorData(builder.dataBuffer())
     }
 }

@@ -5,6 +5,7 @@ import org.collektive.api.Parameters
 import org.collektive.engine.Philox
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.runtime.round
+import org.collektive.schema.Vector3Value
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
@@ -22,8 +23,8 @@ class GradientAscentTest {
         return listOf(target.x, target.y, target.z)
     }
 
-    private val low = sensors(10f, vector(0f, 1f, 0f))
-    private val high = sensors(20f, vector(3f, 1f, 4f))
+    private val low = sensors(10f, Vector3Value(0f, 1f, 0f))
+    private val high = sensors(20f, Vector3Value(3f, 1f, 4f))
 
     @Test
     fun `both nodes climb, also the one in front`() {
@@ -43,21 +44,21 @@ class GradientAscentTest {
 
     @Test
     fun `an obstacle repels within a metre only`() {
-        assertEquals(listOf(-1f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(0.5f, 0f, 0f))))
-        assertEquals(listOf(0f, 1f, 0f), round(0, null, sensors(10f, vector(0f, 1f, 0f), vector(1.5f, 0f, 0f))))
+        assertEquals(listOf(-1f, 1f, 0f), round(0, null, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(0.5f, 0f, 0f))))
+        assertEquals(listOf(0f, 1f, 0f), round(0, null, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(1.5f, 0f, 0f))))
     }
 
     @Test
     fun `pull and push add up`() {
         round(1, null, high)
         // The neighbour pulls by 10 along (0.6, 0.8), the obstacle pushes by 2 / 0.25 = 8 along -z: (6, 0).
-        assertEquals(listOf(1f, 1f, 0f), round(0, 1, sensors(10f, vector(0f, 1f, 0f), vector(0f, 0f, 0.5f))))
+        assertEquals(listOf(1f, 1f, 0f), round(0, 1, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(0f, 0f, 0.5f))))
     }
 
     @Test
     fun `a neighbour or an obstacle at the same position has no direction`() {
-        round(1, null, sensors(20f, vector(0f, 1f, 0f)))
-        assertEquals(listOf(0f, 1f, 0f), round(0, 1, sensors(10f, vector(0f, 1f, 0f), vector(0f, 0f, 0f))))
+        round(1, null, sensors(20f, Vector3Value(0f, 1f, 0f)))
+        assertEquals(listOf(0f, 1f, 0f), round(0, 1, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(0f, 0f, 0f))))
     }
 
     private fun inbox(neighbor: Int?): Inbox = object : Inbox {

@@ -4,6 +4,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
 import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
+import org.collektive.schema.Vector3Value
 import org.collektive.spi.DeviceRuntimes
 import samples.Swarm
 import kotlin.math.hypot
@@ -43,7 +44,7 @@ class RuntimesTest {
     private fun sense(place: Point2D): SensorData {
         val x = place.x.toFloat()
         val z = place.y.toFloat()
-        return sensors(100f - hypot(x, z), vector(x, 1f, z), vector(SIZE / 2 - x, 0f, SIZE / 2 - z))
+        return sensors(100f - hypot(x, z), Vector3Value(x, 1f, z), Vector3Value(SIZE / 2 - x, 0f, SIZE / 2 - z))
     }
 
     private companion object {

@@ -15,7 +15,7 @@ class LeaderElectionTest {
             for (id in 0..5) places[id] = Point2D(10.0 * id, 0.0)
         }
 
-    private fun Map<Int, ActuatorDataT>.leaders() = values.map { it.leader }
+    private fun Map<Int, ActuatorData>.leaders() = values.map { it.leader }
 
     @Test
     fun `the greatest id leads all within the radius, then the greatest of the others`() {

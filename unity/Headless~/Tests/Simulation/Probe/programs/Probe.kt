@@ -10,23 +10,18 @@ import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
 
-private fun answer(value: Float, heard: Int = 0): ActuatorDataT = ActuatorDataT().also {
-    it.value = value
-    it.heard = heard
-}
-
 @Program("double")
-public fun Aggregate<Int>.double(sensors: SensorData): ActuatorDataT = answer(sensors.value() * 2)
+public fun Aggregate<Int>.double(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() * 2)
 
 @Program("sum")
-public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorDataT {
+public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorData {
     val heard = neighboring(sensors.value()).neighbors.list.map { it.value }
-    return answer(heard.sum(), heard.size)
+    return ActuatorData(heard.sum(), heard.size)
 }
 
 /** Hops to the nearest node whose value is 0; -1 while none is known. */
 @Program("hops")
-public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
+public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     val unknown = Int.MAX_VALUE
     val source = sensors.value() == 0f
     val hops = share(unknown) { field ->
@@ -39,35 +34,36 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorDataT {
             nearest + 1
         }
     }
-    return answer(if (hops == unknown) -1f else hops.toFloat())
+    return ActuatorData(if (hops == unknown) -1f else hops.toFloat())
 }
 
 /** What "hops" does, by the standard library. */
 @Program("far")
-public fun Aggregate<Int>.far(sensors: SensorData): ActuatorDataT = answer(hopDistanceTo(sensors.value() == 0f).toFloat())
+public fun Aggregate<Int>.far(sensors: SensorData): ActuatorData = ActuatorData(hopDistanceTo(sensors.value() == 0f).toFloat())
 
 /** Neighbours that took the same arm, by the sign of the value. */
 @Program("arms")
-public fun Aggregate<Int>.arms(sensors: SensorData): ActuatorDataT =
-    if (sensors.value() < 0) answer(-1f, neighboring(0).neighbors.size) else answer(1f, neighboring(0).neighbors.size)
+public fun Aggregate<Int>.arms(sensors: SensorData): ActuatorData =
+    if (sensors.value() < 0) ActuatorData(-1f, neighboring(0).neighbors.size) else ActuatorData(1f, neighboring(0).neighbors.size)
 
 @Program("count")
-public fun Aggregate<Int>.count(sensors: SensorData): ActuatorDataT = answer(evolve(0) { it + 1 }.toFloat())
+public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData = ActuatorData(evolve(0) { it + 1 }.toFloat())
 
 @Program("random")
-public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorDataT = answer(device.random.nextDouble().toFloat())
+public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorData = ActuatorData(device.random.nextDouble().toFloat())
 
 /** The wind of the scene; -1 before it has any. */
 @Program("windy")
-public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorDataT = answer((device.globals as GlobalData?)?.wind() ?: -1f)
+public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorData =
+    ActuatorData((device.globals as GlobalData?)?.wind() ?: -1f)
 
 @Program("clock")
-public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorDataT =
-    answer(device.time.toFloat(), (device.deltaTime * 1000).toInt())
+public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorData =
+    ActuatorData(device.time.toFloat(), (device.deltaTime * 1000).toInt())
 
 @Program("scaled", parameters = [Parameter("factor", "3", "What the value is multiplied with.")])
-public fun Aggregate<Int>.scaled(sensors: SensorData, device: Device): ActuatorDataT =
-    answer(sensors.value() * device.parameters.double("factor").toFloat())
+public fun Aggregate<Int>.scaled(sensors: SensorData, device: Device): ActuatorData =
+    ActuatorData(sensors.value() * device.parameters.double("factor").toFloat())
 
 private class Reading(val name: String, val content: Any)
 
@@ -82,7 +78,7 @@ private fun Aggregate<Int>.misaligned(all: List<Field<Int, Unit>>): Int =
 /** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
 @Program("trouble")
-public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
+public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorData {
     val rounds = evolve(0) { it + 1 }
     val near = listOf(neighborhood())
     when (sensors.value().toInt()) {
@@ -103,7 +99,7 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorDataT {
         27 -> neighboring(1)[99]
         28 -> repeat(1000) { println("line $it") }
     }
-    return answer(rounds.toFloat())
+    return ActuatorData(rounds.toFloat())
 }
 
 private fun recurse(depth: Int): Int = if (depth < 0) 0 else recurse(depth + 1) + 1

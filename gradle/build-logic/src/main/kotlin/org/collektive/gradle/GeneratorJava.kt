@@ -10,7 +10,7 @@ import org.gradle.api.tasks.PathSensitive
 import org.gradle.api.tasks.PathSensitivity
 import org.gradle.work.DisableCachingByDefault
 
-/** Java by our generator, which runs once for each schema. */
+/** Java and Kotlin by our generator, which runs once for each schema. */
 @DisableCachingByDefault(because = "flatc is a program of this machine")
 public abstract class GeneratorJava : SchemaTask() {
     /** The module `generator` with what it needs. */
@@ -22,7 +22,7 @@ public abstract class GeneratorJava : SchemaTask() {
     @get:PathSensitive(PathSensitivity.NONE)
     public abstract val coreTypes: RegularFileProperty
 
-    /** What the generator makes, as its command line says it: `--java` or `--layouts`. */
+    /** What the generator makes, as its command line says it: `--jvm` or `--layouts`. */
     @get:Input
     public abstract val product: Property<String>
 

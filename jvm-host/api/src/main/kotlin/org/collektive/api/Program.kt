@@ -5,9 +5,9 @@ package org.collektive.api
  *
  * ```
  * @Program("follow-the-leader", parameters = [Parameter("gap", "1.0", "Metres to the next node.")])
- * public fun Aggregate<Int>.followTheLeader(sensors: SensorData, device: Device): ActuatorDataT = ...
+ * public fun Aggregate<Int>.followTheLeader(sensors: SensorData, device: Device): ActuatorData = ...
  * ```
- * The parameter `device` is optional. `SensorData` and `ActuatorDataT` are generated from the project's schema.
+ * The parameter `device` is optional. `SensorData` and `ActuatorData` are generated from the project's schema.
  *
  * @property name the name that scenes and scenarios use; unique among the session's jars.
  * @property parameters the settings that each node may override.

@@ -8,7 +8,7 @@ import java.nio.file.Path
  *
  * @property include the folder that contains `types.fbs`.
  * @property csharp the output folder for C#; `null` generates none.
- * @property java the output folder for Java; `null` generates none.
+ * @property jvm the output folder for Java and Kotlin; `null` generates none.
  * @property layouts the output folder for a Java class with the layouts of all tables of any schema, such as `frame.fbs`; `null`
  *   generates none.
  */
@@ -17,15 +17,15 @@ internal class Arguments(
     val schema: Path,
     val include: Path,
     val csharp: Path?,
-    val java: Path?,
+    val jvm: Path?,
     val layouts: Path? = null,
 ) {
     companion object {
         const val USAGE: String =
             "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER " +
-                "[--csharp FOLDER] [--java FOLDER] [--layouts FOLDER]"
+                "[--csharp FOLDER] [--jvm FOLDER] [--layouts FOLDER]"
 
-        private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--java", "--layouts")
+        private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--jvm", "--layouts")
 
         fun parse(words: Array<String>): Arguments {
             val values = HashMap<String, Path>()
@@ -42,7 +42,7 @@ internal class Arguments(
                 required("--schema"),
                 required("--include"),
                 values["--csharp"],
-                values["--java"],
+                values["--jvm"],
                 values["--layouts"],
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")

@@ -1,22 +1,27 @@
 package org.collektive.generator
 
-/** Builds the model of the C# template. */
-internal object CSharp {
-    /**
-     * Adds the symbols with which the FlatBuffers assembly was compiled to flatc's C#. Defined per file, they need no settings in users'
-     * projects.
-     */
-    fun defineSymbols(text: String): String {
-        val header = "// </auto-generated>\n"
-        require(header in text) { "flatc's C# has no header" }
-        return text.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
-    }
+/** Builds the models of the C# templates. */
+internal class CSharp(private val schema: UserSchema) {
+    /** The names of flatc's readers that generated code needs: those of a table that actuators read, and of all enums. */
+    private val readers = (reachable(listOfNotNull(schema.actuator as? TableType)).map { it.name } + schema.enums.map { it.name })
+        .mapTo(HashSet()) { "${it.toString().replace('.', '/')}.cs" }
 
-    fun model(schema: UserSchema): Map<String, Any?> = mapOf(
+    /** The structs and tables that C# writes or copies as a whole. Those of `types.fbs` are part of the product. */
+    private val mirrored = schema.structs.filter { !it.core }
+    private val drafted = reachable(listOfNotNull(schema.sensor, schema.global)).filterIsInstance<TableType>()
+
+    /** Whether flatc's file at [path] is needed. */
+    fun reads(path: String): Boolean = path in readers
+
+    fun mirrors(): Map<TypeName, Map<String, Any?>> = mirrored.associate { written(it) to mirrorModel(it) }
+
+    fun drafts(): Map<TypeName, Map<String, Any?>> = drafted.associate { written(it) to draftModel(it) }
+
+    fun schema(): Map<String, Any?> = mapOf(
         "file" to schema.file,
         "namespace" to schema.name.namespace,
         "name" to schema.name.simple,
-        "types" to listOfNotNull(schema.sensor, schema.actuator, schema.global).map {
+        "types" to schema.roots.map {
             mapOf("name" to it.name.simple, "hash" to Fingerprint.of(it).toULong().toString(16).padStart(16, '0'))
         },
         "layouts" to schema.structs.map(::layout),
@@ -30,8 +35,7 @@ internal object CSharp {
         },
         "shapes" to shapes(schema.actuator),
         "globals" to listOfNotNull(schema.global).map { "Bridge::TableGlobalBuffer<${draft(it)}>()" },
-        "mirrors" to schema.structs.filter { !it.core }.map(::mirrorModel),
-        "drafts" to schema.tables.map(::draftModel),
+        "drafts" to drafted.map(::draft),
     )
 
     /** How to copy a table of actuator data out of a frame: the out-of-row fields of each reachable table. The first is [actuator]. */
@@ -75,7 +79,7 @@ internal object CSharp {
 
     private fun mirrorModel(type: StructType) = mapOf(
         "namespace" to type.name.namespace,
-        "name" to "${type.name.simple}Value",
+        "name" to written(type).simple,
         "documentation" to documentation(type.documentation, "Mirror of the struct", type.name.simple),
         "fields" to type.fields.map {
             mapOf(
@@ -89,7 +93,7 @@ internal object CSharp {
 
     private fun draftModel(type: TableType): Map<String, Any?> = rowModel(type, RowPlaces(type)) + mapOf(
         "namespace" to type.name.namespace,
-        "name" to "${type.name.simple}Draft",
+        "name" to written(type).simple,
         "documentation" to documentation(type.documentation, "Staging of the table", type.name.simple),
         "fields" to type.fields.map {
             mapOf("documentation" to documentation(it.documentation, "Field", it.name), "declaration" to declaration(type, it))
@@ -263,20 +267,35 @@ internal object CSharp {
         is VectorType -> (if (type.element is TableType) "Bridge::DraftTables" else "Bridge::DraftList") + "<${csharp(type.element)}>"
     }
 
-    private fun mirror(type: StructType) = "global::${type.name}Value"
+    private fun mirror(type: StructType) = "global::${written(type)}"
 
-    private fun draft(type: TableType) = "global::${type.name}Draft"
+    private fun draft(type: TableType) = "global::${written(type)}"
 
-    private val taken = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
+    /** The name under which C# writes [type]; under its plain name flatc reads it in place, unless it is a root. */
+    private fun written(type: Composite) = if (type in schema.roots) type.name else type.name.copy(simple = "${type.name.simple}Value")
 
     /** The C# name of a field, with an underscore appended if generated code has a member of that name. */
     private fun member(owner: Composite, field: Field): String {
         val name = upperCamel(field.name)
-        val type = owner.name.simple + if (owner is StructType) "Value" else "Draft"
+        val type = written(owner).simple
         val makers = owner.fields.filter { it.type is TableType }.map { "Make${upperCamel(it.name)}" }
-        return if (name in taken || name == type || name in makers) "${name}_" else name
+        return if (name in TAKEN || name == type || name in makers) "${name}_" else name
     }
 
     private fun documentation(text: String, kind: String, name: String): String =
         if (text.isEmpty()) "$kind <c>$name</c>." else text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+    companion object {
+        private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
+
+        /**
+         * Adds the symbols with which the FlatBuffers assembly was compiled to flatc's C#. Defined per file, they need no settings in users'
+         * projects.
+         */
+        fun defineSymbols(text: String): String {
+            val header = "// </auto-generated>\n"
+            require(header in text) { "flatc's C# has no header" }
+            return text.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
+        }
+    }
 }

@@ -4,9 +4,14 @@ import java.nio.file.Path
 
 /** Runs `flatc`, and passes on its messages, which name file and line. */
 internal class Flatc(private val executable: Path, private val includes: List<Path>) {
-    /** Writes the binary form of [schema], comments included, to the folder [output]. */
-    fun binarySchema(schema: Path, output: Path) {
+    /** Writes the binary form of [schema], with comments and paths, to the folder [output]. */
+    fun fullBinarySchema(schema: Path, output: Path) {
         run(schema, output, "--binary", "--schema", "--bfbs-comments", "--bfbs-absolute-paths")
+    }
+
+    /** Writes the binary form of [schema] to the folder [output], with the paths of files relative to that of [schema]. */
+    fun binarySchema(schema: Path, output: Path) {
+        run(schema, output, "--binary", "--schema")
     }
 
     /** Writes C# readers of the types that [schema] itself defines, without included ones. */
@@ -14,9 +19,9 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         run(schema, output, "--csharp", "--no-warnings")
     }
 
-    /** Writes Java readers and object types of the types that [schema] itself defines, without included ones. */
+    /** Writes Java readers of the types that [schema] itself defines, without included ones. */
     fun java(schema: Path, output: Path) {
-        run(schema, output, "--java", "--gen-object-api", "--no-warnings")
+        run(schema, output, "--java", "--no-warnings")
     }
 
     private fun run(schema: Path, output: Path, vararg options: String) {

@@ -7,7 +7,7 @@ import kotlin.io.path.ExperimentalPathApi
 import kotlin.io.path.deleteRecursively
 import kotlin.system.exitProcess
 
-/** Generates C# and Java from a user's schema; see [Arguments.USAGE]. On an error it prints a message and exits with code 1. */
+/** Generates code of a user's schema for C# and the JVM; see [Arguments.USAGE]. On an error it prints a message and exits with code 1. */
 public fun main(arguments: Array<String>) {
     try {
         generate(Arguments.parse(arguments))
@@ -34,32 +34,55 @@ private fun generate(arguments: Arguments, work: Path) {
     val file = arguments.schema.toAbsolutePath().normalize()
     val include = arguments.include.toAbsolutePath().normalize()
     val flatc = Flatc(arguments.flatc.toAbsolutePath(), listOf(include, file.parent))
-    flatc.binarySchema(file, work)
-    val binary = Files.readAllBytes(work.resolve(file.fileName.toString().substringBeforeLast('.') + ".bfbs"))
-    val reader = SchemaReader(binary, file, include.resolve(CORE_TYPES))
+    flatc.fullBinarySchema(file, work)
+    val reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), file, include.resolve(CORE_TYPES))
     arguments.layouts?.let { folder ->
         val tables = reader.tables()
         val name = Layouts.name(file.fileName.toString(), tables.first().name.namespace)
         OutputFolder(folder).write("${path(name)}.java", Templates.render("Layouts.java", Layouts.model(file.fileName.toString(), tables)))
     }
-    if (arguments.csharp == null && arguments.java == null) return
+    if (arguments.csharp == null && arguments.jvm == null) return
     val schema = reader.read()
 
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)
+        val csharp = CSharp(schema)
         reader.files.forEach { flatc.csharp(it, work.resolve("csharp")) }
-        output.copy(work.resolve("csharp")) { _, text -> CSharp.defineSymbols(text) }
-        output.write("${path(schema.name)}.cs", Templates.render("Schema.cs", CSharp.model(schema)))
+        output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.defineSymbols(text) else null }
+        for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
+        for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
+        output.write("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
     }
-    arguments.java?.let { folder ->
+    arguments.jvm?.let { folder ->
         val output = OutputFolder(folder)
+        val kotlin = Kotlin(schema)
         reader.files.forEach { flatc.java(it, work.resolve("java")) }
-        output.copy(work.resolve("java")) { path, text -> Java.keepZeros(schema, path, text) }
-        output.write("${path(schema.name)}.java", Templates.render("Schema.java", Java.model(schema)))
-        output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.java") }
+        // Programs only write the actuator data.
+        output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
+        for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
+        output.write("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
+        output.write("META-INF/collektive/${schema.name}.bfbs", portable(reader, file, include, arguments.flatc.toAbsolutePath(), work))
+        output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.kt") }
     }
 }
 
+/** The binary form of the schema, which names the files of the schema by their places relative to each other, not on this machine. */
+private fun portable(reader: SchemaReader, file: Path, include: Path, flatc: Path, work: Path): ByteArray {
+    val root = reader.files.map(Path::getParent).reduce { a, b -> generateSequence(a, Path::getParent).first(b::startsWith) }
+    fun copied(source: Path) = work.resolve("schema").resolve(root.relativize(source).toString()).also {
+        Files.createDirectories(it.parent)
+        Files.copy(source, it)
+    }
+    reader.files.filter { it != file }.forEach { copied(it) }
+    val copy = copied(file)
+    val core = Files.createDirectories(work.resolve("core"))
+    Files.copy(include.resolve(CORE_TYPES), core.resolve(CORE_TYPES))
+    Flatc(flatc, listOf(core, copy.parent)).binarySchema(copy, work.resolve("portable"))
+    return Files.readAllBytes(work.resolve("portable").resolve(binary(file)))
+}
+
 private const val SERVICES = "META-INF/services/org.collektive.frames.data.DataSchema"
+
+private fun binary(schema: Path): String = schema.fileName.toString().substringBeforeLast('.') + ".bfbs"
 
 private fun path(name: TypeName): String = name.toString().replace('.', '/')

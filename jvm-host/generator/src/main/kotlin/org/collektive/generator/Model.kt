@@ -3,19 +3,22 @@ package org.collektive.generator
 /** A type of a schema that the bridge supports. */
 internal sealed interface Type
 
-/** A number or truth value. [bytes] is both its size and its alignment. */
-internal enum class Scalar(val text: String, val csharp: String, val bytes: Int) : Type {
-    BOOL("bool", "bool", 1),
-    BYTE("byte", "sbyte", 1),
-    UBYTE("ubyte", "byte", 1),
-    SHORT("short", "short", 2),
-    USHORT("ushort", "ushort", 2),
-    INT("int", "int", 4),
-    UINT("uint", "uint", 4),
-    LONG("long", "long", 8),
-    ULONG("ulong", "ulong", 8),
-    FLOAT("float", "float", 4),
-    DOUBLE("double", "double", 8),
+/**
+ * A number or truth value. [bytes] is both its size and its alignment. [kotlin] is the type of flatc's Java, which is wider than an
+ * unsigned number.
+ */
+internal enum class Scalar(val text: String, val csharp: String, val kotlin: String, val bytes: Int) : Type {
+    BOOL("bool", "bool", "Boolean", 1),
+    BYTE("byte", "sbyte", "Byte", 1),
+    UBYTE("ubyte", "byte", "Int", 1),
+    SHORT("short", "short", "Short", 2),
+    USHORT("ushort", "ushort", "Int", 2),
+    INT("int", "int", "Int", 4),
+    UINT("uint", "uint", "Long", 4),
+    LONG("long", "long", "Long", 8),
+    ULONG("ulong", "ulong", "Long", 8),
+    FLOAT("float", "float", "Float", 4),
+    DOUBLE("double", "double", "Double", 8),
     ;
 
     val real: Boolean get() = this == FLOAT || this == DOUBLE
@@ -64,7 +67,7 @@ internal data class TypeName(val namespace: String, val simple: String) {
     override fun toString(): String = "$namespace.$simple"
 }
 
-/** A user's schema. [structs] and [tables] are all that are reachable from the root types, sorted by name. */
+/** A user's schema. [structs], [tables] and [enums] are all that are reachable from the root types, the former sorted by name. */
 internal class UserSchema(
     val file: String,
     val name: TypeName,
@@ -73,4 +76,18 @@ internal class UserSchema(
     val global: TableType?,
     val structs: List<StructType>,
     val tables: List<TableType>,
-)
+    val enums: Collection<EnumType>,
+) {
+    val roots: List<Composite> = listOfNotNull(sensor, actuator, global)
+}
+
+/** [roots], and the structs and tables that they contain, sorted by name. */
+internal fun reachable(roots: List<Composite>): List<Composite> {
+    val found = LinkedHashSet<Composite>()
+    fun visit(type: Type) {
+        if (type is VectorType) visit(type.element)
+        if (type is Composite && found.add(type)) type.fields.forEach { visit(it.type) }
+    }
+    roots.forEach(::visit)
+    return found.sortedBy { it.name.toString() }
+}

@@ -5,11 +5,13 @@ import java.nio.file.Path
 
 /** A folder of generated files. An unchanged file keeps its modification time, so that builds do not redo work. */
 internal class OutputFolder(private val root: Path) {
-    fun write(path: String, text: String) {
+    fun write(path: String, text: String): Unit = write(path, text.encodeToByteArray())
+
+    fun write(path: String, bytes: ByteArray) {
         val file = root.resolve(path)
-        if (Files.exists(file) && Files.readString(file) == text) return
+        if (Files.exists(file) && Files.readAllBytes(file).contentEquals(bytes)) return
         Files.createDirectories(file.parent)
-        Files.writeString(file, text)
+        Files.write(file, bytes)
     }
 
     fun holds(path: String): Boolean = Files.exists(root.resolve(path))
@@ -22,13 +24,13 @@ internal class OutputFolder(private val root: Path) {
         write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }
 
-    /** Copies all files of [folder]; [edit] maps the path and the text of each to the text to write. */
-    fun copy(folder: Path, edit: (String, String) -> String) {
+    /** Copies files of [folder]; [edit] maps the path and the text of each to the text to write, or to `null`: it is left out. */
+    fun copy(folder: Path, edit: (String, String) -> String?) {
         if (!Files.exists(folder)) return
         val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }
         for (file in files) {
             val path = folder.relativize(file).joinToString("/")
-            write(path, edit(path, Files.readString(file)))
+            edit(path, Files.readString(file))?.let { write(path, it) }
         }
     }
 }

@@ -39,7 +39,9 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             global,
             reached.filterIsInstance<StructType>(),
             reached.filterIsInstance<TableType>(),
+            enums.values,
         )
+        checkRoots(user)
         checkGeneratedNames(user)
         return user
     }
@@ -191,10 +193,23 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
+    /** A root type has one class on each side, with which it is written or read as a whole. */
+    private fun checkRoots(user: UserSchema) {
+        for (type in user.structs + user.tables) {
+            for (field in type.fields) {
+                val part = (field.type as? VectorType)?.element ?: field.type
+                if (part in user.roots) {
+                    val name = (part as Composite).name.simple
+                    throw error("${type.name.simple}.${field.name}: $name cannot be part of a type; use a type of its own")
+                }
+            }
+        }
+    }
+
     /** Generated types share a namespace with flatc's, so their names must differ. */
     private fun checkGeneratedNames(user: UserSchema) {
         val taken = objects().map { it.second.name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
-        val made = user.structs.map { "${it.name}Value" } + user.tables.map { "${it.name}Draft" } + user.name.toString()
+        val made = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
         taken.intersect(made.toSet()).firstOrNull()?.let {
             throw error("${simple(it)} is a name that the generator gives; rename the type")
         }

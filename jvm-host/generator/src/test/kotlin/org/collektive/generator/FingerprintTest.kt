@@ -49,7 +49,7 @@ internal class FingerprintTest {
             folder.resolve("user.fbs"),
             "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }",
         )
-        Flatc(Workshop.flatc, emptyList()).binarySchema(file, folder)
+        Flatc(Workshop.flatc, emptyList()).fullBinarySchema(file, folder)
         return SchemaReader(Files.readAllBytes(folder.resolve("user.bfbs")), file, folder.resolve(CORE_TYPES)).read()
     }
 }

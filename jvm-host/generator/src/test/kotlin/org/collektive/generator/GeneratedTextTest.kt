@@ -37,14 +37,18 @@ internal class GeneratedTextTest {
         }
         assertEquals(
             setOf(
-                "csharp/a/b/ActuatorData.cs", "csharp/a/b/MySwarmSchema.cs", "csharp/a/b/SensorData.cs",
-                "java/META-INF/services/org.collektive.frames.data.DataSchema",
-                "java/a/b/ActuatorData.java", "java/a/b/ActuatorDataT.java", "java/a/b/MySwarmSchema.java",
-                "java/a/b/SensorData.java", "java/a/b/SensorDataT.java",
+                "csharp/a/b/ActuatorData.cs",
+                "csharp/a/b/MySwarmSchema.cs",
+                "csharp/a/b/SensorData.cs",
+                "jvm/META-INF/collektive/a.b.MySwarmSchema.bfbs",
+                "jvm/META-INF/services/org.collektive.frames.data.DataSchema",
+                "jvm/a/b/ActuatorData.kt",
+                "jvm/a/b/MySwarmSchema.kt",
+                "jvm/a/b/SensorData.java",
             ),
             texts(output).keys,
         )
-        assertEquals("a.b.MySwarmSchema\n", texts(output)["java/META-INF/services/org.collektive.frames.data.DataSchema"])
+        assertEquals("a.b.MySwarmSchema\n", texts(output)["jvm/META-INF/services/org.collektive.frames.data.DataSchema"])
     }
 
     @Test
@@ -55,12 +59,12 @@ internal class GeneratedTextTest {
             Files.writeString(schema, "namespace $namespace; struct SensorData { x: float; } struct ActuatorData { x: float; }")
             Workshop.generate(schema, work.resolve(output))
         }
-        fun announced(output: String) = texts(work.resolve(output))["java/META-INF/services/org.collektive.frames.data.DataSchema"]
+        fun announced(output: String) = texts(work.resolve(output))["jvm/META-INF/services/org.collektive.frames.data.DataSchema"]
         listOf("b", "a", "c", "a").forEach { generate(it, "one") }
         listOf("c", "a", "b").forEach { generate(it, "other") }
         assertEquals("a.ASchema\nb.BSchema\nc.CSchema\n", announced("one"))
         assertEquals(announced("one"), announced("other"))
-        Files.delete(work.resolve("one/java/b/BSchema.java"))
+        Files.delete(work.resolve("one/jvm/b/BSchema.kt"))
         generate("c", "one")
         assertEquals("a.ASchema\nc.CSchema\n", announced("one"))
     }
@@ -70,7 +74,7 @@ internal class GeneratedTextTest {
         val output = Workshop.generate(
             "namespace a;\n/// All & <more>\n/// of it.\ntable SensorData {\n/// In metres.\nx: float; } struct ActuatorData { x: float; }",
         )
-        val text = texts(output).getValue("csharp/a/UserSchema.cs")
+        val text = texts(output).getValue("csharp/a/SensorData.cs")
         assertContains(text, "/// <summary>All &amp; &lt;more&gt; of it.</summary>")
         assertContains(text, "/// <summary>In metres.</summary>\n        public float X;")
     }
@@ -105,6 +109,7 @@ internal class GeneratedTextTest {
 
     private fun committed(folder: Path) = texts(folder).filterKeys { it.endsWith(".cs") }
 
-    private fun texts(folder: Path): Map<String, String> =
-        Workshop.files(folder).associate { folder.relativize(it).joinToString("/") to Files.readString(it) }.toSortedMap()
+    private fun texts(folder: Path): Map<String, String> = Workshop.files(folder).associate {
+        folder.relativize(it).joinToString("/") to Files.readAllBytes(it).toString(Charsets.ISO_8859_1)
+    }.toSortedMap()
 }

@@ -63,8 +63,20 @@ internal class RefusalTest {
             )
         }
         assertEquals(
-            "user.fbs: SensorDataDraft is a name that the generator gives; rename the type",
-            refusal(user("table SensorDataDraft {}", "x: int;")),
+            "user.fbs: DetailValue is a name that the generator gives; rename the type",
+            refusal(user("table DetailValue {} table Detail {}", "x: Detail;")),
+        )
+    }
+
+    @Test
+    fun `a root type inside of another type is refused`() {
+        assertEquals(
+            "user.fbs: Detail.all: SensorData cannot be part of a type; use a type of its own",
+            refusal(user("table Detail { all: [SensorData]; }", "x: Detail;")),
+        )
+        assertEquals(
+            "user.fbs: SensorData.last: ActuatorData cannot be part of a type; use a type of its own",
+            refusal(user("", "last: ActuatorData;")),
         )
     }
 

@@ -24,9 +24,9 @@ internal object Workshop {
         return folder.resolve("out")
     }
 
-    /** Generates C# and Java into the folders `csharp` and `java` of [output]. */
+    /** Generates code into the folders `csharp` and `jvm` of [output]. */
     fun generate(schema: Path, output: Path) {
-        generate(Arguments(flatc, schema, root.resolve("schema"), output.resolve("csharp"), output.resolve("java")))
+        generate(Arguments(flatc, schema, root.resolve("schema"), output.resolve("csharp"), output.resolve("jvm")))
     }
 
     fun files(folder: Path): List<Path> = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }

@@ -25,8 +25,9 @@ internal class EngineOnly(private val grid: Grid, threads: Int) :
     private val engine = Engine(EngineSettings(SEED, threads), AggregateRuntimes())
     private val schema = GradientAscentSchema()
     private val frames = List(FRAMES) { sensors(it.toLong()) }
-    private val readers = frames.map { frame -> List(threads) { schema.sensorReader().apply { attach(frame, frame.getInt(0)) } } }
-    private val checkers = List(threads) { schema.actuatorWriter() }
+    private val readers = frames.map { frame -> schema.sensorReader().apply { attach(frame, frame.getInt(0)) } }
+    private val views = List(threads) { schema.sensorView() }
+    private val writer = schema.actuatorWriter()
     private val tick = Tick()
     private var now = readers[0]
 
@@ -45,9 +46,9 @@ internal class EngineOnly(private val grid: Grid, threads: Int) :
         engine.step(tick, this, System.nanoTime() + LIMIT_NANOS)
     }
 
-    override fun sensors(worker: Int, index: Int): Any = now[worker][index]
+    override fun sensors(worker: Int, index: Int): Any = views[worker].at(now.place(index), now.frame)
 
-    override fun pack(worker: Int, index: Int, answer: Any): String? = checkers[worker].findFault(answer)
+    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findFault(answer)
 
     override fun close() = engine.close()
 

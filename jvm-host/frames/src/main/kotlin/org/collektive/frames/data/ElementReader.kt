@@ -2,30 +2,43 @@ package org.collektive.frames.data
 
 import org.collektive.frames.FrameChecker
 import org.collektive.frames.FramePolicy
+import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.OFFSET_BYTES
 import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
-/** Reads the table `Sensors` or `Actuators` of any schema. Generated code makes it. */
-public class ElementReader private constructor(private val element: TableLayout?, private val bytes: Int, private val view: View) :
-    DataReader {
+/**
+ * Finds and checks the elements of the table `Sensors` or `Actuators` of a frame, in place. Generated code makes it. Allocates only in its
+ * constructor. Confined to one thread at a time; any number of threads may ask for [place] while no other call runs.
+ */
+public class ElementReader private constructor(private val element: TableLayout?, private val bytes: Int) {
     private val outline = TableLayout().vector("data", DATA_ENTRY, bytes, false)
     private val whole = if (element == null) outline else TableLayout().tables("data", DATA_ENTRY, element, false)
     private val checker = FrameChecker(FramePolicy.USER_DATA)
-    private var frame: ByteBuffer = ByteBuffer.allocate(0)
     private var position = 0
     private var first = 0
 
     /** For elements that are tables. */
-    public constructor(layout: TableLayout, view: View) : this(layout, OFFSET_BYTES, view)
+    public constructor(layout: TableLayout) : this(layout, OFFSET_BYTES)
 
     /** For elements that are structs of [bytes] bytes. */
-    public constructor(bytes: Int, view: View) : this(null, bytes, view)
+    public constructor(bytes: Int) : this(null, bytes)
 
-    override var size: Int = 0
+    /** The attached frame. */
+    public var frame: ByteBuffer = ByteBuffer.allocate(0)
         private set
 
-    override fun attach(frame: ByteBuffer, position: Int) {
+    /** Number of elements in the attached table. */
+    public var size: Int = 0
+        private set
+
+    /**
+     * Attaches this reader to the table at [position] of [frame], in bytes from the start of the buffer. The frame is what lies between
+     * the buffer's position and limit; the buffer must be little-endian.
+     *
+     * @throws MalformedFrameException when the table or its vector lies outside the frame.
+     */
+    public fun attach(frame: ByteBuffer, position: Int) {
         checker.check(frame, position, outline)
         this.frame = frame
         this.position = position
@@ -40,22 +53,21 @@ public class ElementReader private constructor(private val element: TableLayout?
         }
     }
 
-    override fun follow(checked: DataReader) {
-        checked as ElementReader
-        frame = checked.frame
-        position = checked.position
-        size = checked.size
-        first = checked.first
-    }
-
-    override fun check() {
+    /**
+     * Checks that every element lies inside the frame, with its nested tables, vectors and strings. Reading checked elements never
+     * throws.
+     *
+     * @throws MalformedFrameException when one does not; the message names the element and the field.
+     */
+    public fun check() {
         checker.check(frame, position, whole)
     }
 
-    override fun get(index: Int): Any {
+    /** Position of element [index] in [frame], in bytes. */
+    public fun place(index: Int): Int {
         if (index !in 0 until size) throw IndexOutOfBoundsException("element $index of $size")
         val place = first + index * bytes
-        return view.at(if (element == null) place else place + frame.getInt(place), frame)
+        return if (element == null) place else place + frame.getInt(place)
     }
 
     private companion object {

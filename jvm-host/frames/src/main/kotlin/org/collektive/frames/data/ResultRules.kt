@@ -1,8 +1,8 @@
 package org.collektive.frames.data
 
 /**
- * Finds faults that flatc's object classes allow but a frame cannot represent: missing required fields, `null` elements of vectors,
- * malformed strings. Called by generated code. Each function returns the path of the field and the fault, or `null`.
+ * Finds faults that classes of results allow but a frame cannot represent: malformed strings, and `null` in vectors that Java made. Called
+ * by generated code. Each function returns the path of the field and the fault, or `null`; a field that is `null` is absent.
  */
 public object ResultRules {
     /** Greatest depth of nested tables. Detects an object that contains itself. */
@@ -11,47 +11,36 @@ public object ResultRules {
     /** The fault of an object beyond [MAX_DEPTH]. */
     public const val TOO_DEEP: String = "is nested deeper than $MAX_DEPTH tables"
 
-    /** Checks one object. */
-    public fun interface Rule<T> {
-        /** The path of the field and the fault of [item], or `null`. */
-        public fun fault(item: T): String?
-    }
-
     /** Checks a string field. */
-    @JvmStatic
-    public fun string(value: String?, name: String, required: Boolean): String? = when {
-        value == null -> if (required) "$name is null" else null
-        isWellFormed(value) -> null
-        else -> "$name holds half a surrogate pair"
-    }
+    public fun string(value: String?, name: String): String? =
+        if (value == null || isWellFormed(value)) null else "$name holds half a surrogate pair"
 
     /** Checks a vector of strings. */
-    @JvmStatic
-    public fun strings(value: Array<String?>?, name: String, required: Boolean): String? {
-        if (value == null) return if (required) "$name is null" else null
-        for (i in value.indices) string(value[i], "", true)?.let { return "$name[$i]$it" }
-        return null
-    }
-
-    /** Checks a struct, a table or a vector of scalars; [rule] checks its content. */
-    @JvmStatic
-    public fun <T> `object`(value: T?, name: String, required: Boolean, rule: Rule<T>?): String? {
-        if (value == null) return if (required) "$name is null" else null
-        return rule?.fault(value)?.let { join(name, it) }
-    }
-
-    /** Checks a vector of structs or tables. */
-    @JvmStatic
-    public fun <T> objects(value: Array<T?>?, name: String, required: Boolean, rule: Rule<T>?): String? {
-        if (value == null) return if (required) "$name is null" else null
+    public fun strings(value: List<String?>?, name: String): String? {
+        if (value == null) return null
         for (i in value.indices) {
             val item = value[i] ?: return "$name[$i] is null"
-            rule?.fault(item)?.let { return join("$name[$i]", it) }
+            if (!isWellFormed(item)) return "$name[$i] holds half a surrogate pair"
         }
         return null
     }
 
-    private fun join(path: String, fault: String) = if (fault == TOO_DEEP) "$path $fault" else "$path.$fault"
+    /** Checks a table by [rule]. */
+    public inline fun <T : Any> table(value: T?, name: String, rule: (T) -> String?): String? =
+        if (value == null) null else rule(value)?.let { join(name, it) }
+
+    /** Checks a vector of structs or tables, each of its elements by [rule]. */
+    public inline fun <T : Any> items(value: List<T?>?, name: String, rule: (T) -> String?): String? {
+        if (value == null) return null
+        for (i in value.indices) {
+            val item = value[i] ?: return "$name[$i] is null"
+            rule(item)?.let { return join("$name[$i]", it) }
+        }
+        return null
+    }
+
+    @PublishedApi
+    internal fun join(path: String, fault: String): String = if (fault == TOO_DEEP) "$path $fault" else "$path.$fault"
 
     private fun isWellFormed(text: String): Boolean {
         var i = 0

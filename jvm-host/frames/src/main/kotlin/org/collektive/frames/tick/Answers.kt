@@ -5,14 +5,13 @@ import org.collektive.engine.RoundDigest
 import org.collektive.engine.TickResult
 import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.StructWriter
+import org.collektive.frames.data.TableWriter
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
 /** Collects the answers of a tick's rounds for the frame and the digest. */
-internal abstract class Answers protected constructor(schema: DataSchema, threads: Int) {
-    /** One writer for each thread that runs rounds. */
-    protected val writers = Array(threads) { schema.actuatorWriter() }
-
+internal abstract class Answers {
     /** Ids of the tick's due nodes. */
     protected var due: IntList = IntList()
         private set
@@ -23,15 +22,15 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
     }
 
     /** See [org.collektive.engine.RoundData.pack]. */
-    open fun pack(worker: Int, index: Int, answer: Any): String? = writers[worker].findFault(answer)
+    abstract fun pack(worker: Int, index: Int, answer: Any): String?
 
     /** Writes the answers and adds them to [digest], failed rounds included. Returns the offset of the table `Actuators`. */
     abstract fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
 
     companion object {
-        fun of(schema: DataSchema, threads: Int): Answers {
-            val bytes = schema.actuatorWriter().structBytes
-            return if (bytes == 0) TableAnswers(schema, threads) else StructAnswers(schema, threads, bytes)
+        fun of(schema: DataSchema): Answers = when (val writer = schema.actuatorWriter()) {
+            is StructWriter -> StructAnswers(writer)
+            is TableWriter -> TableAnswers(writer)
         }
     }
 }
@@ -40,7 +39,8 @@ internal abstract class Answers protected constructor(schema: DataSchema, thread
  * Answers that are structs. Each thread packs the answers of its own rounds while they are in its cache: contiguously for the frame, and
  * a second time with headers for the digest. Frame and digest then copy whole blocks.
  */
-private class StructAnswers(schema: DataSchema, threads: Int, private val bytes: Int) : Answers(schema, threads) {
+private class StructAnswers(private val writer: StructWriter) : Answers() {
+    private val bytes = writer.bytes
     private val entryBytes = RoundDigest.HEADER_BYTES + bytes
 
     // Element i of both belongs to the due node i.
@@ -54,9 +54,8 @@ private class StructAnswers(schema: DataSchema, threads: Int, private val bytes:
     }
 
     override fun pack(worker: Int, index: Int, answer: Any): String? {
-        val writer = writers[worker]
         writer.findFault(answer)?.let { return it }
-        writer.pack(answer, packed.array(), index * bytes)
+        writer.pack(packed, index * bytes, answer)
         val entry = index * entryBytes
         RoundDigest.putHeader(entries, entry, due[index], bytes)
         System.arraycopy(packed.array(), index * bytes, entries.array(), entry + RoundDigest.HEADER_BYTES, bytes)
@@ -76,7 +75,7 @@ private class StructAnswers(schema: DataSchema, threads: Int, private val bytes:
             begin = index + 1
             if (!isEnd) digest.failure(due[index])
         }
-        return writers[0].writePacked(buffer.builder, packed, count)
+        return writer.write(buffer.builder, packed, count)
     }
 
     private fun withRoom(buffer: ByteBuffer, count: Int, size: Int): ByteBuffer {
@@ -87,14 +86,16 @@ private class StructAnswers(schema: DataSchema, threads: Int, private val bytes:
 }
 
 /** Answers that are tables. Their size varies, so they are written one by one after all rounds. */
-private class TableAnswers(schema: DataSchema, threads: Int) : Answers(schema, threads) {
-    // Arguments of ActuatorWriter.write: the answers without failed rounds, and the ranges of their bytes.
+private class TableAnswers(private val writer: TableWriter) : Answers() {
+    // Arguments of TableWriter.write: the answers without failed rounds, and the ranges of their bytes.
     private var answers = arrayOfNulls<Any?>(0)
     private var ranges = IntArray(0)
 
+    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findFault(answer)
+
     override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
         val count = gather(result)
-        val table = writers[0].write(buffer.builder, answers, count, ranges)
+        val table = writer.write(buffer.builder, answers, count, ranges)
         var answered = 0
         for (index in 0 until result.size) {
             if (result.failure(index) != null) {

@@ -6,11 +6,12 @@ import org.collektive.frames.data.DataSchema
 import org.collektive.frames.data.GlobalData
 import java.nio.ByteBuffer
 
-/** The user's data of each tick: sensors and global data for the rounds, and their answers. Each thread has its own reader. */
+/** The user's data of each tick: sensors and global data for the rounds, and their answers. Each thread has its own view. */
 public class UserData(private val schema: DataSchema, threads: Int) : RoundData {
-    private val readers = Array(threads) { schema.sensorReader() }
+    private val reader = schema.sensorReader()
+    private val views = Array(threads) { schema.sensorView() }
     private val globals = schema.globalReader()?.let { GlobalData { checkNotNull(schema.globalReader()) } }
-    internal val answers = Answers.of(schema, threads)
+    internal val answers = Answers.of(schema)
 
     /**
      * Verifies the user's data of [request], read from [frame], once for all threads. Sets the global data of its tick.
@@ -36,14 +37,12 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
             if (due == 0) return
             throw MalformedFrameException("it has no sensor data, but $due nodes are due")
         }
-        val checked = readers[0]
-        checked.attach(frame, position)
-        checked.check()
-        if (checked.size != due) throw MalformedFrameException("it has sensor data of ${checked.size} nodes, but $due are due")
-        for (worker in 1 until readers.size) readers[worker].follow(checked)
+        reader.attach(frame, position)
+        reader.check()
+        if (reader.size != due) throw MalformedFrameException("it has sensor data of ${reader.size} nodes, but $due are due")
     }
 
-    override fun sensors(worker: Int, index: Int): Any = readers[worker][index]
+    override fun sensors(worker: Int, index: Int): Any = views[worker].at(reader.place(index), reader.frame)
 
     override fun pack(worker: Int, index: Int, answer: Any): String? = answers.pack(worker, index, answer)
 }

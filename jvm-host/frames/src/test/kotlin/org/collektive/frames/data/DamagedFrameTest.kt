@@ -1,6 +1,8 @@
 package org.collektive.frames.data
 
 import org.collektive.frames.MalformedFrameException
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
 import java.util.Random
 import kotlin.test.Test
 import kotlin.test.assertTrue
@@ -45,13 +47,14 @@ internal class DamagedFrameTest {
             if (survives(schema, Frame(damage(frame.bytes), frame.position, emptyList()))) passed++ else refused++
         }
         repeat(1000) {
-            val type = GeneratedSchemas.globals.sensorType.classLoader.loadClass("test.globals.GlobalData")
-            val frame = SensorFrames.table(type, random)
-            val reader = checkNotNull(GeneratedSchemas.globals.globalReader())
+            val schema = GeneratedSchemas.globals
+            val frame = SensorFrames.table(schema, "test.globals.GlobalData", random)
+            val reader = checkNotNull(schema.globalReader())
+            val damaged = ByteBuffer.wrap(damage(frame.bytes)).order(ByteOrder.LITTLE_ENDIAN)
             try {
-                reader.attach(Frame(damage(frame.bytes), frame.position, emptyList()).buffer(), frame.position)
+                reader.attach(damaged, frame.position)
                 reader.check()
-                Objects.dump(unpacked(reader.data))
+                GeneratedSchemas.unpacked(schema, "test.globals.GlobalData", damaged, frame.position)
             } catch (e: MalformedFrameException) {
                 refused++
             }
@@ -67,7 +70,11 @@ internal class DamagedFrameTest {
         } catch (e: MalformedFrameException) {
             return false
         }
-        for (i in 0 until reader.size) Objects.dump(unpacked(reader[i]))
+        val trees = DataTrees.of(schema)
+        for (i in 0 until reader.size) {
+            GeneratedSchemas.unpacked(schema, schema.sensorType.name, reader.frame, reader.place(i))
+            trees.read(schema.sensorType.name, reader.frame, reader.place(i))
+        }
         return true
     }
 }

@@ -47,7 +47,7 @@ internal class ElementReaderTest {
 
     @Test
     fun `the next frame is checked from the beginning`() {
-        val reader = ElementReader(layout) { position, _ -> position }
+        val reader = ElementReader(layout)
         reader.attach(frame, frame.getInt(0))
         reader.check()
         // The same positions, with a damaged vtable.
@@ -55,9 +55,9 @@ internal class ElementReaderTest {
         assertFailsWith<MalformedFrameException> { reader.check() }
     }
 
-    private fun checked() = ElementReader(layout) { position, _ -> position }.apply {
-        attach(frame, frame.getInt(0))
-        check()
+    private fun checked() = ElementReader(layout).also {
+        it.attach(frame, frame.getInt(0))
+        it.check()
     }
 
     private fun element(index: Int): Int {

@@ -1,13 +1,12 @@
 package org.collektive.frames.data
 
 import java.net.URLClassLoader
+import java.nio.ByteBuffer
 import java.nio.file.Files
 import java.nio.file.Path
-import javax.tools.ToolProvider
 import kotlin.test.assertEquals
-import org.collektive.generator.main as generate
 
-/** Generated code of the schemas below `schema/test`, compiled and loaded. */
+/** Generated code of the schemas below `schema/test`, compiled and loaded. Beside it lies flatc's object API, below `objects`. */
 internal object GeneratedSchemas {
     val blocks: DataSchema by lazy { load("blocks.fbs", "test.blocks.BlocksSchema") }
     val features: DataSchema by lazy { load("features.fbs", "test.features.FeaturesSchema") }
@@ -22,38 +21,31 @@ internal object GeneratedSchemas {
     fun of(schema: String, name: String): DataSchema =
         load(Files.writeString(Files.createTempDirectory(work, "schema").resolve("user.fbs"), schema), name)
 
+    /** The class by which flatc itself reads and writes what [type] of the schema reads or writes. */
+    fun flatc(schema: DataSchema, type: String): Class<*> = schema.javaClass.classLoader.loadClass("objects.$type")
+
+    /** What flatc itself reads as the [type] of the schema at [place] of [frame]. */
+    fun unpacked(schema: DataSchema, type: String, frame: ByteBuffer, place: Int): Any {
+        val reader = flatc(schema, type)
+        val view = reader.getMethod("__assign", Int::class.java, ByteBuffer::class.java)
+            .invoke(reader.getConstructor().newInstance(), place, frame)
+        return reader.getMethod("unpack").invoke(view)
+    }
+
     private fun load(schema: String, name: String): DataSchema = load(root.resolve("schema/test/$schema"), name)
 
     private fun load(schema: Path, name: String): DataSchema {
-        val java = Files.createTempDirectory(work, "java")
+        val code = Files.createTempDirectory(work, "code")
         val classes = Files.createTempDirectory(work, "classes")
-        generate(
-            arrayOf(
-                "--flatc",
-                System.getProperty("collektive.flatc"),
-                "--schema",
-                "$schema",
-                "--include",
-                root.resolve("schema").toString(),
-                "--java",
-                java.toString(),
-            ),
+        GeneratedCode.generate(schema, code)
+        GeneratedCode.compile(code, classes)
+        val objects = Files.createTempDirectory(work, "objects")
+        val flatc = ProcessBuilder(
+            System.getProperty("collektive.flatc"), "--java", "--gen-object-api", "--gen-all", "--no-warnings",
+            "--java-package-prefix", "objects", "-I", "${root.resolve("schema")}", "-o", "$objects", "$schema",
         )
-        val sources = Files.walk(java).use { paths -> paths.filter { it.toString().endsWith(".java") }.sorted().toList() }
-        val options = arrayOf("-d", "$classes", "-cp", System.getProperty("java.class.path"), "-Xlint:all", "-Werror")
-        assertEquals(
-            0,
-            ToolProvider.getSystemJavaCompiler().run(
-                null,
-                null,
-                null,
-                *options,
-                *sources.map {
-                    it.toString()
-                }.toTypedArray(),
-            ),
-            "javac",
-        )
+        assertEquals(0, flatc.inheritIO().start().waitFor(), "flatc")
+        GeneratedCode.javac(listOf(objects), classes)
         val loader = URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader)
         return loader.loadClass(name).getConstructor().newInstance() as DataSchema
     }

@@ -2,10 +2,13 @@ package org.collektive.frames.data
 
 import com.google.flatbuffers.Table
 import java.lang.reflect.Method
+import java.lang.reflect.Modifier
+import java.lang.reflect.ParameterizedType
+import java.lang.reflect.Type
 import java.util.Random
 import java.lang.reflect.Array as ReflectArray
 
-/** Makes and prints random objects of flatc's object classes of any schema. */
+/** Makes and prints random data of any schema: objects of flatc's object classes, results of programs, and trees. */
 internal object Objects {
     /**
      * A canonical text of the data; the C# tests print the same. Members by name in lower case,
@@ -26,7 +29,7 @@ internal object Objects {
                 append(']')
             }
 
-            data == null -> append("null")
+            data == null -> append(if (type == List::class.java) "[]" else "null")
 
             data is String -> append('"').append(data).append('"')
 
@@ -37,6 +40,25 @@ internal object Objects {
             data is Double -> append('d').append(java.lang.Double.doubleToRawLongBits(data))
 
             data is Number -> append(data.toLong())
+
+            data is List<*> -> {
+                append('[')
+                for (item in data) {
+                    append(item, item?.javaClass)
+                    append(' ')
+                }
+                append(']')
+            }
+
+            data is Map<*, *> -> {
+                append('{')
+                for ((name, value) in data.mapKeys { (name, _) -> "$name".replace("_", "").lowercase() }.toSortedMap()) {
+                    append(name).append('=')
+                    append(value, value?.javaClass)
+                    append(' ')
+                }
+                append('}')
+            }
 
             else -> {
                 append('{')
@@ -55,7 +77,21 @@ internal object Objects {
             .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
 
     /** A random object of class [type] without a fault. */
-    fun random(type: Class<*>, random: Random, nesting: Int = 0): Any {
+    fun random(type: Class<*>, random: Random, nesting: Int = 0): Any =
+        if (type.name.startsWith("objects.")) randomObject(type, random, nesting) else randomResult(type, random, nesting)
+
+    /** A result, or a part of one, by the constructor with all fields. */
+    private fun randomResult(type: Class<*>, random: Random, nesting: Int): Any {
+        val constructor = type.constructors.filter { !it.isSynthetic }.maxBy { it.parameterCount }
+        val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { it.name.lowercase() }
+        val values = constructor.genericParameterTypes.mapIndexed { index, part ->
+            val canBeAbsent = !(part is Class<*> && part.isPrimitive) && names[index] !in REQUIRED && isTable(type)
+            if (canBeAbsent && (random.nextBoolean() || nesting >= MAX_NESTING)) null else value(part, random, nesting)
+        }
+        return constructor.newInstance(*values.toTypedArray())
+    }
+
+    private fun randomObject(type: Class<*>, random: Random, nesting: Int): Any {
         val made = type.getConstructor().newInstance()
         for (setter in type.methods.filter { it.name.startsWith("set") && it.parameterCount == 1 }.sortedBy { it.name }) {
             val part = setter.parameterTypes[0]
@@ -63,21 +99,36 @@ internal object Objects {
             if (part.isPrimitive && random.nextBoolean()) continue
             val absent = isTable(type) && setter.name.removePrefix("set").lowercase() !in REQUIRED && !part.isPrimitive &&
                 (random.nextBoolean() || nesting >= MAX_NESTING)
-            setter.invoke(made, if (absent) null else value(part, random, nesting))
+            val value = if (absent) null else value(part, random, nesting)
+            // flatc writes no optional scalar that is 0.
+            val isLost = isBoxed(part) && (value == false || (value as? Number)?.toDouble() == 0.0)
+            setter.invoke(made, if (isLost) null else value)
         }
         return made
     }
 
-    private fun value(type: Class<*>, random: Random, nesting: Int): Any = when {
+    private fun value(type: Type, random: Random, nesting: Int): Any = when {
+        type !is Class<*> -> {
+            val element = (type as ParameterizedType).actualTypeArguments.single()
+            List(if (nesting >= MAX_NESTING) 0 else random.nextInt(4)) { value(element, random, nesting) }
+        }
+
         type.isPrimitive -> scalar(type, random)
+
         isBoxed(type) -> scalar(type.kotlin.javaPrimitiveType ?: type, random)
+
         type == String::class.java -> text(random)
+
         type.isArray -> array(type.componentType, random, nesting)
+
         else -> random(type, random, nesting + 1)
     }
 
-    private fun isTable(type: Class<*>): Boolean =
-        Table::class.java.isAssignableFrom(type.classLoader.loadClass(type.name.removeSuffix("T")))
+    /** Whether [type] stands for a table; flatc's reader knows. */
+    private fun isTable(type: Class<*>): Boolean {
+        val reader = if (type.name.startsWith("objects.")) type.name.removeSuffix("T") else "objects.${type.name.removeSuffix("Value")}"
+        return Table::class.java.isAssignableFrom(type.classLoader.loadClass(reader))
+    }
 
     private fun array(element: Class<*>, random: Random, nesting: Int): Any {
         val count = if (nesting >= MAX_NESTING) 0 else random.nextInt(4)
@@ -100,7 +151,7 @@ internal object Objects {
     private fun text(random: Random): String =
         listOf("", "a", "node 7", "\u00e9t\u00e9", "\u6e2f", "\ud83d\ude80 up", "x".repeat(300))[random.nextInt(7)]
 
-    private fun isBoxed(type: Class<*>) = !type.isPrimitive && type.kotlin.javaPrimitiveType != null
+    private fun isBoxed(type: Type) = type is Class<*> && !type.isPrimitive && type.kotlin.javaPrimitiveType != null
 
     private const val MAX_NESTING = 4
 

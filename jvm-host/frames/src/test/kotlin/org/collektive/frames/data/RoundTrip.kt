@@ -23,6 +23,7 @@ internal object RoundTrip {
     private fun read(schema: DataSchema, file: File) {
         val sensors = schema.sensorReader()
         val globals = schema.globalReader()
+        val trees = DataTrees.of(schema)
         var passed = 0
         var failed = 0
         DataInputStream(file.inputStream().buffered()).use { input ->
@@ -37,11 +38,15 @@ internal object RoundTrip {
                 val text = StringBuilder()
                 sensors.attach(frame, positions[0])
                 sensors.check()
-                for (i in 0 until sensors.size) text.append(Objects.dump(unpacked(sensors[i]))).append('\n')
+                for (i in 0 until sensors.size) {
+                    text.append(
+                        Objects.dump(trees.read(schema.sensorType.name, frame, sensors.place(i))),
+                    ).append('\n')
+                }
                 if (globals != null) {
                     globals.attach(frame, positions[1])
                     globals.check()
-                    text.append(Objects.dump(unpacked(globals.data))).append('\n')
+                    text.append(Objects.dump(trees.read(globals.data.javaClass.name, frame, positions[1]))).append('\n')
                 }
                 if (sensors.size == positions[2] && text.toString() == expected) {
                     passed++
@@ -62,7 +67,7 @@ internal object RoundTrip {
                 val results = Array<Any?>(count) { Objects.random(schema.actuatorType, random) }
                 results.forEach { result -> check(writer.findFault(result) == null) { "${writer.findFault(result)}" } }
                 val builder = FlatBufferBuilder(256)
-                val offset = writer.write(builder, results, count, IntArray(2 * count))
+                val offset = writer.writeAll(builder, results)
                 builder.finish(offset)
                 val frame = builder.sizedByteArray()
                 val text = results.joinToString("") { Objects.dump(it) + "\n" }.encodeToByteArray()
@@ -79,5 +84,17 @@ internal object RoundTrip {
     private fun DataOutputStream.writeLittle(value: Int) = writeInt(Integer.reverseBytes(value))
 }
 
-/** The object of a flatc reader. */
-internal fun unpacked(reader: Any): Any = reader.javaClass.getMethod("unpack").invoke(reader)
+/** Writes [results] as a tick's answers, and returns the place of the table `Actuators`; a table's range lies in [ranges]. */
+internal fun ActuatorWriter.writeAll(
+    builder: FlatBufferBuilder,
+    results: Array<Any?>,
+    ranges: IntArray = IntArray(2 * results.size),
+): Int = when (this) {
+    is TableWriter -> write(builder, results, results.size, ranges)
+
+    is StructWriter -> {
+        val packed = ByteBuffer.allocate(results.size * bytes).order(ByteOrder.LITTLE_ENDIAN)
+        results.forEachIndexed { i, result -> pack(packed, i * bytes, checkNotNull(result)) }
+        write(builder, packed, results.size)
+    }
+}

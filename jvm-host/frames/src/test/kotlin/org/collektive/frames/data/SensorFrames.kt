@@ -13,14 +13,15 @@ internal class Frame(val bytes: ByteArray, val position: Int, val objects: List<
 internal object SensorFrames {
     /** A table `Sensors` of random elements: structs of [structBytes] bytes, or tables if that is `null`. */
     fun sensors(schema: DataSchema, count: Int, random: Random, structBytes: Int? = null, alignment: Int = 8): Frame {
-        val type = schema.sensorType.classLoader.loadClass("${schema.sensorType.name}T")
+        val reader = GeneratedSchemas.flatc(schema, schema.sensorType.name)
+        val type = GeneratedSchemas.flatc(schema, "${schema.sensorType.name}T")
         val objects = List(count) { Objects.random(type, random) }
         val builder = FlatBufferBuilder(64)
         val vector = if (structBytes == null) {
-            builder.createVectorOfTables(objects.map { pack(builder, schema.sensorType, it) }.toIntArray())
+            builder.createVectorOfTables(objects.map { pack(builder, reader, it) }.toIntArray())
         } else {
             builder.startVector(structBytes, count, alignment)
-            objects.asReversed().forEach { pack(builder, schema.sensorType, it) }
+            objects.asReversed().forEach { pack(builder, reader, it) }
             builder.endVector()
         }
         builder.startTable(1)
@@ -28,14 +29,14 @@ internal object SensorFrames {
         return finish(builder, builder.endTable(), objects)
     }
 
-    /** A random table of class [type]. */
-    fun table(type: Class<*>, random: Random): Frame {
-        val made = Objects.random(type.classLoader.loadClass("${type.name}T"), random)
+    /** A random table of the [type] of the schema. */
+    fun table(schema: DataSchema, type: String, random: Random): Frame {
+        val made = Objects.random(GeneratedSchemas.flatc(schema, "${type}T"), random)
         val builder = FlatBufferBuilder(64)
-        return finish(builder, pack(builder, type, made), listOf(made))
+        return finish(builder, pack(builder, GeneratedSchemas.flatc(schema, type), made), listOf(made))
     }
 
-    fun pack(builder: FlatBufferBuilder, reader: Class<*>, data: Any): Int =
+    private fun pack(builder: FlatBufferBuilder, reader: Class<*>, data: Any): Int =
         reader.getMethod("pack", FlatBufferBuilder::class.java, data.javaClass).invoke(null, builder, data) as Int
 
     private fun finish(builder: FlatBufferBuilder, table: Int, objects: List<Any>): Frame {

@@ -1,6 +1,5 @@
 package org.collektive.frames.tick
 
-import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.api.Parameters
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
@@ -12,10 +11,11 @@ import org.collektive.engine.RoundDigest
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
 import org.collektive.frames.AnswerBuffer
-import org.collektive.frames.data.DataReader
 import org.collektive.frames.data.DataSchema
-import org.collektive.frames.data.ElementWriter
+import org.collektive.frames.data.ElementReader
 import org.collektive.frames.data.GlobalReader
+import org.collektive.frames.data.StructWriter
+import org.collektive.frames.data.View
 import org.collektive.runtime.AggregateRuntimes
 import org.junit.jupiter.api.Test
 import java.nio.ByteBuffer
@@ -27,7 +27,7 @@ import kotlin.test.assertEquals
 class AnswersTest {
     private val failing = HashSet<Int>()
     private var now = 0L
-    private val answers = Answers.of(Schema, THREADS)
+    private val answers = Answers.of(Schema)
     private val data = object : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
@@ -38,7 +38,7 @@ class AnswersTest {
 
         override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any {
             check(device.id !in failing || device.id % 2 == 0)
-            return Answer(device.id, now, isGood = device.id !in failing)
+            return if (device.id in failing) "no answer" else Answer(device.id, now)
         }
 
         override fun describe(failure: Throwable, place: String?): String = failure.toString()
@@ -95,7 +95,7 @@ class AnswersTest {
         digest.end()
     }
 
-    private class Answer(val id: Int, val tick: Long, val isGood: Boolean)
+    private class Answer(val id: Int, val tick: Long)
 
     private object Schema : DataSchema {
         const val BYTES = 12
@@ -104,22 +104,18 @@ class AnswersTest {
         override val sensorType get() = Any::class.java
         override val actuatorType get() = Answer::class.java
 
-        override fun sensorReader(): DataReader = throw UnsupportedOperationException()
+        override fun sensorReader(): ElementReader = throw UnsupportedOperationException()
 
-        override fun actuatorReader(): DataReader = throw UnsupportedOperationException()
+        override fun sensorView(): View = throw UnsupportedOperationException()
+
+        override fun actuatorReader(): ElementReader = throw UnsupportedOperationException()
 
         override fun globalReader(): GlobalReader? = null
 
-        override fun actuatorWriter() = ElementWriter.structs(Answer::class.java, BYTES, 4, ::pack) {
-            if ((it as Answer).isGood) null else "is bad"
-        }
-
-        private fun pack(builder: FlatBufferBuilder, answer: Any): Int {
+        override fun actuatorWriter() = StructWriter(Answer::class.java, BYTES, 4) { target, place, answer ->
             answer as Answer
-            builder.prep(4, BYTES)
-            builder.putLong(answer.tick)
-            builder.putInt(answer.id)
-            return builder.offset()
+            target.putInt(place, answer.id)
+            target.putLong(place + 4, answer.tick)
         }
     }
 

@@ -6,8 +6,9 @@ import org.collektive.frame.StepRequest
 import org.collektive.frames.FrameChecker
 import org.collektive.frames.FramePolicy
 import org.collektive.frames.MalformedFrameException
-import org.collektive.frames.data.DataReader
 import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.DataTrees
+import org.collektive.frames.data.ElementReader
 import org.collektive.frames.target
 import org.collektive.frames.tick.StepResponseReader
 import java.nio.ByteBuffer
@@ -56,23 +57,23 @@ internal class Difference(private val whose: String, private val field: String, 
 
         private fun actuators(schema: DataSchema, answer: StepResponseReader): Map<Int, Any> {
             val response = answer.response
-            return elements(schema.actuatorReader(), answer.frame, answer.actuators, response.nodesLength(), response::nodes)
+            val reader = schema.actuatorReader()
+            val places = places(reader, answer.frame, answer.actuators, response.nodesLength(), response::nodes)
+            val trees = DataTrees.of(schema)
+            return places.mapValues { (_, place) -> trees.read(schema.actuatorType.name, answer.frame, place) }
         }
 
-        /** The elements of the table `Sensors` or `Actuators` at [position] as objects, by node. */
-        private fun elements(reader: DataReader, frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> {
+        /** The places of the elements of the table `Sensors` or `Actuators` at [position], by node. */
+        private fun places(reader: ElementReader, frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Int> {
             if (position == 0) return emptyMap()
             reader.attach(frame, position)
             reader.check()
             if (reader.size != count) throw MalformedFrameException("there are data of ${reader.size} nodes for $count")
-            return (0 until count).associate { node(it) to unpacked(reader[it]) }
+            return (0 until count).associate { node(it) to reader.place(it) }
         }
-
-        /** Converts a view of flatc to an object, by the `unpack` of its class. */
-        private fun unpacked(view: Any): Any = view.javaClass.getMethod("unpack").invoke(view)
     }
 
-    /** A `StepRequest`, converted to objects. */
+    /** A `StepRequest`, converted to objects and trees. */
     private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
         companion object {
             /** Reads [bytes]; `null` when they are damaged: a record may contain a frame that the host refused. */
@@ -81,21 +82,23 @@ internal class Difference(private val whose: String, private val field: String, 
                 val request = StepRequest().__assign(root, bytes)
                 val sensors = target(bytes, root, FrameLayouts.STEP_REQUEST_SENSORS)
                 val globals = target(bytes, root, FrameLayouts.STEP_REQUEST_GLOBALS)
+                val trees = DataTrees.of(schema)
+                val places = places(schema.sensorReader(), bytes, sensors, request.dueLength(), request::due)
                 Request(
                     request.unpack(),
-                    elements(schema.sensorReader(), bytes, sensors, request.dueLength(), request::due),
-                    globals(schema, bytes, globals),
+                    places.mapValues { (_, place) -> trees.read(schema.sensorType.name, bytes, place) },
+                    globals(schema, trees, bytes, globals),
                 )
             } catch (_: MalformedFrameException) {
                 null
             }
 
-            private fun globals(schema: DataSchema, bytes: ByteBuffer, position: Int): Any? {
+            private fun globals(schema: DataSchema, trees: DataTrees, bytes: ByteBuffer, position: Int): Any? {
                 val reader = schema.globalReader()
                 if (position == 0 || reader == null) return null
                 reader.attach(bytes, position)
                 reader.check()
-                return unpacked(reader.data)
+                return trees.read(reader.data.javaClass.name, bytes, position)
             }
         }
     }

@@ -2,7 +2,7 @@ package org.collektive.tools.record
 
 import java.lang.reflect.Modifier
 
-/** Compares objects of flatc's object API field by field, in the order of the schema. */
+/** Compares objects of flatc's object API, and trees of users' data, field by field, in the order of the schema. */
 internal object ObjectDifference {
     /** The first difference of [left] and [right]; ignores the fields of these two objects that [except] names. */
     fun first(left: Any?, right: Any?, whose: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
@@ -12,12 +12,14 @@ internal object ObjectDifference {
 
         left is IntArray && right is IntArray && field in ID_LISTS -> ofIds(left.toSet(), right.toSet(), field)
 
+        left is List<*> && right is List<*> -> ofArrays(left, right, whose, field)
+
         left.javaClass.isArray -> ofArrays(items(left), items(right), whose, field)
 
         isLeaf(left) -> if (left == right) null else Difference(whose, field, text(left), text(right))
 
-        else -> fields(left).filter { it.name !in except }.firstNotNullOfOrNull {
-            first(it.get(left), it.get(right), whose, if (field.isEmpty()) it.name else "$field.${it.name}")
+        else -> fields(left).zip(fields(right)).filter { (a, _) -> a.first !in except }.firstNotNullOfOrNull { (a, b) ->
+            first(a.second, b.second, whose, if (field.isEmpty()) a.first else "$field.${a.first}")
         }
     }
 
@@ -39,8 +41,8 @@ internal object ObjectDifference {
 
     /** The node or link that an element of a list concerns, so that lists are compared independent of their order. */
     private fun owner(element: Any): Owner? {
-        if (isLeaf(element) || element.javaClass.isArray) return null
-        val values = fields(element).associate { it.name to it.get(element) }
+        if (isLeaf(element) || element is List<*> || element.javaClass.isArray) return null
+        val values = fields(element).toMap()
         val from = values["from"]
         val to = values["to"]
         val id = values["id"] ?: values["node"]
@@ -59,8 +61,12 @@ internal object ObjectDifference {
 
     private fun items(array: Any): List<Any?> = List(java.lang.reflect.Array.getLength(array)) { java.lang.reflect.Array.get(array, it) }
 
-    private fun fields(value: Any) =
+    private fun fields(value: Any): List<Pair<String, Any?>> = if (value is Map<*, *>) {
+        value.map { (name, content) -> "$name" to content }
+    } else {
         value.javaClass.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.onEach { it.isAccessible = true }
+            .map { it.name to it.get(value) }
+    }
 
     private fun isLeaf(value: Any) = value is Number || value is String || value is Boolean
 

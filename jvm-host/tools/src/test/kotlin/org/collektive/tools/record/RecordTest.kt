@@ -392,10 +392,8 @@ class RecordTest {
         package probe;
         public final class Bad {
           @org.collektive.api.Program(name = "sum")
-          public static ActuatorDataT sum(it.unibo.collektive.aggregate.api.Aggregate<Integer> aggregate, SensorData sensors) {
-            ActuatorDataT result = new ActuatorDataT();
-            result.setValue($expression);
-            return result;
+          public static ActuatorData sum(it.unibo.collektive.aggregate.api.Aggregate<Integer> aggregate, SensorData sensors) {
+            return new ActuatorData($expression);
           }
         }
         """.trimIndent(),
