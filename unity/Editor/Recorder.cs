@@ -2,7 +2,6 @@ using System;
 using System.Globalization;
 using System.IO;
 using Collektive.Bridge;
-using org.collektive.frame;
 using UnityEditor;
 using UnityEngine;
 

@@ -2,7 +2,6 @@ using System;
 using System.Threading;
 using Collektive.Bridge;
 using Collektive.Unity;
-using org.collektive.frame;
 
 namespace Collektive.Headless
 {

@@ -4,7 +4,6 @@ using System.IO;
 using System.Threading;
 using Collektive.Bridge;
 using NUnit.Framework;
-using org.collektive.frame;
 using probe;
 
 namespace Collektive.Headless.Tests

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
 using UnityEngine;
@@ -199,7 +200,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(1);
             node.Node.gameObject.AddComponent<ForeignSensor>();
             Play(1);
-            Assert.That(Manager.Failure, Is.StringContaining("ForeignSensor").And.StringContaining("SensorData"));
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignSensor").And.StringContaining("probe.SensorData"));
         }
 
         [Test]
@@ -458,7 +459,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(selected.By("ThrowingSensor on 'Probe' failed 10 times"), Is.SameAs(sensor));
             var foreign = actuator.gameObject.AddComponent<ForeignActuator>();
             Assert.That(new Selection(() => Play(1)).By("ForeignActuator"), Is.SameAs(foreign));
-            Assert.That(Manager.Failure, Is.StringContaining("ForeignActuator").And.StringContaining("ActuatorData"));
+            Assert.That(Manager.Failure, Is.StringContaining("ForeignActuator").And.StringContaining("probe.ActuatorData"));
         }
 
         [Test]
@@ -523,7 +524,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_click_on_a_refusal_selects_who_is_refused()
         {
-            Configure("double", settings => settings.schedule = org.collektive.frame.Schedule.Asynchronous);
+            Configure("double", settings => settings.schedule = Schedule.Asynchronous);
             var node = MakeNode(1, default, 5).Node;
             node.OwnTiming = true;
             node.Timing.period = 0;

@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
-using org.collektive.frame;
 using probe;
 using UnityEngine;
 

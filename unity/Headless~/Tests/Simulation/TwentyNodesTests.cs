@@ -1,3 +1,4 @@
+using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
 using UnityEngine;
@@ -31,7 +32,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void In_sequence_hops_travel_along_ascending_ids_within_one_tick()
         {
-            Configure("hops", settings => settings.schedule = org.collektive.frame.Schedule.Sequential);
+            Configure("hops", settings => settings.schedule = Schedule.Sequential);
             MakeLine();
             Play(1);
             for (var i = 0; i < Count; i++) Assert.That(line[i].Answer, Is.EqualTo(i), "node " + i);

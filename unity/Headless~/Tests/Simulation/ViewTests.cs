@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
+using Collektive.Bridge;
 using Collektive.Unity;
-using org.collektive.frame;
 using NUnit.Framework;
 using probe;
 using UnityEngine;

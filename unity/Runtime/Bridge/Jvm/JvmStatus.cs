@@ -31,7 +31,7 @@ namespace Collektive.Bridge
             Classes = response.Classes;
             Collections = response.Collections;
             CollectionMs = response.CollectionMillis;
-            Recording = response.Recording;
+            Recording = (RecordingState)response.Recording;
             RecordingPath = response.RecordingPath ?? "";
             RecordingError = response.RecordingError ?? "";
             RecordingMs = response.RecordingMillis;

@@ -17,7 +17,7 @@ namespace Collektive.Bridge
         public int Threads { get; set; } = 1;
 
         /// <summary>Which messages a round sees.</summary>
-        public Frame.Schedule Schedule { get; set; }
+        public Schedule Schedule { get; set; }
 
         /// <summary>What happens to messages between sending and receiving.</summary>
         public NetworkModel Network { get; set; } = new NetworkModel();
@@ -48,7 +48,7 @@ namespace Collektive.Bridge
                     builder, builder.CreateString(types[i].Key), types[i].Value);
             }
             builder.Finish(Frame.OpenRequest.CreateOpenRequest(
-                builder, Protocol, Seed, Threads, Schedule,
+                builder, Protocol, Seed, Threads, (Frame.Schedule)Schedule,
                 Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema.Name),
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
                 builder.CreateString(Program ?? ""),

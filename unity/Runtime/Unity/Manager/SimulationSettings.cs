@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using Collektive.Bridge;
-using org.collektive.frame;
 using UnityEngine;
 
 namespace Collektive.Unity

@@ -168,7 +168,7 @@ namespace Collektive.Unity
         internal string StartTimer()
         {
             var settings = Simulation.Settings;
-            if (settings.schedule != org.collektive.frame.Schedule.Asynchronous) return null;
+            if (settings.schedule != Schedule.Asynchronous) return null;
             var used = ownTiming ? timing : settings.timing;
             var problem = used.FindProblem(settings.deltaTime);
             if (problem == null) timer = new RoundTimer(used, new RandomStream(settings.seed, Id, RandomPurpose.Schedule), Simulation.Time);

@@ -1,0 +1,21 @@
+namespace Collektive.Bridge
+{
+    /// <summary>How far a flight recording of the JVM is.</summary>
+    public enum RecordingState : byte
+    {
+        /// <summary>None runs.</summary>
+        Off = org.collektive.frame.RecordingState.Off,
+
+        /// <summary>It is being started.</summary>
+        Starting = org.collektive.frame.RecordingState.Starting,
+
+        /// <summary>It runs.</summary>
+        On = org.collektive.frame.RecordingState.On,
+
+        /// <summary>It runs, and what it has so far is being written.</summary>
+        Dumping = org.collektive.frame.RecordingState.Dumping,
+
+        /// <summary>It is being ended and written.</summary>
+        Stopping = org.collektive.frame.RecordingState.Stopping,
+    }
+}
