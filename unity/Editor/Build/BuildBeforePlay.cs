@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
 
@@ -18,12 +20,27 @@ namespace Collektive.Unity.Editor
             if (change != PlayModeStateChange.ExitingEditMode || !ProjectSettings.instance.buildBeforePlay) return;
             var manager = Object.FindAnyObjectByType<SimulationManager>();
             if (manager == null) return;
+            var jars = Jars(manager.Settings);
             foreach (var project in SchemaProject.FindAll())
             {
                 // An imported sample has sources too, but runs from the package's own jar.
-                if (!manager.Settings.jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
+                if (!jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
                 if (!ToolsMenu.Guarded(() => ProgramBuild.Make(project)))
                     Debug.LogWarning(project.Jar + " is older than its sources: it could not be built, see above", manager);
+            }
+        }
+
+        private static List<string> Jars(SimulationSettings settings)
+        {
+            if (settings.jars.Count > 0) return settings.jars;
+            try
+            {
+                return settings.JarsFor(Schemas.Find(settings.schema));
+            }
+            catch (BridgeException)
+            {
+                // Play says what is wrong with the schema.
+                return settings.jars;
             }
         }
     }

@@ -25,7 +25,7 @@ namespace Collektive.Unity.Editor
         internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
 
         /// <summary>The jar, as the manager's settings name it.</summary>
-        internal string Jar => "Library/Collektive/" + Name + ".jar";
+        internal string Jar => Installation.JarOf(Name);
 
         internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
 

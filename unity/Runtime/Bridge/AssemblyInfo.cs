@@ -2,5 +2,10 @@ using System.Reflection;
 using System.Runtime.CompilerServices;
 
 [assembly: AssemblyVersion("0.1.0.0")]
+[assembly: InternalsVisibleTo("Collektive.Faults")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Bench")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
+[assembly: InternalsVisibleTo("Collektive.Player")]
+[assembly: InternalsVisibleTo("Collektive.Unity")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Tests")]

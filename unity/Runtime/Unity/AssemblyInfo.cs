@@ -3,4 +3,6 @@ using System.Runtime.CompilerServices;
 
 [assembly: AssemblyVersion("0.1.0.0")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
+[assembly: InternalsVisibleTo("Collektive.Player")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Tests")]

@@ -70,6 +70,8 @@ namespace Collektive.Unity.Tests
         {
             public override string Name => "leaderelection.LeaderElectionSchema";
 
+            public override string File => "leader_election";
+
             public override IReadOnlyList<KeyValuePair<string, ulong>> Types { get; } = new[]
             {
                 new KeyValuePair<string, ulong>("SensorData", 0x1e1b99fee8474fabUL), new KeyValuePair<string, ulong>("ActuatorData", 0x6f3185b64538c843UL),

@@ -24,10 +24,11 @@ namespace Collektive.Unity.Tests
         }
 
         [UnityTest]
-        public IEnumerator A_scene_without_programs_says_what_to_do_and_stops()
+        public IEnumerator A_scene_without_its_schema_says_what_to_do_and_stops()
         {
-            LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: no jar with programs is named.*add the path to the settings"));
+            LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: schema 'nowhere.NoSchema' does not exist.*Name one in the Simulation Manager"));
             var manager = Make<SimulationManager>("Manager");
+            manager.Settings.schema = "nowhere.NoSchema";
             yield return null;
             yield return null;
             Assert.That(manager.enabled, Is.False);

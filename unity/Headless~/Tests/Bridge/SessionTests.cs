@@ -191,6 +191,8 @@ namespace Collektive.Headless.Tests.Bridge
 
             public override string Name => probe.Name;
 
+            public override string File => probe.File;
+
             public override IReadOnlyList<KeyValuePair<string, ulong>> Types
             {
                 get

@@ -130,6 +130,15 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Without_jars_that_of_the_schema_is_used()
+        {
+            Configure("double", settings => settings.jars.Clear());
+            MakeNode(1);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("Library/Collektive/probe.jar"));
+        }
+
+        [Test]
         public void A_missing_jar_is_named()
         {
             Configure("double", settings => settings.jars[0] = "nowhere/programs.jar");

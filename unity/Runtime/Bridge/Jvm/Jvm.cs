@@ -50,7 +50,7 @@ namespace Collektive.Bridge
 
         /// <summary>Starts the JVM, or does nothing when it runs with the same words.</summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
-        public static void Start(JvmLaunch launch)
+        internal static void Start(JvmLaunch launch)
         {
             ShimLibrary.Check();
             Configured(launch, config => Shim.clk_jvm_start((Shim.JvmConfig*)config));
@@ -61,7 +61,7 @@ namespace Collektive.Bridge
         /// was found good is not tried again at the start.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
-        public static void Check(JvmLaunch launch)
+        internal static void Check(JvmLaunch launch)
         {
             ShimLibrary.Check();
             Configured(launch, config => Shim.clk_jvm_check((Shim.JvmConfig*)config));

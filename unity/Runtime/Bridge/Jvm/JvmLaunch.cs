@@ -4,7 +4,7 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>The words a JVM is started with: what becomes of <see cref="JvmSettings"/> on this machine.</summary>
-    public sealed class JvmLaunch
+    internal sealed class JvmLaunch
     {
         /// <summary>Makes a launch of the JRE or JDK at <paramref name="home"/> with the host's jar.</summary>
         public JvmLaunch(string home, string classPath, IReadOnlyList<string> options)

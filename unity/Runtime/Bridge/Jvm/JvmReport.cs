@@ -26,7 +26,7 @@ namespace Collektive.Bridge
         /// <summary>Looks at <paramref name="settings"/>; nothing is started.</summary>
         /// <param name="settings">What the user wants.</param>
         /// <param name="toLaunch">Makes the words for the JVM; throws <see cref="BridgeException"/> when there is none to be had.</param>
-        public static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
+        internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);
             if (Jvm.FindProblem() != null) report.Add(nameof(JvmSettings.location), Jvm.FindProblem());

@@ -120,7 +120,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>The words for the JVM at <paramref name="javaHome"/>; its archive of classes is kept in <paramref name="cacheFolder"/>.</summary>
-        public JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
+        internal JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
         {
             var options = new List<string>();
             var note = "";

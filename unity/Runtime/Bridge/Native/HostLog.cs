@@ -21,7 +21,7 @@ namespace Collektive.Bridge
     /// console takes no more. What is left out is counted, and the count is a line of its own. Without the native library there are none. Used from
     /// one thread at a time.
     /// </summary>
-    public sealed unsafe class HostLog
+    internal sealed unsafe class HostLog
     {
         /// <summary>Lines of one severity that <see cref="TryRead"/> gives in a second.</summary>
         public const int LinesPerSecond = 100;

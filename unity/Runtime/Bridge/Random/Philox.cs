@@ -4,7 +4,7 @@ namespace Collektive.Bridge
     /// The counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers, as easy as 1, 2, 3; SC 2011).
     /// The JVM side has the same; both are tested with the authors' vectors.
     /// </summary>
-    public static class Philox
+    internal static class Philox
     {
         private const uint Multiplier0 = 0xD2511F53;
         private const uint Multiplier1 = 0xCD9E8D57;

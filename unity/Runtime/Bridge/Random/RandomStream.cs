@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>What a stream of random numbers is for; streams of different purposes are independent.</summary>
-    public enum RandomPurpose
+    internal enum RandomPurpose
     {
         /// <summary><c>Device.random</c> of programs (used on the JVM only).</summary>
         Program = 0,
@@ -29,7 +29,7 @@ namespace Collektive.Bridge
         private uint w0, w1, w2, w3;
 
         /// <summary>Makes the stream of a node (0 or greater; 0 for the scene's own).</summary>
-        public RandomStream(ulong seed, int node, RandomPurpose purpose)
+        internal RandomStream(ulong seed, int node, RandomPurpose purpose)
         {
             if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "ids are 0 or greater");
             this.seed = seed;

@@ -30,7 +30,7 @@ namespace Collektive.Bridge
         /// <summary>
         /// Copies an element of the table that was attached before to memory of its own. Reuses that of <paramref name="kept"/> unless it is null.
         /// </summary>
-        public abstract void KeepFormer(int index, ref KeptAnswer kept);
+        internal abstract void KeepFormer(int index, ref KeptAnswer kept);
 
         /// <summary>
         /// To be called before the attached frame's memory is written again, as a session does: the next <see cref="Attach"/> makes its elements the

@@ -11,6 +11,9 @@ namespace Collektive.Bridge
         /// <summary>Name of the schema, equal to that of the JVM side.</summary>
         public abstract string Name { get; }
 
+        /// <summary>Name of the schema's file without <c>.fbs</c>, after which the jar of its programs is named.</summary>
+        public abstract string File { get; }
+
         /// <summary>
         /// Fingerprints of <c>SensorData</c>, <c>ActuatorData</c> and, where defined, <c>GlobalData</c>, nested types included.
         /// </summary>

@@ -1,7 +1,7 @@
 namespace Collektive.Bridge
 {
     /// <summary>One element of actuator data in memory of its own: see <see cref="ActuatorBuffer.KeepFormer"/>.</summary>
-    public abstract class KeptAnswer
+    internal abstract class KeptAnswer
     {
         private protected KeptAnswer()
         {
@@ -12,7 +12,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>A <see cref="KeptAnswer"/> with a typed element.</summary>
-    public abstract class KeptAnswer<T> : KeptAnswer
+    internal abstract class KeptAnswer<T> : KeptAnswer
     {
         private protected KeptAnswer()
         {

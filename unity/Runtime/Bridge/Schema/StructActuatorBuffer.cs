@@ -31,7 +31,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void KeepFormer(int index, ref KeptAnswer kept)
+        internal override void KeepFormer(int index, ref KeptAnswer kept)
         {
             if (kept == null) kept = new KeptStruct();
             ((KeptStruct)kept).Item = Former(index);

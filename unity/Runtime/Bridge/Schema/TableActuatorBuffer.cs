@@ -40,7 +40,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void KeepFormer(int index, ref KeptAnswer kept)
+        internal override void KeepFormer(int index, ref KeptAnswer kept)
         {
             RequireFormer(index);
             if (kept == null) kept = new KeptTable();

@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>A list that shows its array, so that it can be written as one block. Clearing keeps the memory.</summary>
-    public sealed class GrowingArray<T>
+    internal sealed class GrowingArray<T>
     {
         private T[] items = new T[16];
 

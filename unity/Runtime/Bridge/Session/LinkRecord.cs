@@ -21,7 +21,7 @@ namespace Collektive.Bridge
 
     /// <summary>The ends of a directed link.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public struct LinkEnds
+    internal struct LinkEnds
     {
         /// <summary>Id of the sender.</summary>
         public int From;

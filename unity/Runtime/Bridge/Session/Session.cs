@@ -9,7 +9,7 @@ namespace Collektive.Bridge
     /// One simulation on the JVM: a set of nodes, their links and their programs. <see cref="Step"/> makes exactly one call
     /// across the boundary. Used from one thread at a time; no managed allocation per step in steady state.
     /// </summary>
-    public sealed unsafe class Session : IDisposable
+    internal sealed unsafe class Session : IDisposable
     {
         private const int FirstCapacity = 64 * 1024;
         private const int ForgottenLimitMs = 1000;

@@ -5,7 +5,7 @@ using Frame = org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>What a session is opened with.</summary>
-    public sealed class SessionSettings
+    internal sealed class SessionSettings
     {
         /// <summary>Version of <c>frame.fbs</c> that both sides must share.</summary>
         private const uint Protocol = 1;

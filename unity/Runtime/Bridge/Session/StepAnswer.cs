@@ -4,7 +4,7 @@ using Frame = org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>The JVM's answer to a step, read in place; valid until the session's next call. Not thread-safe.</summary>
-    public sealed class StepAnswer
+    internal sealed class StepAnswer
     {
         /// <summary>VTable offset of <c>StepResponse.actuators</c>, its fourth field.</summary>
         private const int ActuatorsField = 4 + 3 * 2;

@@ -9,7 +9,7 @@ namespace Collektive.Bridge
     /// What changed since the last tick, and who is due. Filled by the owner of the session, written to the request slot by
     /// <see cref="Session.Step"/>, emptied when the step succeeded. Not thread-safe; no allocation in steady state.
     /// </summary>
-    public sealed class StepRequest
+    internal sealed class StepRequest
     {
         private readonly GrowingArray<int> nodesRemoved = new GrowingArray<int>();
         private readonly List<NewNode> nodesAdded = new List<NewNode>();

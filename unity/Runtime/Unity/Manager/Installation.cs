@@ -37,12 +37,15 @@ namespace Collektive.Unity
 
         /// <summary>The words that start the JVM of <paramref name="settings"/> on this machine.</summary>
         /// <exception cref="BridgeException">The settings are wrong, or there is no such JVM.</exception>
-        public static JvmLaunch ToLaunch(JvmSettings settings)
+        internal static JvmLaunch ToLaunch(JvmSettings settings)
         {
             var problems = settings.FindProblems();
             if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are wrong: " + problems[0]);
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
+
+        /// <summary>The jar that the editor makes of the programs of a schema's file, from the project's folder.</summary>
+        internal static string JarOf(string schemaFile) => "Library/Collektive/" + schemaFile + ".jar";
 
         /// <summary>
         /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own

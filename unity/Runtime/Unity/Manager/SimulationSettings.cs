@@ -19,8 +19,8 @@ namespace Collektive.Unity
         [Tooltip("Full name of the generated schema class, for instance swarm.SwarmSchema. Empty: the only one.")]
         public string schema = "";
 
-        /// <summary>Jars with programs; relative paths start at the project's folder.</summary>
-        [Tooltip("Jars with programs. Relative paths start at the project's folder.")]
+        /// <summary>Jars with programs; relative paths start at the project's folder. Empty: the jar that the editor makes of the schema's programs.</summary>
+        [Tooltip("Jars with programs. Relative paths start at the project's folder. Empty: Library/Collektive/NAME.jar, made of the schema's programs.")]
         public List<string> jars = new List<string>();
 
         /// <summary>Program of nodes that name none.</summary>
@@ -80,16 +80,19 @@ namespace Collektive.Unity
         public JvmSettingsAsset jvm;
 
         /// <summary>What of it the session's opening sends to the JVM.</summary>
-        internal SessionSettings ToSession() => new SessionSettings
+        internal SessionSettings ToSession(DataSchema schema) => new SessionSettings
         {
             Seed = seed,
             Threads = threads,
             Schedule = schedule,
             Network = network,
-            Jars = jars.ConvertAll(Installation.PathOf),
+            Jars = JarsFor(schema).ConvertAll(Installation.PathOf),
             Program = program,
             Record = string.IsNullOrWhiteSpace(record) ? "" : Installation.PathOf(record),
         };
+
+        /// <summary>The jars that are named, or else that of <paramref name="schema"/>.</summary>
+        internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File) };
 
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
         public string FindProblem()
@@ -102,8 +105,7 @@ namespace Collektive.Unity
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
-            if (jars.Count == 0 || jars.Exists(string.IsNullOrWhiteSpace))
-                return "no jar with programs is named, or one has no path: add the path to the settings";
+            if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: add it to the settings, or remove the jar";
             var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(deltaTime);
         }

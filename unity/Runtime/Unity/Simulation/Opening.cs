@@ -15,7 +15,7 @@ namespace Collektive.Unity
             if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
             var schema = Schemas.Find(settings.schema);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
-            return Session.Open(settings.ToSession(), schema);
+            return Session.Open(settings.ToSession(schema), schema);
         }
 
         private static void StartJvm(JvmSettings settings, Object context)

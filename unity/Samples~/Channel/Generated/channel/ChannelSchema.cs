@@ -44,6 +44,9 @@ namespace channel
         public override string Name => "channel.ChannelSchema";
 
         /// <inheritdoc/>
+        public override string File => "channel";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

@@ -39,6 +39,9 @@ namespace crowd
         public override string Name => "crowd.CrowdSchema";
 
         /// <inheritdoc/>
+        public override string File => "crowd";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

@@ -37,6 +37,9 @@ namespace gradientascent
         public override string Name => "gradientascent.GradientAscentSchema";
 
         /// <inheritdoc/>
+        public override string File => "gradient_ascent";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

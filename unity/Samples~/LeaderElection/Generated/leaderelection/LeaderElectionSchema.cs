@@ -42,6 +42,9 @@ namespace leaderelection
         public override string Name => "leaderelection.LeaderElectionSchema";
 
         /// <inheritdoc/>
+        public override string File => "leader_election";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

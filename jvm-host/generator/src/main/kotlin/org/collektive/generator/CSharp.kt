@@ -19,6 +19,7 @@ internal class CSharp(private val schema: UserSchema) {
 
     fun schema(): Map<String, Any?> = mapOf(
         "file" to schema.file,
+        "stem" to schema.file.removeSuffix(".fbs"),
         "namespace" to schema.name.namespace,
         "name" to schema.name.simple,
         "types" to schema.roots.map {
