@@ -25,6 +25,8 @@ val schemaCode = tasks.register<GeneratorJava>("schemaCode") {
 
 sourceSets.main {
     java.srcDir(schemaCode)
+}
+kotlin.sourceSets.named("main") {
     kotlin.srcDir(schemaCode)
 }
 
