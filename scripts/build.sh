@@ -34,9 +34,9 @@ build_jvm() {
   once jvm-host "$(jvm_fingerprint)" package_jvm -Dmaven.test.skip=true
 }
 
-# package_jvm [OPTION]...: Maven's package phase of all modules.
+# package_jvm [OPTION]...: Maven's package phase of all modules. What was made of sources that are gone would be packed, too.
 package_jvm() {
-  [ -z "${INTERRUPTED:-}" ] || rm -rf "$ROOT"/jvm-host/target "$ROOT"/jvm-host/*/target
+  rm -rf "$ROOT"/jvm-host/target "$ROOT"/jvm-host/*/target
   mvn -B -ntp -T 2 -f "$ROOT/jvm-host/pom.xml" package "$@"
 }
 

@@ -267,7 +267,11 @@ build_roundtrip() {
   assembly RoundTrip.exe "$tests/Dump.cs" "$tests/RandomData.cs" "$tests/RoundTrip.cs" -- "${bridge[@]}" -target:exe
   rm -rf "$1"
   mkdir -p "$1"
-  for schema in "$ROOT"/schema/test/*.fbs; do generator "$schema" --jvm "$1/generated"; done
+  for schema in "$ROOT"/schema/test/*.fbs; do
+    generator "$schema" --jvm "$1/generated"
+    # What the tests of frames compare with.
+    "$FLATC" --java --gen-object-api --gen-all --no-warnings --java-package-prefix objects -I "$ROOT/schema" -o "$1/generated" "$schema"
+  done
   compile_jvm "$1/generated" "$1"
 }
 

@@ -9,3 +9,4 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("Collektive.Unity")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Tests")]
+[assembly: InternalsVisibleTo("RoundTrip")]
