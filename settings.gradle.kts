@@ -24,6 +24,7 @@ val modules = listOf(
     "compiler-plugin",
     "stdlib",
     "api",
+    "links",
     "engine",
     "generator",
     "frames",
@@ -32,6 +33,7 @@ val modules = listOf(
     "programs",
     "bench",
     "stress",
+    "conformance",
     "architecture",
 )
 for (module in modules) {

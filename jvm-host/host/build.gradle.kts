@@ -8,7 +8,8 @@ plugins {
 dependencies {
     api(project(":frames"))
     api(project(":runtime"))
-    // Not used by the host: programs find it on the JVM's class path.
+    // Not used by the host: programs find these two on the JVM's class path.
+    api(project(":links"))
     api(project(":stdlib"))
     // Programs that log with slf4j find it here, bound to java.util.logging.
     implementation(libs.slf4j)

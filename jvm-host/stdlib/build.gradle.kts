@@ -4,6 +4,7 @@ plugins {
 
 dependencies {
     api(project(":dsl"))
+    api(libs.arrow.core)
     kotlinCompilerPluginClasspathMain(libs.kotlin.serialization)
     testImplementation(project(":runtime"))
     testImplementation(libs.serialization.json)

@@ -3,7 +3,6 @@ package channel
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.spreading.distanceTo
 import it.unibo.collektive.stdlib.spreading.gradientCast
-import it.unibo.collektive.stdlib.util.Point2D
 import it.unibo.collektive.stdlib.util.euclideanDistance2D
 import org.collektive.api.Device
 import org.collektive.api.Parameter
@@ -20,7 +19,7 @@ import org.collektive.api.Program
     ],
 )
 public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorData {
-    val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
+    val metric = euclideanDistance2D(sensors.position().x().toDouble() to sensors.position().z().toDouble())
     val fromSource = distanceTo(sensors.source(), metric)
     val toTarget = distanceTo(sensors.target(), metric)
     val length = gradientCast(sensors.target(), fromSource, metric)

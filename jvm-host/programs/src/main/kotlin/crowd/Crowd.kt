@@ -2,7 +2,7 @@ package crowd
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
-import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import it.unibo.collektive.stdlib.spreading.distanceTo
 import it.unibo.collektive.stdlib.util.Point2D
 import org.collektive.api.Device
 import org.collektive.api.Parameter
@@ -26,7 +26,7 @@ import kotlin.math.sqrt
 public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorData {
     val position = requireNotNull(sensors.position()) { "the sensors give no position" }
     val goal = requireNotNull(sensors.goal()) { "the sensors give no goal" }
-    val here = Point2D(position.x().toDouble(), position.z().toDouble())
+    val here = Point2D(position.x().toDouble() to position.z().toDouble())
     val speed = device.parameters.double("speed")
     val way = Steering()
     way.add(goal.x() - here.x, goal.z() - here.y, limit = 1.0)
@@ -44,7 +44,7 @@ public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDa
         way.avoid(x, z, sqrt(x * x + z * z) - BODY / 2)
     }
     val crowding = close / DENSITY_AREA
-    val isWarned = hopDistanceTo(crowding > device.parameters.double("limit")) <= device.parameters.int("hops")
+    val isWarned = distanceTo(crowding > device.parameters.double("limit")) <= device.parameters.int("hops")
     val pace = if (isWarned) speed / 2 else speed
     return ActuatorData(velocity = way.velocity(pace), density = crowding.toFloat(), warned = isWarned)
 }

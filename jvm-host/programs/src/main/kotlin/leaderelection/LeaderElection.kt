@@ -3,7 +3,6 @@ package leaderelection
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.consensus.boundedElection
 import it.unibo.collektive.stdlib.spreading.distanceTo
-import it.unibo.collektive.stdlib.util.Point2D
 import it.unibo.collektive.stdlib.util.euclideanDistance2D
 import org.collektive.api.Device
 import org.collektive.api.Parameter
@@ -18,7 +17,7 @@ import org.collektive.api.Program
     parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")],
 )
 public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorData {
-    val metric = euclideanDistance2D(Point2D(sensors.position().x().toDouble(), sensors.position().z().toDouble()))
+    val metric = euclideanDistance2D(sensors.position().x().toDouble() to sensors.position().z().toDouble())
     val elected = boundedElection(device.parameters.double("radius"), metric)
     val toNearest = distanceTo(elected == localId, metric)
     return ActuatorData(leader = elected, distance = if (toNearest.isFinite()) toNearest.toFloat() else -1f)

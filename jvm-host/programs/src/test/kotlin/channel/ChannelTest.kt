@@ -13,7 +13,7 @@ import kotlin.test.assertEquals
  * 5 is 8 m beside 2, and 6 almost between 0 and 2. The path through 6 is 40.1 m long, that through 5 is 56 m.
  */
 class ChannelTest {
-    private val row = (0..4).associateWith { Point2D(10.0 * it, 0.0) } + mapOf(5 to Point2D(20.0, 8.0), 6 to Point2D(10.0, 1.0))
+    private val row = (0..4).associateWith { Point2D(10.0 * it to 0.0) } + mapOf(5 to Point2D(20.0 to 8.0), 6 to Point2D(10.0 to 1.0))
 
     private fun swarm(width: String = "2.0") =
         Swarm(11.0, mapOf("width" to width), { id, place -> sensors(place, id == 0, id == 4) }, Aggregate<Int>::channel).apply {
@@ -69,7 +69,7 @@ class ChannelTest {
     @Test
     fun `a single node that is source and target is the channel`() =
         Swarm(1.0, mapOf("width" to "0"), { _, place -> sensors(place, source = true, target = true) }, Aggregate<Int>::channel).use {
-            it.places[0] = Point2D(0.0, 0.0)
+            it.places[0] = Point2D(0.0 to 0.0)
             assertEquals(setOf(0), it.tick().marked())
         }
 

@@ -25,14 +25,14 @@ class CrowdTest {
             use(it)
         }
 
-    private fun alone(goal: Point2D?, vararg obstacles: Point2D) =
-        walk(mapOf(0 to Walker(Point2D(0.0, 0.0), goal, obstacles.asList()))) { it.tick().getValue(0).velocity }
+    private fun alone(goal: Point2D?, obstacle: Point2D? = null) =
+        walk(mapOf(0 to Walker(Point2D(0.0 to 0.0), goal, listOfNotNull(obstacle)))) { it.tick().getValue(0).velocity }
 
     @Test
     fun `a free walker goes straight to its goal, and slows down in the last metre`() {
-        assertEquals(0.84f to 1.12f, alone(Point2D(6.0, 8.0)).onGround())
-        assertEquals(0.7f to 0f, alone(Point2D(0.5, 0.0)).onGround())
-        assertEquals(0f to 0f, alone(Point2D(0.0, 0.0)).onGround())
+        assertEquals(0.84f to 1.12f, alone(Point2D(6.0 to 8.0)).onGround())
+        assertEquals(0.7f to 0f, alone(Point2D(0.5 to 0.0)).onGround())
+        assertEquals(0f to 0f, alone(Point2D(0.0 to 0.0)).onGround())
     }
 
     @Test
@@ -41,7 +41,8 @@ class CrowdTest {
 
     @Test
     fun `two walkers who meet pass each other on the right`() {
-        val walkers = mapOf(0 to Walker(Point2D(-0.6, 0.0), Point2D(10.0, 0.0)), 1 to Walker(Point2D(0.6, 0.0), Point2D(-10.0, 0.0)))
+        val walkers =
+            mapOf(0 to Walker(Point2D(-0.6 to 0.0), Point2D(10.0 to 0.0)), 1 to Walker(Point2D(0.6 to 0.0), Point2D(-10.0 to 0.0)))
         val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
         assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: on, but slower, and to the right, which is -z")
         assertEquals(-left.first to -left.second, right, "the same seen from the other side")
@@ -49,18 +50,18 @@ class CrowdTest {
 
     @Test
     fun `a near wall repels a walker`() {
-        val (x, _) = alone(Point2D(10.0, 0.0), Point2D(0.3, 0.0)).onGround()
+        val (x, _) = alone(Point2D(10.0 to 0.0), Point2D(0.3 to 0.0)).onGround()
         assertTrue(x < 0, "$x")
-        assertEquals(1.4f to 0f, alone(Point2D(10.0, 0.0), Point2D(1.5, 0.0)).onGround(), "1.25 m from its skin")
-        assertEquals(1.4f to 0f, alone(Point2D(10.0, 0.0), Point2D(0.0, 0.0)).onGround(), "what is at its own centre has no direction")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(1.5 to 0.0)).onGround(), "1.25 m from its skin")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(0.0 to 0.0)).onGround(), "what is at its own centre has no direction")
     }
 
     @Test
     fun `a warning about density spreads two hops, and warned walkers go at half speed`() {
         // Twelve within 2 m of each other, and a chain of three 5 m apart.
-        val dense = (0 until 12).associateWith { Point2D(0.3 * (it % 4), 0.3 * (it / 4)) }
-        val chain = mapOf(12 to Point2D(5.0, 0.0), 13 to Point2D(10.0, 0.0), 14 to Point2D(15.0, 0.0))
-        val answers = walk((dense + chain).mapValues { (_, place) -> Walker(place, Point2D(100.0, 0.0)) }) { it.ticks(5) }
+        val dense = (0 until 12).associateWith { Point2D(0.3 * (it % 4) to 0.3 * (it / 4)) }
+        val chain = mapOf(12 to Point2D(5.0 to 0.0), 13 to Point2D(10.0 to 0.0), 14 to Point2D(15.0 to 0.0))
+        val answers = walk((dense + chain).mapValues { (_, place) -> Walker(place, Point2D(100.0 to 0.0)) }) { it.ticks(5) }
         assertEquals((12 / (4 * PI)).toFloat(), answers.getValue(0).density)
         assertEquals((1 / (4 * PI)).toFloat(), answers.getValue(12).density)
         for (id in 0..13) assertTrue(answers.getValue(id).warned, "node $id")

@@ -31,11 +31,11 @@ class RuntimesTest {
                 while (swarm.places.size <
                     NODES - number % 2
                 ) {
-                    swarm.places[nextId++] = Point2D(random.nextDouble() * SIZE, random.nextDouble() * SIZE)
+                    swarm.places[nextId++] = Point2D(random.nextDouble() * SIZE to random.nextDouble() * SIZE)
                 }
                 swarm.tick().mapValues { (id, answer) ->
                     val target = answer.target
-                    swarm.places[id] = Point2D(target.x.toDouble(), target.z.toDouble())
+                    swarm.places[id] = Point2D(target.x.toDouble() to target.z.toDouble())
                     listOf(target.x, target.y, target.z)
                 }
             }

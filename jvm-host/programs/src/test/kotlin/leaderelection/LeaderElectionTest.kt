@@ -12,7 +12,7 @@ import kotlin.test.assertEquals
 class LeaderElectionTest {
     private fun swarm(radius: String) =
         Swarm(11.0, mapOf("radius" to radius), { _, place -> sensors(place) }, Aggregate<Int>::leaderElection).apply {
-            for (id in 0..5) places[id] = Point2D(10.0 * id, 0.0)
+            for (id in 0..5) places[id] = Point2D(10.0 * id to 0.0)
         }
 
     private fun Map<Int, ActuatorData>.leaders() = values.map { it.leader }

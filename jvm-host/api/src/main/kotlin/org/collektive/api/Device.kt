@@ -21,4 +21,18 @@ public interface Device {
 
     /** The scene's global data: a view to cast to `GlobalData`, valid during the round. `null` until the scene has sent it. */
     public val globals: Any?
+
+    /**
+     * The length in metres of the link from [neighbor], as the scene last gave it, to within the rule's tolerance.
+     *
+     * @throws NoSuchElementException when there is no such link.
+     */
+    public fun distance(neighbor: Int): Double = throw NoSuchElementException("node $id has no link from node $neighbor")
+
+    /**
+     * The attenuation of the link from [neighbor], as the scene last gave it: 0 (clear) or greater.
+     *
+     * @throws NoSuchElementException when there is no such link.
+     */
+    public fun attenuation(neighbor: Int): Double = throw NoSuchElementException("node $id has no link from node $neighbor")
 }

@@ -124,7 +124,7 @@ class AlignmentTest {
     @Test
     fun `a loop without alignedOn clashes, and the error names the path`() {
         val error = assertFailsWith<AlignmentClashException> { trace(compiled.program("clash")) }
-        assertEquals("helper > share", error.path)
+        assertEquals("helper > share", error.path.toMultilineString(" > "))
     }
 
     @Test

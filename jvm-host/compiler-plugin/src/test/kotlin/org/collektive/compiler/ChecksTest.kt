@@ -23,7 +23,7 @@ class ChecksTest {
             return chosen?.local?.value ?: 0
         }
         fun Aggregate<Int>.elvis(maybe: Field<Int, Int>?): Field<Int, Int> =
-            maybe ?: neighboring(localId) // FIELD_FROM_BRANCH
+            maybe ?: neighboring(localId) // FIELD_LEAVES_BRANCH
         fun <T : Field<Int, Int>> Aggregate<Int>.generic(a: T, b: T): T = if (localId == 0) a else b // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
         fun Aggregate<Int>.hidden(): Any = if (localId == 0) neighboring(localId) else 1 // FIELD_FROM_BRANCH
         fun given(a: Field<Int, Int>, b: Field<Int, Int>): Int = (if (a == b) 
@@ -39,20 +39,20 @@ class ChecksTest {
     )
 
     @Test
-    fun `an arm that ends the function with a field is an error too`() = assertReports(
+    fun `an arm that ends the function with a field is a warning`() = assertReports(
         """
         fun Aggregate<Int>.early(): Field<Int, Int> {
-            if (localId == 0) return neighboring(localId) // FIELD_FROM_BRANCH
+            if (localId == 0) return neighboring(localId) // FIELD_LEAVES_BRANCH
             when (localId) {
-                1 -> { evolve(0) { it }; return neighboring(localId + 1) } // FIELD_FROM_BRANCH
-                2 -> return neighboring(localId).also { println(it) } // FIELD_FROM_BRANCH
+                1 -> { evolve(0) { it }; return neighboring(localId + 1) } // FIELD_LEAVES_BRANCH
+                2 -> return neighboring(localId).also { println(it) } // FIELD_LEAVES_BRANCH
             }
-            listOf(1).forEach { if (it > localId) return neighboring(localId) } // FIELD_FROM_BRANCH
+            listOf(1).forEach { if (it > localId) return neighboring(localId) } // AGGREGATE_CALL_IN_LOOP FIELD_LEAVES_BRANCH
             try { if (localId > 5) return if (localId > 6) neighboring(localId) else neighboring(-localId) } finally { } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
             return neighboring(localId)
         }
-        fun Aggregate<Int>.byElvis(maybe: Int?): Field<Int, Int> { maybe ?: return neighboring(localId); return neighboring(maybe) } // FIELD_FROM_BRANCH
-        fun Aggregate<Int>.labelled(): Int = run { if (localId == 0) return@run neighboring(localId); neighborhood().mapValues { 1 } }.local.value // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.byElvis(maybe: Int?): Field<Int, Int> { maybe ?: return neighboring(localId); return neighboring(maybe) } // FIELD_LEAVES_BRANCH
+        fun Aggregate<Int>.labelled(): Int = run { if (localId == 0) return@run neighboring(localId); neighborhood().mapValues { 1 } }.local.value // FIELD_LEAVES_BRANCH
         fun Aggregate<Int>.fine(): Int {
             if (localId == 0) return neighboring(localId).local.value
             if (localId == 1) { val f = run { return@run neighboring(localId) }; println(f.local) }
@@ -78,9 +78,9 @@ class ChecksTest {
             return late.local.value
         }
         fun Aggregate<Int>.kinds(maybe: Field<Int, Int>?): Any {
-            val byElvis = run { maybe ?: neighboring(localId) } // FIELD_FROM_BRANCH
+            val byElvis = run { maybe ?: neighboring(localId) } // FIELD_LEAVES_BRANCH
             val byTry = run { try { if (localId == 0) neighboring(localId) else null } catch (e: IllegalStateException) { when { localId > 1 -> neighboring(-localId); else -> 1 } } finally { } } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
-            val inBlocks = run { if (localId == 0) { if (localId > 1) { neighboring(localId) } else { 1 } } else { null ?: run { neighboring(localId) } } } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
+            val inBlocks = run { if (localId == 0) { if (localId > 1) { neighboring(localId) } else { 1 } } else { null ?: run { neighboring(localId) } } } // FIELD_FROM_BRANCH USELESS_ELVIS_LEFT_IS_NULL FIELD_LEAVES_BRANCH
             val function = fun(): Any { return if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
             val lambda = { if (localId == 0) neighboring(localId) else 1 } // FIELD_FROM_BRANCH
             val typed: (Int) -> Any? = { if (it == 0) neighboring(localId) else null } // FIELD_FROM_BRANCH
@@ -133,28 +133,28 @@ class ChecksTest {
     )
 
     @Test
-    fun `a field that an arm assigns to a variable from outside is an error too`() = assertReports(
+    fun `a field that an arm assigns to a variable from outside is a warning`() = assertReports(
         """
         fun Aggregate<Int>.assigning(given: Field<Int, Int>): Any? {
             var f = neighboring(localId)
-            if (localId == 0) { println(); f = neighboring(localId + 1) } // FIELD_FROM_BRANCH
-            if (localId == 1) f = given else println() // FIELD_FROM_BRANCH
-            when (localId) { 2 -> f = f.mapValues { it + 1 } } // FIELD_FROM_BRANCH
+            if (localId == 0) { println(); f = neighboring(localId + 1) } // FIELD_LEAVES_BRANCH
+            if (localId == 1) f = given else println() // FIELD_LEAVES_BRANCH
+            when (localId) { 2 -> f = f.mapValues { it + 1 } } // FIELD_LEAVES_BRANCH
             val late: Field<Int, Int>
             if (localId == 3) {
-                late = neighboring(localId) // FIELD_FROM_BRANCH
+                late = neighboring(localId) // FIELD_LEAVES_BRANCH
             } else {
-                late = neighboring(-localId) // FIELD_FROM_BRANCH
+                late = neighboring(-localId) // FIELD_LEAVES_BRANCH
             }
             var any: Any? = null
-            any ?: run { any = neighboring(localId) } // FIELD_FROM_BRANCH
-            val all = localId == 4 && given.also { any = it }.local.value > 0 // FIELD_FROM_BRANCH
-            if (localId == 5) { fun later() { any = neighboring(localId) }; later() } // FIELD_FROM_BRANCH
-            if (localId == 6) { var inner = given; if (localId > 7) { inner = neighboring(localId) }; println(inner.local) } // FIELD_FROM_BRANCH
-            run { var inner = given; for (i in 1..2) if (i == localId) { inner = given.mapValues { i } }; inner.local } // FIELD_FROM_BRANCH
-            if (localId == 8) try { any = neighboring(localId) } finally { } // FIELD_FROM_BRANCH
+            any ?: run { any = neighboring(localId) } // FIELD_LEAVES_BRANCH
+            val all = localId == 4 && given.also { any = it }.local.value > 0 // FIELD_LEAVES_BRANCH
+            if (localId == 5) { fun later() { any = neighboring(localId) }; later() } // FIELD_LEAVES_BRANCH
+            if (localId == 6) { var inner = given; if (localId > 7) { inner = neighboring(localId) }; println(inner.local) } // FIELD_LEAVES_BRANCH
+            run { var inner = given; for (i in 1..2) if (i == localId) { inner = given.mapValues { i } }; inner.local } // FIELD_LEAVES_BRANCH
+            if (localId == 8) try { any = neighboring(localId) } finally { } // FIELD_LEAVES_BRANCH
             if (localId == 9) f = if (localId > 10) neighboring(localId) else given // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
-            if (localId == 11) f += given // FIELD_FROM_BRANCH
+            if (localId == 11) f += given // FIELD_LEAVES_BRANCH
             return listOf(f, late, any, all)
         }
         operator fun Field<Int, Int>.plus(other: Field<Int, Int>): Field<Int, Int> = alignedMapValues(other) { a, b -> a + b }
@@ -192,7 +192,7 @@ class ChecksTest {
     )
 
     @Test
-    fun `a field that an arm assigns to a property of an outer object is an error`() = assertReports(
+    fun `a field that an arm assigns to a property of an outer object is a warning`() = assertReports(
         """
         class Frame { var field: Any? = null; val next: Frame get() = this }
         object Shared { var field: Any? = null }
@@ -200,17 +200,17 @@ class ChecksTest {
         var Frame.alias: Any? get() = field; set(value) { field = value }
         fun Aggregate<Int>.assigning(given: Frame): Any? {
             val frame = Frame()
-            if (localId == 0) frame.field = neighboring(localId) // FIELD_FROM_BRANCH
-            if (localId == 1) { run { given.field = neighboring(localId) } } // FIELD_FROM_BRANCH
-            when (localId) { 2 -> global = neighboring(localId); 3 -> Shared.field = neighboring(localId) } // FIELD_FROM_BRANCH FIELD_FROM_BRANCH
-            if (localId == 4) frame.next.next.field = neighboring(localId) // FIELD_FROM_BRANCH
-            if (localId == 5) frame.alias = neighboring(localId) // FIELD_FROM_BRANCH
-            with(frame) { if (localId == 6) field = neighboring(localId) } // FIELD_FROM_BRANCH
+            if (localId == 0) frame.field = neighboring(localId) // FIELD_LEAVES_BRANCH
+            if (localId == 1) { run { given.field = neighboring(localId) } } // FIELD_LEAVES_BRANCH
+            when (localId) { 2 -> global = neighboring(localId); 3 -> Shared.field = neighboring(localId) } // FIELD_LEAVES_BRANCH FIELD_LEAVES_BRANCH
+            if (localId == 4) frame.next.next.field = neighboring(localId) // FIELD_LEAVES_BRANCH
+            if (localId == 5) frame.alias = neighboring(localId) // FIELD_LEAVES_BRANCH
+            with(frame) { if (localId == 6) field = neighboring(localId) } // FIELD_LEAVES_BRANCH
             return frame
         }
         class Keeper(private val device: Aggregate<Int>) {
             var field: Any? = null
-            fun step() { if (device.localId == 0) this.field = device.neighboring(device.localId) } // FIELD_FROM_BRANCH
+            fun step() { if (device.localId == 0) this.field = device.neighboring(device.localId) } // FIELD_LEAVES_BRANCH
         }
         class Made(device: Aggregate<Int>, outer: Frame) {
             val field: Any
@@ -308,7 +308,7 @@ class ChecksTest {
             0, 1 -> neighboring(id) // FIELD_FROM_BRANCH
             else -> id
         }
-        fun Aggregate<Int>.elvis(items: List<Int>?): Any = items?.size ?: neighboring(localId) // FIELD_FROM_BRANCH
+        fun Aggregate<Int>.elvis(items: List<Int>?): Any = items?.size ?: neighboring(localId) // FIELD_LEAVES_BRANCH
         fun Aggregate<Int>.safe(device: Aggregate<Int>?): Any? = if (localId == 0) device?.neighboring(localId) else null // FIELD_FROM_BRANCH
         fun Aggregate<Int>.attempt(): Any = if (localId == 0) try { neighboring(localId) } finally { println() } else 1 // FIELD_FROM_BRANCH
         fun Aggregate<Int>.nested(): Any = run { with("a") { let { val f: Any = if (localId == 0) neighboring(localId) else 1; f } } } // FIELD_FROM_BRANCH
@@ -422,6 +422,9 @@ class ChecksTest {
         """
         fun Aggregate<Int>.slow(): Int = evolve(0) { old -> neighboring(old).all.list.maxOf { it.value } } // EVOLVE_THAT_SHARES
         fun Aggregate<Int>.slowToo(): Int = evolving(0) { val f = run { neighboring(it) }; f.local.value.yielding { this + 1 } } // EVOLVE_THAT_SHARES
+        fun Aggregate<Int>.throughVal(): Int = evolve(0) { old -> val mine = old; neighboring(mine).neighbors.size } // EVOLVE_THAT_SHARES
+        fun Aggregate<Int>.throughTwo(): Int = evolve(0) { old -> val a = old; val b = a; val f = neighboring(b); f.neighbors.size } // EVOLVE_THAT_SHARES
+        fun Aggregate<Int>.yieldingVal(): Int = evolving(0) { old -> val a = old; val f = neighboring(a); f.local.value.yielding { this + 1 } } // EVOLVE_THAT_SHARES
         fun Aggregate<Int>.fine(): Int = evolve(0) { old -> old + neighboring(localId).neighbors.size }
         fun Aggregate<Int>.other(): Int = evolve(0) { old -> neighboring(old + 1).neighbors.size }
         """,
@@ -458,7 +461,10 @@ class ChecksTest {
             val a = evolving(0) { old -> (old + 1).yielding { this } } // NEEDLESS_YIELDING
             val b = sharing(0) { f -> val next = f.local.value; next.yielding { next } } // NEEDLESS_YIELDING
             val c = exchanging(0) { f -> f.mapValues { it + 1 }.yielding { this } } // NEEDLESS_YIELDING
-            return a + b + c.local.value
+            val d = evolving(0) { old -> (old + 1).yielding { old + 1 } } // NEEDLESS_YIELDING
+            val e = sharing(0) { f -> maxOf(f.local.value, 1).yielding { maxOf(f.local.value, 1) } } // NEEDLESS_YIELDING
+            val g = exchanging(0) { f -> f.mapValues { it + 1 }.yielding { f.mapValues { it + 1 } } } // NEEDLESS_YIELDING
+            return a + b + c.local.value + d + e + g.local.value
         }
         fun Aggregate<Int>.needed(): Int {
             val a = evolving(0) { old -> (old + 1).yielding { old } }

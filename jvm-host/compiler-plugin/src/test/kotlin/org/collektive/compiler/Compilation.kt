@@ -74,6 +74,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
                 moduleName = module
                 jvmTarget = "17"
                 renderInternalDiagnosticNames = true
+                reportAllWarnings = true
                 verifyIr = "error"
                 optIn = arrayOf("it.unibo.collektive.aggregate.api.DelicateCollektiveApi")
                 pluginClasspaths = PLUGIN + placeOf(SerializationComponentRegistrar::class.java)

@@ -9,6 +9,8 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.path.FullPath
 import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.readable
@@ -137,7 +139,9 @@ internal open class PlainDevice(override val localId: Int, private val network: 
 
     private fun claim(): List<Any?> {
         val path = stack.toList()
-        if (!claimed.add(path) && !network.unchecked) throw AlignmentClashException(describe(path))
+        if (!claimed.add(path) && !network.unchecked) {
+            throw AlignmentClashException(FullPath(path), null, SharedData<Int, Any?>(null))
+        }
         paths += path
         return path
     }

@@ -26,6 +26,12 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     override fun wasKnown(index: Int): Boolean =
         since[index] <= if (channels == null) node(index).readable(clock.readsBefore)?.tick ?: 0 else channel(index).heldAt
 
+    /** The length of the link [index] in metres. */
+    fun length(index: Int): Float = lengths[index]
+
+    /** The attenuation of the link [index]. */
+    fun attenuation(index: Int): Float = attenuations[index]
+
     /** Takes what senders sent since the last call; a no-op in an ideal network. Call it only while no sender's round runs. */
     fun take(transmitter: Transmitter) {
         if (channels == null) return

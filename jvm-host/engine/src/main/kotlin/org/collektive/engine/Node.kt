@@ -36,6 +36,14 @@ internal class Node(
     override val globals: Any? get() = clock.globals
     override val exports: Int get() = runtime.exports
 
+    override fun distance(neighbor: Int): Double = incoming.indexOf(neighbor).let {
+        if (it < 0) super.distance(neighbor) else incoming.length(it).toDouble()
+    }
+
+    override fun attenuation(neighbor: Int): Double = incoming.indexOf(neighbor).let {
+        if (it < 0) super.attenuation(neighbor) else incoming.attenuation(it).toDouble()
+    }
+
     override fun run(aggregate: Any, sensors: Any?): Any? = program.round(aggregate, sensors, this)
 }
 

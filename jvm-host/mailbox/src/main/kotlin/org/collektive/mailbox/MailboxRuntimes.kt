@@ -7,8 +7,8 @@ import it.unibo.collektive.networking.Mailbox
 import it.unibo.collektive.networking.Message
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope
-import it.unibo.collektive.path.FullPath
 import it.unibo.collektive.path.Path
+import it.unibo.collektive.path.tokens
 import it.unibo.collektive.state.State
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
@@ -72,9 +72,8 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     }
 
     private fun allow(path: Path, value: Any?) {
-        val tokens = (path as? FullPath)?.tokens ?: listOf(path)
-        val refusal = rule.refusal(value) ?: tokens.firstNotNullOfOrNull(rule::refusal) ?: return
-        throw IllegalArgumentException(withPlace("$refusal; it cannot be shared, kept or a pivot", ProgramPlace(id, tokens)))
+        val refusal = rule.refusal(value) ?: path.tokens.firstNotNullOfOrNull(rule::refusal) ?: return
+        throw IllegalArgumentException(withPlace("$refusal; it cannot be shared, kept or a pivot", ProgramPlace(id, path.tokens)))
     }
 
     /** The messages of one round: one for [each] neighbour of that round, and the [default] one for all others. */

@@ -68,6 +68,6 @@ public class Collektive<ID : Any, R>(
         ): AggregateResult<ID, R> = aggregate(localId, previousState, network.currentInbound(), network.inMemory, pathFactory, compute)
             .also { network.deliverableFor(it.toSend) }
 
-        private fun pathsFor(inMemory: Boolean): PathFactory = if (inMemory) FullPathFactory else DigestHashingFactory
+        private fun pathsFor(inMemory: Boolean): PathFactory = if (inMemory) FullPathFactory else DigestHashingFactory()
     }
 }

@@ -6,6 +6,10 @@ import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.InMemory
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.networking.PayloadRepresentation
+import it.unibo.collektive.path.FullPath
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
 import org.collektive.spi.DeviceRuntime
@@ -88,10 +92,22 @@ internal class AggregateDevice<ID : Any>(
 
     override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()
 
-    override fun claimPath(): PathNode {
+    override fun claimPath(value: Any?): PathNode {
         val path = stack.path(this)
-        if (!running.claim(path)) throw AlignmentClashException(place)
+        if (!running.claim(path)) throw clash(path, value)
         return path
+    }
+
+    private fun clash(path: PathNode, value: Any?): AlignmentClashException {
+        val sent = running.sentAt(path)
+        val previous = if (sent ===
+            RoundRecord.Nothing
+        ) {
+            null
+        } else {
+            PayloadRepresentation((sent as? Field<*, *>)?.localValue ?: sent, InMemory)
+        }
+        return AlignmentClashException(FullPath(tokens()), previous, SharedData<ID, Any?>(value), place)
     }
 
     /** Makes the path of [pivot] below [parent]; throws when [pivot] cannot be a pivot. */

@@ -16,12 +16,17 @@ internal class Envelope<ID : Any>(private val senderId: ID) : OutboundEnvelope<I
         check(this.data.put(path, Entry(data, dataSharingMethod)) == null) { "device $senderId sends twice at the path '$path'" }
     }
 
+    /** What is sent at [path] by default; `null` when nothing is. */
+    fun defaultAt(path: Path): PayloadRepresentation<*>? = data[path]?.default
+
     override fun isEmpty(): Boolean = data.isEmpty()
 
     override fun prepareMessageFor(receiverId: ID, factory: MessageFactory<ID, *>): Message<ID, Any?> =
         factory(senderId, data.mapValues { it.value.representationFor(receiverId) })
 
     private class Entry<ID : Any, V>(private val shared: SharedData<ID, V>, private val sharing: DataSharingMethod<V>) {
+        val default: PayloadRepresentation<V> get() = PayloadRepresentation(shared.default, sharing)
+
         // Safe: addData received the method and the payload with the same type.
         @Suppress("UNCHECKED_CAST")
         fun representationFor(receiverId: ID): PayloadRepresentation<Any?> =

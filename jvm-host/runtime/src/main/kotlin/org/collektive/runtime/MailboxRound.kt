@@ -6,9 +6,9 @@ import it.unibo.collektive.aggregate.AggregateResult
 import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.Path
@@ -52,9 +52,9 @@ internal class MailboxRound<ID : Any>(
         while (stack.size > depth) stack.removeLast()
     }
 
-    override fun claimPath(): Path {
+    override fun claimPath(value: Any?): Path {
         val path = currentPath()
-        if (!visited.add(path)) throw AlignmentClashException(place)
+        if (!visited.add(path)) throw AlignmentClashException(path, outbound.defaultAt(path), SharedData<ID, Any?>(value), place)
         return path
     }
 

@@ -26,8 +26,11 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** Pushes [token]. */
     protected abstract fun push(token: Any?)
 
-    /** Reserves the current path for a primitive and returns it; throws [AlignmentClashException] when it is taken. */
-    protected abstract fun claimPath(): Path
+    /**
+     * Reserves the current path for a primitive that starts from [value], and returns it; throws [AlignmentClashException] when it is
+     * taken.
+     */
+    protected abstract fun claimPath(value: Any?): Path
 
     /** The value that the last round stored at [path], or [initial] if there is none. */
     protected abstract fun <T> keptAt(path: Path, initial: T): T
@@ -74,14 +77,14 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     }
 
     override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
-        val path = claimPath()
+        val path = claimPath(initial)
         val value = transform(keptAt(path, initial))
         keep(path, value)
-        return value
+        return refuseField(value, "evolve")
     }
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
-        val path = claimPath()
+        val path = claimPath(initial)
         val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
         keep(path, kept)
         return refuseField(result, "evolving")
@@ -92,7 +95,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         dataSharingMethod: DataSharingMethod<Shared>,
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return {
-        val path = claimPath()
+        val path = claimPath(initial)
         val received = receive(path, keptAt(path, initial), dataSharingMethod)
         val (toSend, result) = YieldingContext<Field<ID, Shared>, Return>().body(received)
         send(path, toSend, dataSharingMethod)
@@ -101,7 +104,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     }
 
     override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared> {
-        val path = claimPath()
+        val path = claimPath(local)
         sendToAll(path, local, dataSharingMethod)
         return receive(path, local, dataSharingMethod)
     }

@@ -12,10 +12,14 @@ import it.unibo.collektive.aggregate.api.sharing
 import it.unibo.collektive.aggregate.ids
 import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.aggregate.values
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.path.FullPath
+import it.unibo.collektive.path.Path
 import org.collektive.alignment.project
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class PrimitivesTest {
@@ -189,9 +193,14 @@ class PrimitivesTest {
             }
         }.getValue(1)
         val error = assertFailsWith<AlignmentClashException> { clash.getOrThrow() }
-        assertEquals("outer > 7", error.path)
+        assertEquals<Path>(FullPath(listOf("outer", 7)), error.path)
+        assertNull(error.previous, "evolve sends nothing")
+        assertEquals(SharedData<Int, Int>(0), error.current)
         assertTrue("outer > 7" in error.message.orEmpty())
-        assertFailsWith<AlignmentClashException> { network.round { neighboring(1).also { neighboring(2) } }.getValue(1).getOrThrow() }
+        val second = assertFailsWith<AlignmentClashException> {
+            network.round { neighboring(1).also { neighboring(2) } }.getValue(1).getOrThrow()
+        }
+        assertEquals(1 to 2, second.previous?.payload to second.current.default)
     }
 
     @Test
@@ -205,9 +214,12 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `fields do not leave alignedOn or evolving`() {
+    fun `fields do not leave alignedOn, evolve or evolving`() {
         val network = TestNetwork(1)
         assertFailsWith<IllegalStateException> { network.round { alignedOn(1) { neighboring(1) } }.getValue(1).getOrThrow() }
+        assertFailsWith<IllegalStateException> {
+            network.round { evolve<Any>(0) { listOf(neighborhood()).first() } }.getValue(1).getOrThrow()
+        }
         assertFailsWith<IllegalStateException> {
             network.round {
                 val field = alignedOn("x") { neighborhood().let { listOf(it) } }.first()

@@ -16,8 +16,8 @@ internal fun senses(topology: Topology): List<Senses> {
     val source = (0 until topology.size).minBy { topology.x[it] + topology.y[it] }
     return List(topology.size) {
         val intensity = 1 / (1 + topology.distance(it, source))
-        val obstacles = if (it % 4 == 0) listOf(Point2D(OBSTACLE_X, OBSTACLE_Y)) else emptyList()
-        Senses(Point2D(topology.x[it], topology.y[it]), intensity, obstacles, it == source)
+        val obstacles = if (it % 4 == 0) listOf(Point2D(OBSTACLE_X to OBSTACLE_Y)) else emptyList()
+        Senses(Point2D(topology.x[it] to topology.y[it]), intensity, obstacles, it == source)
     }
 }
 

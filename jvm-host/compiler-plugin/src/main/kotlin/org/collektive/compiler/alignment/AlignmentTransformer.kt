@@ -79,6 +79,9 @@ internal class AlignmentTransformer(
     /** Where the current function gets its Aggregate from; `null` outside aggregate functions. */
     private var source: Source? = null
 
+    /** The outermost lambda with an Aggregate; `null` inside aggregate functions with a name. See [Tokens]. */
+    private var entry: IrFunction? = null
+
     /** The parameter [given], or the [property] of that object. */
     private class Source(val given: IrValueParameter, val property: IrProperty? = null)
 
@@ -120,12 +123,19 @@ internal class AlignmentTransformer(
         if (isIgnored(declaration) || isForwarding(declaration)) return declaration
         val outerSource = source
         val outerRegion = region
+        val outerEntry = entry
         source = sourceIn(declaration) ?: outerSource
+        if (outerSource == null && source != null &&
+            declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
+        ) {
+            entry = declaration
+        }
         if (declaration in alignedBodies) region = Region(outerRegion)
         if (declaration !in eachBodies) for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
         source = outerSource
         region = outerRegion
+        entry = outerEntry
         return result
     }
 
@@ -361,7 +371,7 @@ internal class AlignmentTransformer(
         else -> "?:"
     }
 
-    private fun token(what: String, at: IrExpression): String = tokens.next(what, at.startOffset, currentScopeOwner())
+    private fun token(what: String, at: IrExpression): String = tokens.next(what, at.startOffset, currentScopeOwner(), entry)
 
     private fun currentScopeOwner() = checkNotNull(currentScope).scope.scopeOwnerSymbol.owner as IrDeclaration
 

@@ -12,27 +12,33 @@ import org.jetbrains.kotlin.ir.util.render
  * Makes the tokens of one [file], such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`: the called function or chosen arm, its location, and a
  * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number inside these.
  *
+ * Inside an entry, a lambda with an Aggregate receiver outside all aggregate code such as the one passed to `Collektive.aggregate`, tokens
+ * have no location, and the hash is that of the declarations inside the entry: two such lambdas with the same calls in the same order
+ * align, wherever they are written.
+ *
  * The whole text is the identity, so error messages need no table of names. It depends on the sources alone, so all devices that run
  * the same jar agree on it.
  */
 internal class Tokens(private val module: String, private val file: IrFile) {
-    private val placesIn = HashMap<String, Int>()
+    private val placesIn = HashMap<Pair<IrDeclaration?, String>, Int>()
 
-    /** A new token for [what] at [offset] of the file, inside [owner]. */
-    fun next(what: String, offset: Int, owner: IrDeclaration): String {
-        val signature = signature(owner)
-        val place = placesIn.merge(signature, 1, Int::plus)
-        val hash = fnv1a("$module\n${file.kotlinFqNameAndName()}\n$signature\n$place")
+    /** A new token for [what] at [offset] of the file, inside [owner], which is inside [entry] if that is not `null`. */
+    fun next(what: String, offset: Int, owner: IrDeclaration, entry: IrDeclaration?): String {
+        val signature = signature(owner, entry)
+        val place = placesIn.merge(entry to signature, 1, Int::plus)
+        if (entry != null) return "$what@#${hashed("$signature\n$place")}"
         val line = file.fileEntry.getLineNumber(offset) + 1
-        return "$what@${file.shortName()}:$line#${hash.toULong().toString(HEX).padStart(HEX, '0')}"
+        return "$what@${file.shortName()}:$line#${hashed("$module\n${file.kotlinFqNameAndName()}\n$signature\n$place")}"
     }
+
+    private fun hashed(text: String) = fnv1a(text).toULong().toString(HEX).padStart(HEX, '0')
 
     private fun IrFile.kotlinFqNameAndName() = "${packageFqName.asString()}/${shortName()}"
 
     private fun IrFile.shortName() = fileEntry.name.substringAfterLast('/').substringAfterLast('\\')
 
-    private fun signature(owner: IrDeclaration): String = (sequenceOf(owner) + owner.parents.filterIsInstance<IrDeclaration>())
-        .joinToString("<") { declaration ->
+    private fun signature(owner: IrDeclaration, entry: IrDeclaration?): String =
+        (sequenceOf(owner) + owner.parents.filterIsInstance<IrDeclaration>()).takeWhile { it !== entry }.joinToString("<") { declaration ->
             val name = (declaration as? IrDeclarationWithName)?.name?.asString().orEmpty()
             if (declaration is IrFunction) name + declaration.parameters.joinToString(",", "(", ")") { it.type.render() } else name
         }

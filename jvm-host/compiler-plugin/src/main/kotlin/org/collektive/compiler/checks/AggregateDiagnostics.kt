@@ -13,6 +13,7 @@ import org.jetbrains.kotlin.diagnostics.warning2
 /** The diagnostics of the checks. `@Suppress` accepts their names. */
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     val FIELD_FROM_BRANCH by error0<PsiElement>()
+    val FIELD_LEAVES_BRANCH by warning0<PsiElement>()
     val AGGREGATE_CALL_IN_LOOP by warning1<PsiElement, String>()
     val MANUAL_ALIGNMENT by warning1<PsiElement, String>()
     val EVOLVE_THAT_SHARES by warning0<PsiElement>()
@@ -25,11 +26,13 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     private object Texts : BaseDiagnosticRendererFactory() {
         @Suppress("ktlint:standard:property-naming") // The compiler's name.
         override val MAP by KtDiagnosticFactoryToRendererMap("Collektive") { map ->
-            map.put(
-                FIELD_FROM_BRANCH,
-                "This Field leaves its branch, but holds only the neighbours that chose the same branch. " +
-                    "Choose between values: collapse the field inside the branch, or make it before.",
-            )
+            for (diagnostic in listOf(FIELD_FROM_BRANCH, FIELD_LEAVES_BRANCH)) {
+                map.put(
+                    diagnostic,
+                    "This Field leaves its branch, but holds only the neighbours that chose the same branch. " +
+                        "Choose between values: collapse the field inside the branch, or make it before.",
+                )
+            }
             map.put(
                 AGGREGATE_CALL_IN_LOOP,
                 "''{0}'' runs several times at one place of the program, so its second run clashes with the first. " +

@@ -1,6 +1,7 @@
 package org.collektive.compiler.checks
 
 import org.jetbrains.kotlin.diagnostics.DiagnosticReporter
+import org.jetbrains.kotlin.diagnostics.KtDiagnosticFactory0
 import org.jetbrains.kotlin.diagnostics.reportOn
 import org.jetbrains.kotlin.fir.FirElement
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
@@ -34,34 +35,36 @@ internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppChe
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
         if (!isValueTaken(expression)) return
-        for (branch in expression.branches) reportField(branch.result)
+        for (branch in expression.branches) reportField(branch.result, AggregateDiagnostics.FIELD_FROM_BRANCH)
     }
 }
 
-/** [FieldFromBranch] for `?:`. */
+/** Warns of a field from the right side of `?:`; as everywhere in this file, it holds only the neighbours that took the same way. */
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
-        if (isValueTaken(expression)) reportField(expression.rhs)
+        if (isValueTaken(expression)) reportField(expression.rhs, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
     }
 }
 
-/** [FieldFromBranch] for a `return` inside an arm. */
+/** Warns of a field that a `return` takes out of an arm. */
 internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirReturnExpression) {
         val isOutside = { element: FirElement -> element === expression.target.labeledElement }
-        if (isInArm(expression, isOutside) && isValueTaken(expression.result)) reportField(expression.result)
+        if (isInArm(expression, isOutside) && isValueTaken(expression.result)) {
+            reportField(expression.result, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
+        }
     }
 }
 
-/** [FieldFromBranch] for an assignment inside an arm to an outer variable, or to a property of an outer object. */
+/** Warns of a field that is assigned inside an arm to an outer variable, or to a property of an outer object. */
 internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignment>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirVariableAssignment) {
         if (!expression.rValue.isField()) return
         val isOutside = expression.unwrapLValue()?.let(::declares) ?: return
-        if (isInArm(expression, isOutside)) reportField(expression.rValue)
+        if (isInArm(expression, isOutside)) reportField(expression.rValue, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
     }
 
     /** A test for elements in which the variable or object at the start of [read] is declared; `null` when [read] starts with a call. */
@@ -100,20 +103,19 @@ private fun isInArm(statement: FirStatement, isOutside: (FirElement) -> Boolean)
 }
 
 context(context: CheckerContext, reporter: DiagnosticReporter)
-private fun reportField(result: FirStatement?) {
+private fun reportField(result: FirStatement?, diagnostic: KtDiagnosticFactory0) {
     when (result) {
         // Their arms are checked separately.
         is FirWhenExpression, is FirElvisExpression -> Unit
 
-        is FirBlock -> reportField(result.statements.lastOrNull())
+        is FirBlock -> reportField(result.statements.lastOrNull(), diagnostic)
 
         is FirTryExpression -> {
-            reportField(result.tryBlock)
-            for (catch in result.catches) reportField(catch.block)
+            reportField(result.tryBlock, diagnostic)
+            for (catch in result.catches) reportField(catch.block, diagnostic)
         }
 
-        is FirExpression ->
-            if (isAggregateCode() && result.isField()) reporter.reportOn(result.source, AggregateDiagnostics.FIELD_FROM_BRANCH)
+        is FirExpression -> if (isAggregateCode() && result.isField()) reporter.reportOn(result.source, diagnostic)
     }
 }
 

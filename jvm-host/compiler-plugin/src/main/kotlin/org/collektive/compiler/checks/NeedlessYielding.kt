@@ -6,10 +6,12 @@ import org.jetbrains.kotlin.diagnostics.reportOn
 import org.jetbrains.kotlin.fir.analysis.checkers.MppCheckerKind
 import org.jetbrains.kotlin.fir.analysis.checkers.context.CheckerContext
 import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecker
+import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
+import org.jetbrains.kotlin.text
 
-/** Reports `x.yielding { this }` and `x.yielding { x }`: they return the value that they store, as the simpler primitive does. */
+/** Reports `x.yielding { this }` and `x.yielding { x }`, where `x` is any expression: they return the value that they store, as the simpler primitive does. */
 internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {
@@ -23,7 +25,15 @@ internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppChec
         val kept = expression.extensionReceiver?.readVariable
         val isSame = returned is FirThisReceiverExpression &&
             returned.calleeReference.boundSymbol == lambda.receiverParameter?.symbol ||
-            kept != null && returned.readVariable == kept
+            kept != null && returned.readVariable == kept ||
+            returned.isWrittenLike(expression.extensionReceiver)
         if (isSame && isAggregateCode()) reporter.reportOn(expression.source, AggregateDiagnostics.NEEDLESS_YIELDING)
+    }
+
+    /** Whether both expressions have the same text, so that `f(x).yielding { f(x) }` returns what it keeps. */
+    private fun FirExpression.isWrittenLike(other: FirExpression?): Boolean {
+        val text = source?.text?.toString() ?: return false
+        return text.filterNot(Char::isWhitespace).trim('(', ')') ==
+            other?.source?.text?.toString()?.filterNot(Char::isWhitespace)?.trim('(', ')')
     }
 }

@@ -1,13 +1,30 @@
 package it.unibo.collektive.aggregate
 
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.networking.PayloadRepresentation
+import it.unibo.collektive.path.Path
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
 
-/** Two primitives ran at the same [path] in one round. Wrap one of them, or each iteration of a loop, in `alignedOn(key) { }`. */
-public class AlignmentClashException private constructor(public val path: String, message: String) : IllegalStateException(message) {
-    public constructor(path: String) : this(path, "$CLASH, '$path'$ADVICE")
+/**
+ * Two primitives ran at the same [path] in one round. Wrap one of them, or each iteration of a loop, in `alignedOn(key) { }`.
+ *
+ * @property path the path of both.
+ * @property previous what the first primitive sends; `null` when it sends nothing.
+ * @property current what the second one started from; it does not run.
+ */
+public class AlignmentClashException private constructor(
+    public val path: Path,
+    public val previous: PayloadRepresentation<*>?,
+    public val current: SharedData<*, *>,
+    override val message: String,
+) : IllegalStateException(message) {
+    public constructor(path: Path, previous: PayloadRepresentation<*>?, current: SharedData<*, *>) :
+        this(path, previous, current, "$CLASH, '$path'$ADVICE")
 
-    public constructor(place: ProgramPlace) : this(place.path, withPlace(CLASH + ADVICE, place))
+    /** The clash at [path], which the program reached at [place]. */
+    public constructor(path: Path, previous: PayloadRepresentation<*>?, current: SharedData<*, *>, place: ProgramPlace) :
+        this(path, previous, current, withPlace(CLASH + ADVICE, place))
 
     private companion object {
         const val CLASH = "two primitives ran at one path in one round"

@@ -13,16 +13,13 @@ public sealed interface Collapse<out E> {
 
     /** The number of elements. */
     public val size: Int
-
-    /** Whether the collection contains [element]. */
-    public operator fun contains(element: @UnsafeVariance E): Boolean
 }
 
 /** The neighbours' elements, without this device's. */
-public sealed interface CollapseNeighbors<out E> : Collapse<E>
+public interface CollapseNeighbors<out E> : Collapse<E>
 
 /** The neighbours' elements, then this device's. */
-public sealed interface CollapseAll<out E> : Collapse<E>
+public interface CollapseAll<out E> : Collapse<E>
 
 /** The entries' ids. */
 public val <ID : Any> CollapseNeighbors<FieldEntry<ID, *>>.ids: CollapseNeighbors<ID>
@@ -40,8 +37,14 @@ public val <T> CollapseNeighbors<FieldEntry<*, T>>.values: CollapseNeighbors<T>
 public val <T> CollapseAll<FieldEntry<*, T>>.values: CollapseAll<T>
     get() = AllValues(list)
 
+/** Whether the collection contains [element]. */
+public operator fun <E> Collapse<E>.contains(element: E): Boolean = list.contains(element)
+
 /** The entries as a map, in the field's order. */
 public fun <ID : Any, T> Collapse<FieldEntry<ID, T>>.toMap(): Map<ID, T> = list.associate { it.id to it.value }
+
+/** The entries as a map, in the sequence's order. */
+public fun <ID : Any, T> Sequence<FieldEntry<ID, T>>.toMap(): Map<ID, T> = associate { it.id to it.value }
 
 /** Each view is a separate class, so that the JIT inlines its `get` and a loop over it becomes a loop over the field's arrays. */
 internal abstract class View<out E> :

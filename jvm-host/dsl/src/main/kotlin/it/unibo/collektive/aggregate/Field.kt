@@ -79,10 +79,10 @@ public class Field<ID : Any, out T> private constructor(
     /** Returns a field with the result of [transform] for each value. */
     public fun <R> mapValues(transform: (T) -> R): Field<ID, R> = build { transform(valueAt(it)) }
 
-    /** Returns a field with the same devices and [value] for all of them. */
-    public fun <R> mapToConstant(value: R): Field<ID, R> {
-        refuseField(context, value)
-        return Field(context, ids, null, value)
+    /** Returns a field with the same devices and [singleton] for all of them. */
+    public fun <R> mapToConstant(singleton: R): Field<ID, R> {
+        refuseField(context, singleton)
+        return Field(context, ids, null, singleton)
     }
 
     /**
@@ -96,80 +96,85 @@ public class Field<ID : Any, out T> private constructor(
     }
 
     /** [alignedMap] over three fields. */
-    public fun <A, B, R> alignedMap(a: Field<ID, A>, b: Field<ID, B>, transform: (ID, T, A, B) -> R): Field<ID, R> {
-        requireAligned(a)
-        requireAligned(b)
-        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it)) }
+    public fun <A, B, R> alignedMap(f1: Field<ID, A>, f2: Field<ID, B>, transform: (ID, T, A, B) -> R): Field<ID, R> {
+        requireAligned(f1)
+        requireAligned(f2)
+        return build { transform(idAt(it), valueAt(it), f1.valueAt(it), f2.valueAt(it)) }
     }
 
     /** [alignedMap] over four fields. */
-    public fun <A, B, C, R> alignedMap(a: Field<ID, A>, b: Field<ID, B>, c: Field<ID, C>, transform: (ID, T, A, B, C) -> R): Field<ID, R> {
-        requireAligned(a)
-        requireAligned(b)
-        requireAligned(c)
-        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it)) }
+    public fun <A, B, C, R> alignedMap(
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        transform: (ID, T, A, B, C) -> R,
+    ): Field<ID, R> {
+        requireAligned(f1)
+        requireAligned(f2)
+        requireAligned(f3)
+        return build { transform(idAt(it), valueAt(it), f1.valueAt(it), f2.valueAt(it), f3.valueAt(it)) }
     }
 
     /** [alignedMap] over five fields. */
     public fun <A, B, C, D, R> alignedMap(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
         transform: (ID, T, A, B, C, D) -> R,
     ): Field<ID, R> {
-        requireAligned(a)
-        requireAligned(b)
-        requireAligned(c)
-        requireAligned(d)
-        return build { transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it)) }
+        requireAligned(f1)
+        requireAligned(f2)
+        requireAligned(f3)
+        requireAligned(f4)
+        return build { transform(idAt(it), valueAt(it), f1.valueAt(it), f2.valueAt(it), f3.valueAt(it), f4.valueAt(it)) }
     }
 
     /** [alignedMap] over six fields. */
     public fun <A, B, C, D, E, R> alignedMap(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
-        e: Field<ID, E>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
+        f5: Field<ID, E>,
         transform: (ID, T, A, B, C, D, E) -> R,
     ): Field<ID, R> {
-        requireAligned(a)
-        requireAligned(b)
-        requireAligned(c)
-        requireAligned(d)
-        requireAligned(e)
+        requireAligned(f1)
+        requireAligned(f2)
+        requireAligned(f3)
+        requireAligned(f4)
+        requireAligned(f5)
         return build {
-            transform(idAt(it), valueAt(it), a.valueAt(it), b.valueAt(it), c.valueAt(it), d.valueAt(it), e.valueAt(it))
+            transform(idAt(it), valueAt(it), f1.valueAt(it), f2.valueAt(it), f3.valueAt(it), f4.valueAt(it), f5.valueAt(it))
         }
     }
 
     /** [alignedMap] over seven fields. */
     public fun <A, B, C, D, E, F, R> alignedMap(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
-        e: Field<ID, E>,
-        f: Field<ID, F>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
+        f5: Field<ID, E>,
+        f6: Field<ID, F>,
         transform: (ID, T, A, B, C, D, E, F) -> R,
     ): Field<ID, R> {
-        requireAligned(a)
-        requireAligned(b)
-        requireAligned(c)
-        requireAligned(d)
-        requireAligned(e)
-        requireAligned(f)
+        requireAligned(f1)
+        requireAligned(f2)
+        requireAligned(f3)
+        requireAligned(f4)
+        requireAligned(f5)
+        requireAligned(f6)
         return build {
             transform(
                 idAt(it),
                 valueAt(it),
-                a.valueAt(it),
-                b.valueAt(it),
-                c.valueAt(it),
-                d.valueAt(it),
-                e.valueAt(it),
-                f.valueAt(it),
+                f1.valueAt(it),
+                f2.valueAt(it),
+                f3.valueAt(it),
+                f4.valueAt(it),
+                f5.valueAt(it),
+                f6.valueAt(it),
             )
         }
     }
@@ -179,46 +184,46 @@ public class Field<ID : Any, out T> private constructor(
         alignedMap(other) { _, value, a -> transform(value, a) }
 
     /** [alignedMapValues] over three fields. */
-    public fun <A, B, R> alignedMapValues(a: Field<ID, A>, b: Field<ID, B>, transform: (T, A, B) -> R): Field<ID, R> =
-        alignedMap(a, b) { _, value, va, vb -> transform(value, va, vb) }
+    public fun <A, B, R> alignedMapValues(f1: Field<ID, A>, f2: Field<ID, B>, transform: (T, A, B) -> R): Field<ID, R> =
+        alignedMap(f1, f2) { _, value, va, vb -> transform(value, va, vb) }
 
     /** [alignedMapValues] over four fields. */
     public fun <A, B, C, R> alignedMapValues(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
         transform: (T, A, B, C) -> R,
-    ): Field<ID, R> = alignedMap(a, b, c) { _, value, va, vb, vc -> transform(value, va, vb, vc) }
+    ): Field<ID, R> = alignedMap(f1, f2, f3) { _, value, va, vb, vc -> transform(value, va, vb, vc) }
 
     /** [alignedMapValues] over five fields. */
     public fun <A, B, C, D, R> alignedMapValues(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
         transform: (T, A, B, C, D) -> R,
-    ): Field<ID, R> = alignedMap(a, b, c, d) { _, value, va, vb, vc, vd -> transform(value, va, vb, vc, vd) }
+    ): Field<ID, R> = alignedMap(f1, f2, f3, f4) { _, value, va, vb, vc, vd -> transform(value, va, vb, vc, vd) }
 
     /** [alignedMapValues] over six fields. */
     public fun <A, B, C, D, E, R> alignedMapValues(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
-        e: Field<ID, E>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
+        f5: Field<ID, E>,
         transform: (T, A, B, C, D, E) -> R,
-    ): Field<ID, R> = alignedMap(a, b, c, d, e) { _, value, va, vb, vc, vd, ve -> transform(value, va, vb, vc, vd, ve) }
+    ): Field<ID, R> = alignedMap(f1, f2, f3, f4, f5) { _, value, va, vb, vc, vd, ve -> transform(value, va, vb, vc, vd, ve) }
 
     /** [alignedMapValues] over seven fields. */
     public fun <A, B, C, D, E, F, R> alignedMapValues(
-        a: Field<ID, A>,
-        b: Field<ID, B>,
-        c: Field<ID, C>,
-        d: Field<ID, D>,
-        e: Field<ID, E>,
-        f: Field<ID, F>,
+        f1: Field<ID, A>,
+        f2: Field<ID, B>,
+        f3: Field<ID, C>,
+        f4: Field<ID, D>,
+        f5: Field<ID, E>,
+        f6: Field<ID, F>,
         transform: (T, A, B, C, D, E, F) -> R,
-    ): Field<ID, R> = alignedMap(a, b, c, d, e, f) { _, value, va, vb, vc, vd, ve, vf -> transform(value, va, vb, vc, vd, ve, vf) }
+    ): Field<ID, R> = alignedMap(f1, f2, f3, f4, f5, f6) { _, value, va, vb, vc, vd, ve, vf -> transform(value, va, vb, vc, vd, ve, vf) }
 
     override fun equals(other: Any?): Boolean = this === other || other is Field<*, *> && all.toMap() == other.all.toMap()
 
@@ -283,6 +288,16 @@ public class Field<ID : Any, out T> private constructor(
             for (value in values) refuseField(context, value)
             refuseField(context, local)
             return Field(context, ids, values, local)
+        }
+
+        /**
+         * Requires that all fields have the same devices.
+         *
+         * @throws IllegalStateException when they do not.
+         */
+        public fun <ID : Any> checkAligned(field1: Field<ID, *>, field2: Field<ID, *>, vararg fields: Field<ID, *>) {
+            field1.requireAligned(field2)
+            for (field in fields) field1.requireAligned(field)
         }
 
         private fun refuseField(context: Aggregate<*>, value: Any?) {

@@ -29,7 +29,7 @@ public class SerializedMessageFactory<ID : Any, Payload>(private val serializerF
                 InMemory -> throw SerializationException("it was shared for use inside one process only")
             }
         } catch (cause: SerializationException) {
-            val place = ProgramPlace(senderId, path.tokens())
+            val place = ProgramPlace(senderId, path.tokens)
             throw SerializationException(withPlace("${value.payload} cannot be sent: ${cause.message}", place), cause)
         }
     }

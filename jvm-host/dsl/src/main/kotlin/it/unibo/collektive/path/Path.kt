@@ -4,4 +4,7 @@ import kotlinx.serialization.Serializable
 
 /** The place where a primitive runs: stands for the tokens on the alignment stack. Equal stacks give equal paths on all devices. */
 @Serializable(with = PathSerializer::class)
-public interface Path
+public sealed interface Path {
+    /** The path for people, its tokens divided by [separator]. */
+    public fun toMultilineString(separator: String = "\n"): String
+}

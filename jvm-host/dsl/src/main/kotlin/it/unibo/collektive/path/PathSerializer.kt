@@ -9,15 +9,15 @@ import kotlinx.serialization.encoding.Decoder
 import kotlinx.serialization.encoding.Encoder
 
 /** Serialises the paths that [DigestHashingFactory] makes as strings; rejects all others. */
-internal object PathSerializer : KSerializer<Path> {
+public object PathSerializer : KSerializer<Path> {
     override val descriptor: SerialDescriptor = PrimitiveSerialDescriptor("it.unibo.collektive.path.Path", PrimitiveKind.STRING)
 
     override fun serialize(encoder: Encoder, value: Path) {
-        if (value !is DigestPath) {
+        if (value !is SerializablePath) {
             throw SerializationException("the path '$value' holds objects; use DigestHashingFactory where messages are serialised")
         }
-        encoder.encodeString(value.digest)
+        encoder.encodeString(value.backend)
     }
 
-    override fun deserialize(decoder: Decoder): Path = DigestPath(decoder.decodeString())
+    override fun deserialize(decoder: Decoder): Path = SerializablePath(decoder.decodeString())
 }

@@ -18,7 +18,7 @@ import kotlin.test.assertFailsWith
 
 /** How values leave a device. */
 class MessagesTest {
-    private val path = DigestHashingFactory("helper@Swarm.kt:3#0123456789abcdef", "share@Swarm.kt:12#0123456789abcdef")
+    private val path = DigestHashingFactory()("helper@Swarm.kt:3#0123456789abcdef", "share@Swarm.kt:12#0123456789abcdef")
     private val serialized = SerializedMessageFactory<Int, Any?>(Json)
 
     // The factory takes values of any type, each with the method that fits it.
@@ -36,15 +36,15 @@ class MessagesTest {
     fun `a serialised message survives its journey, null included`() {
         val data = mapOf<Path, PayloadRepresentation<Any?>>(
             path to value(42, Serialize(Int.serializer())),
-            DigestHashingFactory("other") to value(null, Serialize(String.serializer().nullable)),
+            DigestHashingFactory()("other") to value(null, Serialize(String.serializer().nullable)),
         )
         val form = SerializedMessage.serializer(Int.serializer())
         val sent = serialized(7, data) as SerializedMessage<Int>
         val received = Json.decodeFromString(form, Json.encodeToString(form, sent))
         assertEquals(7, received.senderId)
-        assertEquals(setOf(path, DigestHashingFactory("other")), received.sharedData.keys)
+        assertEquals(setOf(path, DigestHashingFactory()("other")), received.sharedData.keys)
         assertContentEquals("42".encodeToByteArray(), received.sharedData[path])
-        assertContentEquals("null".encodeToByteArray(), received.sharedData[DigestHashingFactory("other")])
+        assertContentEquals("null".encodeToByteArray(), received.sharedData[DigestHashingFactory()("other")])
     }
 
     @Test

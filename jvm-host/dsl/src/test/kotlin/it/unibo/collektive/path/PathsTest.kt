@@ -9,7 +9,7 @@ import kotlin.test.assertNotEquals
 class PathsTest {
     private data class Key(val name: String, val number: Int)
 
-    private val factories = listOf(FullPathFactory, DigestHashingFactory)
+    private val factories = listOf(FullPathFactory, DigestHashingFactory())
 
     @Test
     fun `equal tokens give equal paths`() {
@@ -32,9 +32,9 @@ class PathsTest {
 
     @Test
     fun `a digest path survives serialisation`() {
-        val path = DigestHashingFactory("a", Key("b", 2))
+        val path = DigestHashingFactory()("a", Key("b", 2))
         val text = Json.encodeToString(Path.serializer(), path)
         assertEquals(path, Json.decodeFromString(Path.serializer(), text))
-        assertNotEquals(DigestHashingFactory("a", Key("b", 3)), Json.decodeFromString(Path.serializer(), text))
+        assertNotEquals(DigestHashingFactory()("a", Key("b", 3)), Json.decodeFromString(Path.serializer(), text))
     }
 }

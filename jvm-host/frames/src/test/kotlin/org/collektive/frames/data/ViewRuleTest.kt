@@ -43,7 +43,7 @@ class ViewRuleTest {
                 view,
             ),
             listOf(1, view), arrayListOf<Any>(view), setOf(view), mapOf(1 to view), mapOf(view to 1), arrayOf(view),
-            Reading(view), Named("now", view), Chain(Chain(null, view), null), Derived(view), Maybe.Some(view), sequenceOf(view),
+            Reading(view), Named("now", view), Chain(Chain(null, view), null), Derived(view), Maybe.some(view), sequenceOf(view),
             listOf(1 to listOf(Named("deep", view))), { view },
         )
         for (holder in holders) {
@@ -57,7 +57,7 @@ class ViewRuleTest {
         val ring = arrayOfNulls<Any>(1).also { it[0] = it }
         val values = listOf(
             null, 1, "text", 2.0, Unit, Thread.State.NEW, intArrayOf(1), 1 to 2, listOf(1, "a", null), emptyMap<Any, Any>(), Reading(null),
-            Named("now", listOf(1)), Numbers(1.0, intArrayOf(2), null), Maybe.None, Point2D(1.0, 2.0), ring,
+            Named("now", listOf(1)), Numbers(1.0, intArrayOf(2), null), Maybe.none, Point2D(1.0 to 2.0), ring,
         )
         assertEquals(emptyList(), values.filter { ViewRule.refusal(it) != null })
         assertNull(ViewRule.refusal(List(100_000) { it }))

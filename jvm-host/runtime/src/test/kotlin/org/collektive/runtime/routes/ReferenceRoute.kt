@@ -9,6 +9,8 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingContext
 import it.unibo.collektive.aggregate.api.YieldingScope
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.path.FullPath
 
 /** The semantics of the primitives in their simplest form: maps from whole paths to values. */
 internal class ReferenceRoute : Route {
@@ -43,7 +45,7 @@ internal class ReferenceRoute : Route {
         private var path = emptyList<Any?>()
 
         private fun visit(): List<Any?> {
-            if (!visited.add(path)) throw AlignmentClashException(path.joinToString(" > ").ifEmpty { "root" })
+            if (!visited.add(path)) throw AlignmentClashException(FullPath(path), null, SharedData<Int, Any?>(null))
             return path
         }
 

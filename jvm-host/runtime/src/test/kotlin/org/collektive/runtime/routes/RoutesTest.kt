@@ -1,7 +1,7 @@
 package org.collektive.runtime.routes
 
 import it.unibo.collektive.aggregate.AlignmentClashException
-import it.unibo.collektive.path.FullPath
+import it.unibo.collektive.path.tokens
 import org.junit.jupiter.api.Test
 import kotlin.random.Random
 import kotlin.test.assertEquals
@@ -63,7 +63,7 @@ class RoutesTest {
                         for (id in graph.ids) {
                             assertEquals(
                                 reference.records.getValue(id).kept,
-                                mailboxes.state(id).mapKeys { (it.key as FullPath).tokens },
+                                mailboxes.state(id).mapKeys { it.key.tokens },
                                 "state of $id, seed $seed",
                             )
                         }
@@ -82,5 +82,5 @@ class RoutesTest {
     }
 
     private fun shown(entry: Map.Entry<Int, Result<Any?>>): Any? =
-        entry.value.fold({ it }, { "${it::class.simpleName}: ${if (it is AlignmentClashException) it.path else it.message}" })
+        entry.value.fold({ it }, { "${it::class.simpleName}: ${if (it is AlignmentClashException) it.path.tokens else it.message}" })
 }

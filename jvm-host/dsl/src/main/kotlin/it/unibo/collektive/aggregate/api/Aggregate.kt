@@ -1,6 +1,12 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
+import kotlinx.serialization.KSerializer
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.serializer
+import org.collektive.alignment.withPlace
+import kotlin.reflect.KType
+import kotlin.reflect.typeOf
 
 /**
  * One device during one round: the receiver of every aggregate program.
@@ -68,4 +74,24 @@ public interface Aggregate<ID : Any> {
     /** Implements the extension `neighboring`, which finds [dataSharingMethod] from the type; programs call that one. */
     @DelicateCollektiveApi
     public fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared>
+
+    public companion object {
+        /**
+         * How values of type [Shared] travel: by reference inside one process, otherwise by their serializer. Primitives call it for you.
+         *
+         * @throws SerializationException when values leave the process and [Shared] has no serializer.
+         */
+        public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> =
+            if (inMemoryOnly) InMemory else serialized(typeOf<Shared>())
+
+        @PublishedApi
+        @Suppress("UNCHECKED_CAST")
+        internal fun <Shared> Aggregate<*>.serialized(type: KType): DataSharingMethod<Shared> = try {
+            Serialize(serializer(type) as KSerializer<Shared>)
+        } catch (cause: SerializationException) {
+            val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
+            val message = "values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"
+            throw SerializationException(withPlace(message), cause)
+        }
+    }
 }

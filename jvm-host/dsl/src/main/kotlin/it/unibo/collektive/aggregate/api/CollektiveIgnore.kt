@@ -1,6 +1,6 @@
 package it.unibo.collektive.aggregate.api
 
-/** Excludes a declaration and everything inside it from the compiler plugin. [reason] states why that is safe. */
+/** Excludes a declaration and everything inside it from the compiler plugin. [explanation] states why that is safe. */
 @Target(
     AnnotationTarget.FILE,
     AnnotationTarget.CLASS,
@@ -10,4 +10,4 @@ package it.unibo.collektive.aggregate.api
     AnnotationTarget.CONSTRUCTOR,
 )
 @Retention(AnnotationRetention.BINARY)
-public annotation class CollektiveIgnore(val reason: String)
+public annotation class CollektiveIgnore(val explanation: String)

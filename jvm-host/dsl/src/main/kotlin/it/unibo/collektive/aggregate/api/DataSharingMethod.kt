@@ -13,4 +13,5 @@ public data object InMemory : DataSharingMethod<Any?>
  *
  * @property serializer encodes and decodes the values.
  */
-public data class Serialize<T>(public val serializer: KSerializer<T>) : DataSharingMethod<T>
+@JvmInline
+public value class Serialize<T>(public val serializer: KSerializer<T>) : DataSharingMethod<T>

@@ -3,12 +3,7 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
-import kotlinx.serialization.KSerializer
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.serializer
-import org.collektive.alignment.withPlace
-import kotlin.reflect.KType
-import kotlin.reflect.typeOf
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 
 /**
  * Sends each neighbour a different value and stores one for the next round.
@@ -31,33 +26,12 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.exchange(
 /** [exchanging] that sends one value to all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.sharing(
     initial: Shared,
-    noinline transform: YieldingContext<Shared, Return>.(Field<ID, Shared>) -> YieldingResult<Shared, Return>,
+    noinline body: YieldingContext<Shared, Return>.(Field<ID, Shared>) -> YieldingResult<Shared, Return>,
 ): Return = exchanging(initial) { received ->
-    val (toSend, toReturn) = YieldingContext<Shared, Return>().transform(received)
+    val (toSend, toReturn) = YieldingContext<Shared, Return>().body(received)
     received.mapToConstant(toSend).yielding { toReturn }
 }
 
 /** [sharing] that returns the value that it sends: `share(0) { seen -> seen.all.values.list.max() + 1 }`. */
-public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(
-    initial: Shared,
-    noinline transform: (Field<ID, Shared>) -> Shared,
-): Shared = sharing(initial) { received -> transform(received).yielding { this } }
-
-/**
- * How values of type [Shared] travel: by reference inside one process, otherwise by their serializer. Primitives call it for you.
- *
- * @throws kotlinx.serialization.SerializationException when values leave the process and [Shared] has no serializer.
- */
-@DelicateCollektiveApi
-public inline fun <reified Shared> Aggregate<*>.dataSharingMethod(): DataSharingMethod<Shared> =
-    if (inMemoryOnly) InMemory else serialized(typeOf<Shared>())
-
-@PublishedApi
-@Suppress("UNCHECKED_CAST")
-internal fun <Shared> Aggregate<*>.serialized(type: KType): DataSharingMethod<Shared> = try {
-    Serialize(serializer(type) as KSerializer<Shared>)
-} catch (cause: SerializationException) {
-    val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
-    val message = "values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"
-    throw SerializationException(withPlace(message), cause)
-}
+public inline fun <ID : Any, reified Shared> Aggregate<ID>.share(initial: Shared, noinline body: (Field<ID, Shared>) -> Shared): Shared =
+    sharing(initial) { received -> body(received).yielding { this } }

@@ -3,14 +3,15 @@
 package it.unibo.collektive.aggregate.api
 
 import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 
 /** Sends [local] to all neighbours. Returns the field of what the aligned neighbours sent, with [local] as its local value. */
 public inline fun <ID : Any, reified Shared> Aggregate<ID>.neighboring(local: Shared): Field<ID, Shared> =
     neighboring(local, dataSharingMethod<Shared>())
 
 /** The field of the aligned neighbours, without values. */
-public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, Unit> = neighboring(Unit)
+public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, *> = neighboring(Unit)
 
-/** The field of [transform] applied to the id of each aligned neighbour and of this device. */
-public fun <ID : Any, Value> Aggregate<ID>.mapNeighborhood(transform: (ID) -> Value): Field<ID, Value> =
-    neighborhood().map { transform(it.id) }
+/** The field of [local] applied to the id of each aligned neighbour and of this device. */
+public inline fun <ID : Any, Value> Aggregate<ID>.mapNeighborhood(crossinline local: (ID) -> Value): Field<ID, Value> =
+    neighborhood().map { local(it.id) }

@@ -3,13 +3,14 @@
 
 package it.unibo.collektive.stdlib.accumulation
 
+import arrow.core.Some
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 import it.unibo.collektive.stdlib.util.Maybe
 import it.unibo.collektive.stdlib.util.aligned
@@ -52,23 +53,19 @@ public inline fun <reified ID : Any, reified T> Aggregate<ID>.convergeCast(
 ): T = convergeCast(local, hopDistanceTo(sink), accumulateData = accumulateData)
 
 @PublishedApi
-internal fun <ID : Any, P> Aggregate<ID>.potentialField(potential: P, sharing: DataSharingMethod<P>): Field<ID, P> =
-    aligned("potential") { neighboring(potential, sharing) }
-
-@PublishedApi
 internal fun <ID : Any, T> Aggregate<ID>.collect(
     local: T,
     parent: ID,
     sharing: DataSharingMethod<Maybe<T>>,
     accumulateData: (T, T) -> T,
 ): T = aligned("convergeCast") {
-    exchanging<Maybe<T>, T>(Maybe.None, sharing) { received ->
+    exchanging<Maybe<T>, T>(Maybe.none, sharing) { received ->
         var collected = local
         for (neighbor in received.neighbors.list) {
-            val value = neighbor.value
-            if (value is Maybe.Some) collected = accumulateData(collected, value.value)
+            val value = neighbor.value.option
+            if (value is Some) collected = accumulateData(collected, value.value)
         }
-        val some = Maybe.Some(collected)
-        received.map<Maybe<T>> { if (it.id == parent && parent != localId) some else Maybe.None }.yielding { collected }
+        val some = Maybe.some(collected)
+        received.map<Maybe<T>> { if (it.id == parent && parent != localId) some else Maybe.none }.yielding { collected }
     }
 }

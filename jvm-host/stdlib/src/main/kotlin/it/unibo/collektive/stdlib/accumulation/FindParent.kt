@@ -1,29 +1,47 @@
-@file:CollektiveIgnore("uses no primitives")
+@file:CollektiveIgnore("aligns itself")
+@file:OptIn(DelicateCollektiveApi::class)
 
 package it.unibo.collektive.stdlib.accumulation
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.stdlib.collapse.minWith
+import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * The id of the least entry of [potential] by [selectParent]: the next device downhill, or this device at the bottom. On ties this
- * device wins, then the lower id, so that two devices of equal potential never choose each other.
+ * The id of the least entry of [potential] by [comparator]: the next device downhill, or this device at the bottom. On ties the
+ * neighbour with the lowest id wins, and this device comes last: two devices of equal potential may choose each other.
  */
 @Suppress("UnusedReceiverParameter")
-public fun <ID : Any, P : Comparable<P>> Aggregate<ID>.findParent(
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParent(
     potential: Field<ID, P>,
-    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
-): ID {
-    var parent = potential.local
-    for (neighbor in potential.neighbors.list) if (selectParent.compare(neighbor, parent) < 0) parent = neighbor
-    return parent.id
-}
+    comparator: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): ID = potential.all.minWith(comparator).id
+
+/** [findParent] of this device's [potential] and the potentials of its neighbours' last rounds. */
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParent(
+    potential: P,
+    comparator: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): ID = findParent(potentialField(potential, dataSharingMethod<P>()), comparator)
 
 /** The ids of the neighbours whose entries of [potential] satisfy [isParent], ascending. By default, all neighbours downhill. */
 @Suppress("UnusedReceiverParameter")
-public fun <ID : Any, P : Comparable<P>> Aggregate<ID>.findParents(
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParents(
     potential: Field<ID, P>,
     isParent: (FieldEntry<ID, P>) -> Boolean = { it.value < potential.local.value },
 ): Set<ID> = potential.neighbors.list.filter(isParent).mapTo(LinkedHashSet()) { it.id }
+
+/** [findParents] of this device's [potential] and the potentials of its neighbours' last rounds. */
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParents(
+    potential: P,
+    isParent: (FieldEntry<ID, P>) -> Boolean = { it.value < potential },
+): Set<ID> = findParents(potentialField(potential, dataSharingMethod<P>()), isParent)
+
+@PublishedApi
+internal fun <ID : Any, P> Aggregate<ID>.potentialField(potential: P, sharing: DataSharingMethod<P>): Field<ID, P> =
+    aligned("potential") { neighboring(potential, sharing) }

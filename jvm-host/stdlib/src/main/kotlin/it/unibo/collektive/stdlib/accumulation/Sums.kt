@@ -3,28 +3,41 @@
 package it.unibo.collektive.stdlib.accumulation
 
 import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Int, potential: Field<ID, P>): Int =
-    convergeCast(local, potential, accumulateData = Int::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
+    local: Int,
+    potential: Field<ID, P>,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Int = convergeCast(local, potential, selectParent, Int::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Int, potential: P): Int =
-    convergeCast(local, potential, accumulateData = Int::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
+    local: Int,
+    potential: P,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Int = convergeCast(local, potential, selectParent, Int::plus)
 
 /** The sum of [local] over all devices whose nearest sink is this one, by [convergeCast]. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Int, sink: Boolean): Int = convergeCast(local, sink, Int::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Double, potential: Field<ID, P>): Double =
-    convergeCast(local, potential, accumulateData = Double::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
+    local: Double,
+    potential: Field<ID, P>,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Double = convergeCast(local, potential, selectParent, Double::plus)
 
 /** The sum of [local] over all devices uphill, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(local: Double, potential: P): Double =
-    convergeCast(local, potential, accumulateData = Double::plus)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
+    local: Double,
+    potential: P,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Double = convergeCast(local, potential, selectParent, Double::plus)
 
 /** The sum of [local] over all devices whose nearest sink is this one, by [convergeCast]. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Double, sink: Boolean): Double =
@@ -34,22 +47,31 @@ public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Double, si
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeMean(
     local: Double,
     potential: Field<ID, P>,
-): Double = convergeCast(local to 1, potential, accumulateData = ::addPairs).let { (sum, count) -> sum / count }
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Double = convergeCast(local to 1, potential, selectParent, ::addPairs).let { (sum, count) -> sum / count }
 
 /** The mean of [local] over all devices uphill, by [convergeCast] of sum and count. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeMean(local: Double, potential: P): Double =
-    convergeCast(local to 1, potential, accumulateData = ::addPairs).let { (sum, count) -> sum / count }
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeMean(
+    local: Double,
+    potential: P,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Double = convergeCast(local to 1, potential, selectParent, ::addPairs).let { (sum, count) -> sum / count }
 
 /** The mean of [local] over all devices whose nearest sink is this one, by [convergeCast] of sum and count. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeMean(local: Double, sink: Boolean): Double =
     convergeMean(local, hopDistanceTo(sink))
 
 /** The number of devices uphill, this one included, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(potential: Field<ID, P>): Int =
-    convergeSum(1, potential)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(
+    potential: Field<ID, P>,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Int = convergeSum(1, potential, selectParent)
 
 /** The number of devices uphill, this one included, by [convergeCast]. */
-public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(potential: P): Int = convergeSum(1, potential)
+public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(
+    potential: P,
+    selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
+): Int = convergeSum(1, potential, selectParent)
 
 /** The number of devices whose nearest sink is this one, itself included, by [convergeCast]. */
 public inline fun <reified ID : Any> Aggregate<ID>.countDevices(sink: Boolean): Int = convergeSum(1, sink)

@@ -22,12 +22,11 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>
     maxBy(selector).id
 
 /** The neighbour whose entry is greatest in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): ID? =
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     maxWith(comparator)?.id
 
 /** The device whose entry is greatest in the order of [comparator]. */
-public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): ID =
-    maxWith(comparator).id
+public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID = maxWith(comparator).id
 
 /** The value of the neighbour's entry whose [selector] is greatest; `null` when there are none. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxBy(
@@ -39,11 +38,11 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>
     maxBy(selector).value
 
 /** The value of the neighbour's entry that is greatest in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): T? =
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     maxWith(comparator)?.value
 
 /** The value of the entry that is greatest in the order of [comparator]. */
-public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<in FieldEntry<ID, T>>): T =
+public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T =
     maxWith(comparator).value
 
 /** The neighbour with the least value; `null` when there are none. */
@@ -62,12 +61,11 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>
     minBy(selector).id
 
 /** The neighbour whose entry is least in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): ID? =
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     minWith(comparator)?.id
 
 /** The device whose entry is least in the order of [comparator]. */
-public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): ID =
-    minWith(comparator).id
+public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID = minWith(comparator).id
 
 /** The value of the neighbour's entry whose [selector] is least; `null` when there are none. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinBy(
@@ -79,9 +77,9 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>
     minBy(selector).value
 
 /** The value of the neighbour's entry that is least in the order of [comparator]; `null` when there are none. */
-public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): T? =
+public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     minWith(comparator)?.value
 
 /** The value of the entry that is least in the order of [comparator]. */
-public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<in FieldEntry<ID, T>>): T =
+public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): T =
     minWith(comparator).value

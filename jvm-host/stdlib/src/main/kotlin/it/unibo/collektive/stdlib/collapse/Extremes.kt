@@ -1,5 +1,8 @@
 package it.unibo.collektive.stdlib.collapse
 
+import arrow.core.None
+import arrow.core.Option
+import arrow.core.Some
 import it.unibo.collektive.aggregate.Collapse
 import it.unibo.collektive.aggregate.CollapseAll
 import it.unibo.collektive.aggregate.CollapseNeighbors
@@ -9,6 +12,14 @@ import it.unibo.collektive.aggregate.CollapseNeighbors
 /** The greatest of the neighbours' elements; `null` when there are none. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.max(): E? = list.maxOrNull()
 
+/** The greatest of the neighbours' elements; `Int.MIN_VALUE` when there are none. */
+@JvmName("maxOfInt")
+public fun CollapseNeighbors<Int>.max(): Int = max(Int.MIN_VALUE)
+
+/** The greatest of the neighbours' elements; `Double.NEGATIVE_INFINITY` when there are none. */
+@JvmName("maxOfDouble")
+public fun CollapseNeighbors<Double>.max(): Double = max(Double.NEGATIVE_INFINITY)
+
 /** The greatest element. */
 public fun <E : Comparable<E>> CollapseAll<E>.max(): E = list.max()
 
@@ -16,19 +27,37 @@ public fun <E : Comparable<E>> CollapseAll<E>.max(): E = list.max()
 public fun <E : Comparable<E>> Collapse<E>.max(base: E): E = list.fold(base) { best, element -> maxOf(best, element) }
 
 /** The neighbours' element whose [selector] is greatest; `null` when there are none. */
-public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
+public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
+
+/** The neighbours' element, which may be `null`, whose [selector] is greatest; [None] when there are none. */
+@JvmName("maxByOption")
+public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): Option<E?> =
+    if (size == 0) None else Some(list.maxBy(selector))
 
 /** The element whose [selector] is greatest. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.maxBy(selector: (E) -> C): E = list.maxBy(selector)
 
 /** The greatest of the neighbours' elements in the order of [comparator]; `null` when there are none. */
-public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): E? = list.maxWithOrNull(comparator)
+public fun <E : Any> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): E? = list.maxWithOrNull(comparator)
+
+/** The greatest of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] when there are none. */
+@JvmName("maxWithOption")
+public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): Option<E?> =
+    if (size == 0) None else Some(list.maxWith(comparator))
 
 /** The greatest element in the order of [comparator]. */
 public fun <E> CollapseAll<E>.maxWith(comparator: Comparator<in E>): E = list.maxWith(comparator)
 
 /** The least of the neighbours' elements; `null` when there are none. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.min(): E? = list.minOrNull()
+
+/** The least of the neighbours' elements; `Int.MAX_VALUE` when there are none. */
+@JvmName("minOfInt")
+public fun CollapseNeighbors<Int>.min(): Int = min(Int.MAX_VALUE)
+
+/** The least of the neighbours' elements; `Double.POSITIVE_INFINITY` when there are none. */
+@JvmName("minOfDouble")
+public fun CollapseNeighbors<Double>.min(): Double = min(Double.POSITIVE_INFINITY)
 
 /** The least element. */
 public fun <E : Comparable<E>> CollapseAll<E>.min(): E = list.min()
@@ -37,13 +66,23 @@ public fun <E : Comparable<E>> CollapseAll<E>.min(): E = list.min()
 public fun <E : Comparable<E>> Collapse<E>.min(base: E): E = list.fold(base) { best, element -> minOf(best, element) }
 
 /** The neighbours' element whose [selector] is least; `null` when there are none. */
-public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
+public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
+
+/** The neighbours' element, which may be `null`, whose [selector] is least; [None] when there are none. */
+@JvmName("minByOption")
+public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): Option<E?> =
+    if (size == 0) None else Some(list.minBy(selector))
 
 /** The element whose [selector] is least. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.minBy(selector: (E) -> C): E = list.minBy(selector)
 
 /** The least of the neighbours' elements in the order of [comparator]; `null` when there are none. */
-public fun <E> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): E? = list.minWithOrNull(comparator)
+public fun <E : Any> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): E? = list.minWithOrNull(comparator)
+
+/** The least of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] when there are none. */
+@JvmName("minWithOption")
+public fun <E> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): Option<E?> =
+    if (size == 0) None else Some(list.minWith(comparator))
 
 /** The least element in the order of [comparator]. */
 public fun <E> CollapseAll<E>.minWith(comparator: Comparator<in E>): E = list.minWith(comparator)

@@ -11,5 +11,14 @@ public inline fun <E> Collapse<E>.any(predicate: (E) -> Boolean): Boolean = list
 /** Whether [predicate] holds for no element. */
 public inline fun <E> Collapse<E>.none(predicate: (E) -> Boolean): Boolean = list.none(predicate)
 
+/** Whether each element is `true`; `true` when there are none. */
+public val Collapse<Boolean>.all: Boolean get() = all { it }
+
+/** Whether at least one element is `true`. */
+public val Collapse<Boolean>.any: Boolean get() = any { it }
+
+/** Whether no element is `true`. */
+public val Collapse<Boolean>.none: Boolean get() = none { it }
+
 /** The number of elements for which [predicate] holds. */
 public inline fun <E> Collapse<E>.countMatching(predicate: (E) -> Boolean): Int = list.count(predicate)

@@ -1,17 +1,26 @@
 package it.unibo.collektive.stdlib.collapse
 
+import arrow.core.None
+import arrow.core.Option
+import arrow.core.Some
 import it.unibo.collektive.aggregate.Collapse
 import it.unibo.collektive.aggregate.CollapseAll
 import it.unibo.collektive.aggregate.CollapseNeighbors
+import it.unibo.collektive.stdlib.util.Accumulator
+import it.unibo.collektive.stdlib.util.Reducer
 
-/** Starts from [base] and applies [accumulate] to the elements one by one. */
-public inline fun <E, R> Collapse<E>.fold(base: R, accumulate: (R, E) -> R): R = list.fold(base, accumulate)
+/** Starts from [initial] and applies [accumulator] to the elements one by one. */
+public inline fun <R, E> Collapse<E>.fold(initial: R, accumulator: Accumulator<R, E>): R = list.fold(initial, accumulator)
 
-/** Starts from the first of the neighbours' elements and applies [accumulate] to the others one by one; `null` when there are none. */
-public inline fun <E> CollapseNeighbors<E>.reduce(accumulate: (E, E) -> E): E? = list.reduceOrNull(accumulate)
+/** Starts from the first of the neighbours' elements and applies [reducer] to the others one by one; `null` when there are none. */
+public inline fun <E : Any> CollapseNeighbors<E>.reduce(reducer: Reducer<E>): E? = list.reduceOrNull(reducer)
 
-/** Starts from the first element and applies [accumulate] to the others one by one. */
-public inline fun <E> CollapseAll<E>.reduce(accumulate: (E, E) -> E): E = list.reduce(accumulate)
+/** [reduce] of elements that may be `null`; [None] when there are none. */
+@JvmName("reduceOption")
+public inline fun <E> CollapseNeighbors<E>.reduce(reducer: Reducer<E>): Option<E?> = if (size == 0) None else Some(list.reduce(reducer))
+
+/** Starts from the first element and applies [reducer] to the others one by one. */
+public inline fun <E> CollapseAll<E>.reduce(reducer: Reducer<E>): E = list.reduce(reducer)
 
 /** The sum of the elements, 0 when there are none; overflows silently. */
 @JvmName("sumOfInt")

@@ -5,10 +5,10 @@ package it.unibo.collektive.stdlib.consensus
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.aligned
 import it.unibo.collektive.stdlib.util.forEachNeighborWith
@@ -36,7 +36,7 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * @param accumulateDistance adds the distance to a neighbour to the neighbour's distance from its leader.
  * @param selectBest returns the better of two candidacies, the first on ties.
  */
-public inline fun <reified ID : Any, reified S : Comparable<S>, reified D : Comparable<D>> Aggregate<ID>.boundedElection(
+public inline fun <reified ID : Any, reified D : Comparable<D>, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
     bound: D,
     metric: Field<ID, D>,
@@ -69,12 +69,27 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.bo
 ): ID = boundedElection(strength, bound, metric, 0, Int::nonOverflowingPlus, selectBest)
 
 /** [boundedElection] where the greatest id wins. */
-public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bound: Double, metric: Field<ID, Double>): ID =
-    boundedElection(localId, bound, metric)
+public inline fun <reified ID : Comparable<ID>, reified D : Comparable<D>> Aggregate<ID>.boundedElection(
+    bound: D,
+    metric: Field<ID, D>,
+    bottom: D,
+    noinline accumulateDistance: (D, D) -> D,
+    noinline selectBest: Reducer<Candidacy<ID, D, ID>> = { a, b -> maxOf(a, b) },
+): ID = boundedElection(localId, bound, metric, bottom, accumulateDistance, selectBest)
 
-/** [boundedElection] where the greatest id wins, by default in hops. */
-public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(bound: Int, metric: Field<ID, Int> = hops()): ID =
-    boundedElection(localId, bound, metric)
+/** [boundedElection] over distances of 0.0 or greater, where the greatest id wins. */
+public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
+    bound: Double,
+    metric: Field<ID, Double>,
+    noinline selectBest: Reducer<Candidacy<ID, Double, ID>> = { a, b -> maxOf(a, b) },
+): ID = boundedElection(localId, bound, metric, selectBest)
+
+/** [boundedElection] over distances of 0 or greater, by default in hops, where the greatest id wins. */
+public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
+    bound: Int,
+    metric: Field<ID, Int> = hops(),
+    noinline selectBest: Reducer<Candidacy<ID, Int, ID>> = { a, b -> maxOf(a, b) },
+): ID = boundedElection(localId, bound, metric, selectBest)
 
 @PublishedApi
 internal fun <ID : Any, S : Comparable<S>, D : Comparable<D>> Aggregate<ID>.elect(

@@ -5,10 +5,10 @@ package it.unibo.collektive.stdlib.spreading
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.stdlib.util.aligned
 import it.unibo.collektive.stdlib.util.forEachNeighborWith
 
@@ -26,9 +26,9 @@ import it.unibo.collektive.stdlib.util.forEachNeighborWith
  * path has hops.
  *
  * @param source whether this device is a source.
- * @param local what a source offers, and the result where no source is reached.
+ * @param local what a source offers. Where no source is reached, the result is the data of a neighbour, or [local] without neighbours.
  * @param bottom the distance of a source to itself.
- * @param top infinity: a device at this distance or farther from all sources is not reached.
+ * @param top infinity: the distance of a device before it is reached.
  * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
  *   neighbour's data.
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
@@ -47,7 +47,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     local,
     bottom,
     top,
-    dataSharingMethod<Pair<D, V>?>(),
+    dataSharingMethod<Pair<D, V>>(),
     accumulateData,
     accumulateDistance,
     metric,
@@ -68,38 +68,38 @@ internal fun <ID : Any, V, D : Comparable<D>> Aggregate<ID>.bellmanFordGradientC
     local: V,
     bottom: D,
     top: D,
-    sharing: DataSharingMethod<Pair<D, V>?>,
+    sharing: DataSharingMethod<Pair<D, V>>,
     accumulateData: (D, D, V) -> V,
     accumulateDistance: (D, D) -> D,
     metric: Field<ID, D>,
 ): V = aligned("bellmanFordGradientCast") {
-    exchanging<Pair<D, V>?, V>(null, sharing) { received ->
-        val result = if (source) bottom to local else nearest(received, metric, top, accumulateData, accumulateDistance)
-        received.mapToConstant(result).yielding { if (result == null) local else result.second }
+    exchanging(top to local, sharing) { received ->
+        val result = if (source) bottom to local else nearest(received, metric, accumulateData, accumulateDistance) ?: (top to local)
+        received.mapToConstant(result).yielding { result.second }
     }
 }
 
+/** The nearest neighbour's distance and data as they arrive here; `null` without neighbours. */
 private fun <ID : Any, V, D : Comparable<D>> nearest(
-    received: Field<ID, Pair<D, V>?>,
+    received: Field<ID, Pair<D, V>>,
     metric: Field<ID, D>,
-    top: D,
     accumulateData: (D, D, V) -> V,
     accumulateDistance: (D, D) -> D,
 ): Pair<D, V>? {
-    var least = top
+    var least: D? = null
     var from: Pair<D, V>? = null
     var step: D? = null
     received.forEachNeighborWith(metric) { _, offer, toNeighbor ->
-        if (offer != null) {
-            val distance = accumulateDistance(offer.first, toNeighbor)
-            if (distance < least) {
-                least = distance
-                from = offer
-                step = toNeighbor
-            }
+        val distance = accumulateDistance(offer.first, toNeighbor)
+        val best = least
+        if (best == null || distance < best) {
+            least = distance
+            from = offer
+            step = toNeighbor
         }
     }
     val offer = from ?: return null
+    val distance = least ?: return null
     val toNeighbor = step ?: return null
-    return least to accumulateData(offer.first, toNeighbor, offer.second)
+    return distance to accumulateData(offer.first, toNeighbor, offer.second)
 }

@@ -16,7 +16,7 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
  * @param top infinity: the upper bound of [metric], and the result where no source is reached.
  * @param metric the distances to the neighbours.
- * @param maxDiameter the greatest number of hops of a path.
+ * @param maxDiameter see [gradientCast].
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance.
  */
 public inline fun <reified ID : Any, reified D : Comparable<D>> Aggregate<ID>.distanceTo(
@@ -44,6 +44,11 @@ public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
     maxDiameter: Int = Int.MAX_VALUE,
 ): Double = distanceTo(source, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, Double::plus)
 
-/** The number of hops to the nearest [source], or `Int.MAX_VALUE` when there is none within [maxDiameter] hops. */
+/**
+ * The number of hops to the nearest [source]: 0 at a source, and where none is reached; there [distanceTo] returns infinity, and
+ * `intGradientCast` what the caller chooses.
+ *
+ * @param maxDiameter see [gradientCast].
+ */
 public inline fun <reified ID : Any> Aggregate<ID>.hopDistanceTo(source: Boolean, maxDiameter: Int = Int.MAX_VALUE): Int =
-    distanceTo(source, 0, Int.MAX_VALUE, hops(), maxDiameter, Int::nonOverflowingPlus)
+    hopGradientCast(source, 0, maxDiameter) { fromSource, toNeighbor, _ -> fromSource.nonOverflowingPlus(toNeighbor) }

@@ -5,10 +5,10 @@ package it.unibo.collektive.stdlib.spreading
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
-import it.unibo.collektive.aggregate.api.dataSharingMethod
 import it.unibo.collektive.stdlib.util.HopPath
 import it.unibo.collektive.stdlib.util.PathValue
 import it.unibo.collektive.stdlib.util.aligned
@@ -20,9 +20,9 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * Brings the data of the nearest source to every device along a shortest path; returns [local] where no source is reached.
  *
  * This is a gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as in path-vector routing: each offer carries the
- * devices that it passed. A device takes the nearest offer whose path does not contain it and sends the result to its neighbours. To the
- * neighbour whose offer it took it sends the next best one instead, provided that no neighbour on that offer's path is nearer and that
- * the hops common to both paths are in the same order. On ties the neighbour with the lower id wins.
+ * devices that it passed. A device ignores an offer whose path contains it, or contains a neighbour that is nearer than the offer, or has
+ * common hops in another order than an offer at another distance over as many hops or fewer. It takes the nearest of the others and sends the result to its
+ * neighbours; the neighbour whose offer it took gets the next best one. On ties the neighbour with the lower id wins.
  *
  * Self-stabilising: once sources, links, data and metric stop changing, stale offers are gone after as many rounds of every device as
  * the longest simple path has hops (at most the number of devices, or [maxDiameter]). Values are those of the shortest paths after
@@ -34,7 +34,7 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
  * @param top infinity: the upper bound of [metric].
  * @param metric the distances to the neighbours, coerced to [bottom]..[top]. Paths are shortest only if distances exceed [bottom].
- * @param maxDiameter the greatest number of hops that data travels.
+ * @param maxDiameter the greatest number of hops of an offer, counted at the neighbour: data travels one hop farther.
  * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
  *   neighbour's data. Called only for offers that are taken; must depend on its arguments alone.
  * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
@@ -50,7 +50,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     noinline accumulateData: (fromSource: D, toNeighbor: D, data: V) -> V = { _, _, data -> data },
     noinline accumulateDistance: (D, D) -> D,
 ): V = GradientCast(bottom, top, metric, maxDiameter, accumulateData, accumulateDistance)
-    .run(source, local, dataSharingMethod<PathValue<ID, D, V>?>())
+    .run(source, local, dataSharingMethod<PathValue<ID, V, D>?>())
 
 /** [gradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.gradientCast(
@@ -90,8 +90,8 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     private val accumulateData: (D, D, V) -> V,
     private val accumulateDistance: (D, D) -> D,
 ) {
-    fun run(source: Boolean, local: V, sharing: DataSharingMethod<PathValue<ID, D, V>?>): V = metric.context.aligned("gradientCast") {
-        metric.context.exchanging<PathValue<ID, D, V>?, V>(null, sharing) { received ->
+    fun run(source: Boolean, local: V, sharing: DataSharingMethod<PathValue<ID, V, D>?>): V = metric.context.aligned("gradientCast") {
+        metric.context.exchanging<PathValue<ID, V, D>?, V>(null, sharing) { received ->
             if (source) {
                 received.mapToConstant(PathValue(bottom, local, HopPath.empty<ID>())).yielding { local }
             } else {
@@ -101,40 +101,34 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 
     /** The field to send; its local value is this device's result. */
-    private fun spread(received: Field<ID, PathValue<ID, D, V>?>): Field<ID, PathValue<ID, D, V>?> {
-        val offers = usableOffers(received)
+    private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
+        val offers = coherentOffers(received)
         val best = offers.minOrNull() ?: return received.mapToConstant(null)
         val taken = take(best, received.local.value)
-        val other = nextBest(offers, best, taken.path)?.let { take(it, null) }
+        val other = offers.minWithOrNull { a, b -> if (a === best || b === best) (a === best).compareTo(b === best) else a.compareTo(b) }
+            ?.takeIf { it !== best }?.let { take(it, null) }
         return received.map { if (it.id == best.id) other else taken }
     }
 
-    private fun usableOffers(received: Field<ID, PathValue<ID, D, V>?>): List<Offer<ID, V, D>> {
+    /** The offers that neither pass through this device nor contradict a neighbour or a shorter path, in the field's order. */
+    private fun coherentOffers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val myself = received.context.localId
-        val offers = ArrayList<Offer<ID, V, D>>(received.neighbors.size)
+        val neighbors = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
-            if (value != null && value.path.size < maxDiameter && myself !in value.path) {
-                val step = distance.coerceIn(bottom, top)
-                offers += Offer(id, step, accumulateDistance(value.distance, step), value)
-            }
+            val step = distance.coerceIn(bottom, top)
+            neighbors += Offer(id, step, accumulateDistance(value?.distance ?: bottom, step), value)
         }
-        return offers
-    }
-
-    /** The nearest offer except [best] that has no nearer neighbour on its path and agrees with the [taken] path. */
-    private fun nextBest(offers: List<Offer<ID, V, D>>, best: Offer<ID, V, D>, taken: HopPath<ID>): Offer<ID, V, D>? {
-        var found: Offer<ID, V, D>? = null
-        for (offer in offers) {
-            if (offer === best || found != null && found <= offer) continue
-            val path = offer.value.path
-            if (offers.none { it < offer && it.id in path } && (path + offer.id).agreesWith(taken)) found = offer
+        val usable = neighbors.filterTo(ArrayList(neighbors.size)) { offer ->
+            val path = offer.path
+            path != null && path.size <= maxDiameter && myself !in path && neighbors.none { it < offer && it.id in path }
         }
-        return found
+        if (usable.size < 2) return usable
+        return usable.filter { offer -> usable.none { it !== offer && it.contradicts(offer) } }
     }
 
     /** The value of [offer] on this device. Returns [former] itself if nothing changed, so that a settled network allocates no paths. */
-    private fun take(offer: Offer<ID, V, D>, former: PathValue<ID, D, V>?): PathValue<ID, D, V> {
-        val value = offer.value
+    private fun take(offer: Offer<ID, V, D>, former: PathValue<ID, V, D>?): PathValue<ID, V, D> {
+        val value = checkNotNull(offer.value)
         val data = accumulateData(value.distance, offer.step, value.data)
         return if (
             former != null && former.path.extends(value.path, offer.id) && former.distance == offer.distance && former.data == data
@@ -146,8 +140,19 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 }
 
-/** The offer [value] of the neighbour [id], which is [step] away; [distance] is from the source to this device. */
-private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, D, V>) :
+/** What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here. */
+private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, V, D>?) :
     Comparable<Offer<ID, V, D>> {
+    val path: HopPath<ID>? get() = value?.path
+
+    private var extended: HopPath<ID>? = null
+
+    /** The path of the data if this device takes the offer. */
+    private fun extended(): HopPath<ID> = extended ?: (path ?: HopPath.empty()).plus(id).also { extended = it }
+
+    /** Whether this offer, at another distance than the [other], has no more hops and some of the same in another order. */
+    fun contradicts(other: Offer<ID, V, D>): Boolean =
+        compareTo(other) != 0 && extended().size <= other.extended().size && !extended().agreesWith(other.extended())
+
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)
 }

@@ -41,8 +41,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiGradientCast(
     metric: Field<ID, Double>,
     maxDiameter: Int = Int.MAX_VALUE,
     noinline accumulateData: (fromSource: Double, toNeighbor: Double, data: V) -> V = { _, _, data -> data },
-    noinline accumulateDistance: (Double, Double) -> Double = Double::plus,
-): Map<ID, V> = multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, accumulateDistance)
+): Map<ID, V> = multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, Double::plus)
 
 /** [multiGradientCast] over distances in `0..Int.MAX_VALUE`, by default in hops. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiIntGradientCast(
@@ -51,5 +50,4 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiIntGradientCa
     metric: Field<ID, Int> = hops(),
     maxDiameter: Int = Int.MAX_VALUE,
     noinline accumulateData: (fromSource: Int, toNeighbor: Int, data: V) -> V = { _, _, data -> data },
-    noinline accumulateDistance: (Int, Int) -> Int = Int::nonOverflowingPlus,
-): Map<ID, V> = multiGradientCast(sources, local, 0, Int.MAX_VALUE, metric, maxDiameter, accumulateData, accumulateDistance)
+): Map<ID, V> = multiGradientCast(sources, local, 0, Int.MAX_VALUE, metric, maxDiameter, accumulateData, Int::nonOverflowingPlus)

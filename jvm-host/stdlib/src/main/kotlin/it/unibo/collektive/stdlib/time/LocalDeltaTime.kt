@@ -9,6 +9,6 @@ import kotlin.time.Duration
 import kotlin.time.Instant
 
 /** The time since this device's last round, by its own clock: zero in the first round, and when the clock was set back. */
-public fun <ID : Any> Aggregate<ID>.localDeltaTime(now: Instant): Duration = aligned("localDeltaTime") {
+public fun Aggregate<*>.localDeltaTime(now: Instant): Duration = aligned("localDeltaTime") {
     evolving(now) { last -> now.yielding { (now - last).coerceAtLeast(Duration.ZERO) } }
 }

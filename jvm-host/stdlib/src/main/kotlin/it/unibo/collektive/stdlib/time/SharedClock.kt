@@ -16,11 +16,13 @@ import kotlin.time.Instant
  * Once links stop changing, clocks differ by no more than the age of the messages between them, after as many rounds as the
  * component's diameter. Not self-stabilising: one clock that is set too far ahead advances all others for ever.
  *
- * @param localTime this device's own clock; after the first round only differences matter.
+ * It starts at [Instant.DISTANT_PAST], whatever the devices' own clocks say.
+ *
+ * @param localTime this device's own clock; only differences matter.
  */
-public fun <ID : Any> Aggregate<ID>.sharedClock(localTime: Instant): Instant = aligned("sharedClock") {
+public fun Aggregate<*>.sharedClock(localTime: Instant): Instant = aligned("sharedClock") {
     val passed = localDeltaTime(localTime)
-    share(localTime) { seen ->
+    share(Instant.DISTANT_PAST) { seen ->
         var clock = seen.local.value + passed
         for (neighbor in seen.neighbors.list) clock = maxOf(clock, neighbor.value)
         clock
@@ -28,15 +30,13 @@ public fun <ID : Any> Aggregate<ID>.sharedClock(localTime: Instant): Instant = a
 }
 
 /**
- * The time left until [timeToWait] has passed on the [sharedClock], counted from when the first device of the connected component
- * called this function; then zero. Devices that call it later join the same wait. Not self-stabilising, like the clock.
+ * The time left until [timeToWait] has passed on the [sharedClock] since this device called the function first, or since the last wait
+ * was over: periodic. It is zero or negative in the round in which a wait is over, and never elsewhere.
  */
-public fun <ID : Any> Aggregate<ID>.sharedTimeLeftTo(now: Instant, timeToWait: Duration): Duration = aligned("sharedTimeLeftTo") {
+public fun Aggregate<*>.sharedTimeLeftTo(now: Instant, timeToWait: Duration): Duration = aligned("sharedTimeLeftTo") {
     val clock = sharedClock(now)
-    val start = share(clock) { seen ->
-        var start = seen.local.value
-        for (neighbor in seen.neighbors.list) start = minOf(start, neighbor.value)
-        start
+    evolving(clock) { start ->
+        val left = start + timeToWait - clock
+        (if (left.isPositive()) start else clock).yielding { left }
     }
-    (start + timeToWait - clock).coerceAtLeast(Duration.ZERO)
 }

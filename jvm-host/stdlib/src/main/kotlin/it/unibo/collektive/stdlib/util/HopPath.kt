@@ -13,12 +13,14 @@ import kotlinx.serialization.Serializable
 internal class HopPath<ID : Any> private constructor(
     val previous: HopPath<ID>?,
     private val hop: ID?,
-    val size: Int,
+    override val size: Int,
     private val mask: Long,
-) {
+) : AbstractList<ID>() {
+    override fun get(index: Int): ID = toList()[index]
+
     operator fun plus(id: ID): HopPath<ID> = HopPath(this, id, size + 1, mask or bitOf(id))
 
-    operator fun contains(id: ID): Boolean = prefixUpTo(id) != null
+    override fun contains(element: ID): Boolean = prefixUpTo(element) != null
 
     /** Whether this path was made by appending [id] to [path]. Compares [path] by identity, so it takes constant time. */
     fun extends(path: HopPath<ID>, id: ID): Boolean = previous === path && hop == id
@@ -67,6 +69,9 @@ internal class HopPath<ID : Any> private constructor(
         /** The path of a value on the device that made it. */
         @Suppress("UNCHECKED_CAST")
         fun <ID : Any> empty(): HopPath<ID> = EMPTY as HopPath<ID>
+
+        /** The path over [hops]. */
+        fun <ID : Any> of(hops: List<ID>): HopPath<ID> = hops.fold(empty()) { path, id -> path + id }
 
         private fun bitOf(id: Any): Long = 1L shl (id.hashCode() * -0x61c88647 ushr 26)
     }

@@ -13,6 +13,5 @@ internal class HopPathSerializer<ID : Any>(id: KSerializer<ID>) : KSerializer<Ho
 
     override fun serialize(encoder: Encoder, value: HopPath<ID>): Unit = encoder.encodeSerializableValue(hops, value.toList())
 
-    override fun deserialize(decoder: Decoder): HopPath<ID> =
-        decoder.decodeSerializableValue(hops).fold(HopPath.empty()) { path, id -> path + id }
+    override fun deserialize(decoder: Decoder): HopPath<ID> = HopPath.of(decoder.decodeSerializableValue(hops))
 }

@@ -13,11 +13,11 @@ internal class MaybeSerializer<T>(value: KSerializer<T>) : KSerializer<Maybe<T>>
     override val descriptor: SerialDescriptor get() = values.descriptor
 
     override fun serialize(encoder: Encoder, value: Maybe<T>): Unit =
-        encoder.encodeSerializableValue(values, if (value is Maybe.Some) listOf(value.value) else emptyList())
+        encoder.encodeSerializableValue(values, value.option.fold({ emptyList() }, { listOf(it) }))
 
     override fun deserialize(decoder: Decoder): Maybe<T> {
         val found = decoder.decodeSerializableValue(values)
         if (found.size > 1) throw SerializationException("${found.size} values where one or none is expected")
-        return if (found.isEmpty()) Maybe.None else Maybe.Some(found[0])
+        return if (found.isEmpty()) Maybe.none else Maybe.some(found[0])
     }
 }

@@ -1,29 +1,50 @@
 package it.unibo.collektive.stdlib.util
 
 import kotlinx.serialization.Serializable
+import kotlinx.serialization.Transient
 
 /**
  * A device's offer to its neighbours in a gradient cast: [data], at a [distance] from its source.
  *
  * @property distance the accumulated distance from the source to the offering device.
  * @property data the source's data as it arrived at the offering device.
+ * @property hops the devices that the data passed, the source first, without the offering device.
  */
 @Serializable
-public class PathValue<ID : Any, D : Comparable<D>, T> @PublishedApi internal constructor(
-    public val distance: D,
-    public val data: T,
-    internal val path: HopPath<ID>,
-) : Comparable<PathValue<ID, D, T>> {
-    /** The devices that the data passed, the source first, without the offering device. */
-    public val hops: List<ID> get() = path.toList()
+public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
+    public val distance: Distance,
+    public val data: Value,
+    public val hops: List<ID> = emptyList(),
+) : Comparable<PathValue<ID, Value, Distance>> {
+    @Transient
+    internal val path: HopPath<ID> = hops as? HopPath<ID> ?: HopPath.of(hops)
+
+    /** The number of hops from the source to the offering device. */
+    public val length: Int get() = hops.size
+
+    /** The device that the data comes from; at the source, there is none. */
+    public val source: ID get() = hops.first()
+
+    /** The device from which the data came to the offering device; at the source, there is none. */
+    public val nextHop: ID get() = hops.last()
+
+    /** Whether the data passed the device [id]. */
+    public operator fun contains(id: ID): Boolean = id in path
+
+    /** This offer after its arrival from [neighbor], [distanceToNeighbor] away and limited to [bottom]..[top]. */
+    public inline fun update(
+        neighbor: ID,
+        distanceToNeighbor: Distance,
+        bottom: Distance,
+        top: Distance,
+        accumulateDistance: Reducer<Distance>,
+        accumulateData: (Distance, Distance, Value) -> Value,
+    ): PathValue<ID, Value, Distance> {
+        val step = distanceToNeighbor.coerceIn(bottom, top)
+        val total = accumulateDistance(distance, step).coerceIn(bottom, top)
+        return PathValue(total, accumulateData(distance, step, data), hops + neighbor)
+    }
 
     /** The nearer offer is less. */
-    override fun compareTo(other: PathValue<ID, D, T>): Int = distance.compareTo(other.distance)
-
-    override fun equals(other: Any?): Boolean =
-        this === other || other is PathValue<*, *, *> && distance == other.distance && data == other.data && path == other.path
-
-    override fun hashCode(): Int = (distance.hashCode() * 31 + data.hashCode()) * 31 + path.hashCode()
-
-    override fun toString(): String = "PathValue(distance=$distance, data=$data, hops=$path)"
+    override fun compareTo(other: PathValue<ID, Value, Distance>): Int = distance.compareTo(other.distance)
 }

@@ -47,11 +47,20 @@ class CollapseTest {
     }
 
     @Test
-    fun `extremes of neighbours are null when there are none`() = fields { field, neighbors, _ ->
+    fun `extremes of neighbours are null when there are none, but of numbers the least or greatest`() = fields { field, neighbors, _ ->
         val list = neighbors.map { it.second }
         val values = field.neighbors.values
-        assertEquals(list.maxOrNull(), values.max())
-        assertEquals(list.minOrNull(), values.min())
+        assertEquals(list.maxOrNull() ?: Int.MIN_VALUE, values.max())
+        assertEquals(list.minOrNull() ?: Int.MAX_VALUE, values.min())
+        val doubles = field.mapValues { it.toDouble() }.neighbors.values
+        assertEquals(list.maxOrNull()?.toDouble() ?: Double.NEGATIVE_INFINITY, doubles.max())
+        assertEquals(list.minOrNull()?.toDouble() ?: Double.POSITIVE_INFINITY, doubles.min())
+        val texts = field.mapValues { "$it" }.neighbors.values
+        assertEquals(list.maxOfOrNull { "$it" }, texts.max())
+        assertEquals(list.minOfOrNull { "$it" }, texts.min())
+        val nullable = field.mapValues<Int?> { it }.neighbors.values
+        assertEquals<Any?>(list.isEmpty(), nullable.reduce { a, b -> a ?: b }.isNone())
+        assertEquals<Any?>(list.isEmpty(), nullable.maxBy { it ?: 0 }.isNone())
         assertEquals(list.maxByOrNull { -it }, values.maxBy { -it })
         assertEquals(list.minByOrNull { -it }, values.minBy { -it })
         assertEquals(list.maxOrNull(), values.maxWith(naturalOrder()))

@@ -38,15 +38,12 @@ class ElectionTest {
     }
 
     @Test
-    fun `the strongest device of a component leads it, and is replaced when it leaves`() = perturbed { swarm, atOnce, random ->
-        val strengths = swarm.ids.shuffled(random).mapIndexed { index, id -> id to index }.toMap()
-        val seen = swarm.rounds(2 * swarm.size, atOnce) {
-            alignedOn("strength") { globalElection(strengths.getValue(localId)) } to alignedOn("id") { globalElection() }
-        }
-        assertEquals(
-            swarm.ids.associateWith { id -> swarm.component(id).let { all -> all.maxBy(strengths::getValue) to all.max() } },
-            seen,
-        )
+    fun `the strongest device of a component leads it, also after it left`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        val seen = swarm.rounds(4) { alignedOn("strength") { globalElection(-localId) } to alignedOn("id") { globalElection() } }
+        assertEquals(setOf(0 to 3), seen.values.toSet())
+        swarm.remove(3)
+        assertEquals(setOf(3), swarm.rounds(20) { alignedOn("id") { globalElection() } }.values.toSet())
     }
 
     @Test

@@ -51,13 +51,11 @@ class BellmanFordGradientCastTest {
     }
 
     @Test
-    fun `without a source the result is the local value`() {
-        val swarm = Swarm(3).line(1.0, 1.0)
-        assertEquals(
-            mapOf(0 to 0, 1 to 1, 2 to 2),
-            swarm.rounds(5) {
-                bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() })
-            },
-        )
+    fun `without a source the result is a neighbour's, or the local value without neighbours`() {
+        val swarm = Swarm(4).line(1.0, 1.0)
+        val first = swarm.round { bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() }) }
+        assertEquals(mapOf(0 to 0, 1 to 1, 2 to 2, 3 to 3), first)
+        val second = swarm.round { bellmanFordGradientCast(false, localId, metric = with(swarm) { lengths() }) }
+        assertEquals(mapOf(0 to 1, 1 to 0, 2 to 1, 3 to 3), second)
     }
 }

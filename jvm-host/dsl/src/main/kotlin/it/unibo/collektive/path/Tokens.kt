@@ -1,0 +1,8 @@
+package it.unibo.collektive.path
+
+/** The tokens of this path, the outermost first; the path itself where they are unknown. */
+public val Path.tokens: List<Any?>
+    get() = when (this) {
+        is FullPath -> path
+        is SerializablePath -> known ?: listOf(this)
+    }

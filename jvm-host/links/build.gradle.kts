@@ -1,0 +1,8 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
+
+dependencies {
+    api(project(":dsl"))
+    api(project(":api"))
+}

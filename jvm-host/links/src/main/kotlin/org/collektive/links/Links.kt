@@ -1,0 +1,36 @@
+@file:CollektiveIgnore("aligns itself")
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.links
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.mapNeighborhood
+import org.collektive.api.Device
+
+/**
+ * The lengths of the links from the aligned neighbours in metres, and 0 for this device: `with(device) { distances() }`.
+ *
+ * Lengths are those that the scene's neighbourhood rule declares, so programs need no positions in their schema:
+ *
+ * ```
+ * val toSource = with(device) { distanceTo(sensors.source(), metric = distances()) }
+ * ```
+ */
+context(device: Device)
+public fun Aggregate<Int>.distances(): Field<Int, Double> = ofLinks("distances", device::distance)
+
+/** The attenuations of the links from the aligned neighbours, 0 (clear) or greater, and 0 for this device. See [distances]. */
+context(device: Device)
+public fun Aggregate<Int>.attenuations(): Field<Int, Double> = ofLinks("attenuations", device::attenuation)
+
+private fun Aggregate<Int>.ofLinks(name: String, value: (Int) -> Double): Field<Int, Double> {
+    align(name)
+    try {
+        return mapNeighborhood { if (it == localId) 0.0 else value(it) }
+    } finally {
+        dealign()
+    }
+}

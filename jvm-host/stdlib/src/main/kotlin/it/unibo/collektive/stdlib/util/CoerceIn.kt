@@ -1,0 +1,28 @@
+package it.unibo.collektive.stdlib.util
+
+import it.unibo.collektive.aggregate.Field
+
+/**
+ * This value, limited to [min]..[max].
+ *
+ * @throws IllegalArgumentException when [min] is greater than [max]; so do all overloads.
+ */
+public fun <T : Comparable<T>> T.coerceIn(min: T, max: T): T {
+    require(min <= max) { "nothing is in an empty range: $min is greater than $max" }
+    return if (this < min) {
+        min
+    } else if (this > max) {
+        max
+    } else {
+        this
+    }
+}
+
+/** This value, limited to [range]. */
+public fun <T : Comparable<T>> T.coerceIn(range: ClosedRange<T>): T = coerceIn(range.start, range.endInclusive)
+
+/** Each value, limited to [min]..[max]. */
+public fun <ID : Any, T : Comparable<T>> Field<ID, T>.coerceIn(min: T, max: T): Field<ID, T> = mapValues { it.coerceIn(min, max) }
+
+/** Each value, limited to [range]. */
+public fun <ID : Any, T : Comparable<T>> Field<ID, T>.coerceIn(range: ClosedRange<T>): Field<ID, T> = mapValues { it.coerceIn(range) }
