@@ -9,7 +9,7 @@ from command import Folder, collektive
 from places import ROOT
 
 
-class TheReadme(Folder):
+class GettingStarted(Folder):
     SCENE = """
 using Collektive.Unity;
 using UnityEngine;
@@ -41,9 +41,10 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 """
 
-    def run_example(self, page):
-        """Runs the schema, the Kotlin and the C# of a page in the scene above."""
-        with open(os.path.join(ROOT, page)) as file:
+    @pytest.mark.quick
+    def test_its_example_runs(self):
+        """The schema, the Kotlin and the C# of the page, in the scene above."""
+        with open(os.path.join(ROOT, "Documentation~/getting-started.md")) as file:
             blocks = [textwrap.dedent(block) for block in re.findall(r"^ *```\w*\n(.*?)^ *```", file.read(), re.M | re.S)]
         schema = next(block for block in blocks if block.startswith("namespace"))
         kotlin = next(block for block in blocks if "@Program" in block)
@@ -60,13 +61,6 @@ import org.collektive.api.Program
         result = collektive("run", self.path("swarm.json"), "--out", self.path("out"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
-
-    @pytest.mark.quick
-    def test_its_example_runs(self):
-        self.run_example("README.md")
-
-    def test_the_example_of_getting_started_runs(self):
-        self.run_example("Documentation~/getting-started.md")
 
     @pytest.mark.quick
     def test_its_picture_and_links_exist(self):

@@ -2,6 +2,7 @@
 import os
 import re
 
+import pytest
 from command import Folder, collektive
 from places import ROOT
 
@@ -51,6 +52,7 @@ def blocks():
     return re.findall(r"^```\w*\n(.*?)^```$", section, re.DOTALL | re.MULTILINE)
 
 
+@pytest.mark.quick
 class TheReadmesProject(Folder):
     def test_it_has_at_most_25_lines_of_its_authors(self):
         # All lines but empty ones: imports and braces count.

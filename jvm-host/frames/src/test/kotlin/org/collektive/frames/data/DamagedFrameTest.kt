@@ -8,6 +8,7 @@ import kotlin.test.Test
 import kotlin.test.assertTrue
 
 /** Any frame is either readable to its end or rejected with a [MalformedFrameException]. */
+@Tag("slow")
 internal class DamagedFrameTest {
     private val random = Random(42)
 

@@ -8,6 +8,7 @@ import org.collektive.host.programs.JarBytes
 import org.collektive.host.record.Chunk
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.shim.HostError
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
@@ -28,6 +29,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
+@Tag("slow")
 @Timeout(120)
 class RecordTest {
     private val shim = TestShim()
