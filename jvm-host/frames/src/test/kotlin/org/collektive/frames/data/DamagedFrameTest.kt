@@ -1,6 +1,7 @@
 package org.collektive.frames.data
 
 import org.collektive.frames.MalformedFrameException
+import org.junit.jupiter.api.Tag
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.Random
