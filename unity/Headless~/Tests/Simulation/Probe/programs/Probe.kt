@@ -72,8 +72,7 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
 /** Combines a field of all neighbours, hidden from projection in a list, with one of those that are here. */
-private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int =
-    all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
+private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
 
 /** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
