@@ -82,7 +82,7 @@ class TheSamples(Folder):
     def test_the_crowds_pass_without_bumping_and_their_warning_ends(self):
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)
-        # 160 walkers in 900 rounds.
+        # 160 walkers in 1,200 rounds.
         self.assertLess(rows[-1]["bumps"], 100)
         self.assertGreater(max(row["warned"] for row in rows), 20, "it was dense where they met")
         self.assertEqual(rows[-1]["warned"], 0)
