@@ -17,6 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
     /// what a frame can bear.
     /// </summary>
     [TestFixture]
+    [Category("Slow")]
     public sealed class SceneSpeedTests : SimulationFixture
     {
         private const int Count = 1000;
@@ -30,7 +31,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Trigger_rules_of_95_neighbours_take_5_milliseconds_a_tick()
+        public void Trigger_rules_of_95_neighbours_take_less_than_10_milliseconds_a_tick()
         {
             // On a plane of side 10, within 1.8 m of a node are some 95 others.
             Scatter(Count, 10, node =>
@@ -49,7 +50,7 @@ namespace Collektive.Headless.Tests.Simulation
             Print("trigger rules, " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Errors, Is.Empty);
             Assert.That(Manager.LinkCount, Is.GreaterThan(80 * Count));
-            Assert.That(milliseconds, Is.LessThan(5));
+            Assert.That(milliseconds, Is.LessThan(10));
         }
 
         [TestCase(LinkColoring.Direction)]
