@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 from places import COLLEKTIVE, ROOT
@@ -26,6 +27,20 @@ def last_error(result):
     return lines[-1] if lines else result.stderr
 
 
+def processes(*words):
+    """Command lines, by process id, of the processes that have all these words in theirs."""
+    found = {}
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                line = file.read().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if all(word in line for word in words):
+            found[int(pid)] = line
+    return found
+
+
 def jdk():
     """The JDK that runs simulations."""
     return subprocess.run([COLLEKTIVE, "step", "find_jdk"], capture_output=True, text=True, check=True).stdout.strip()
@@ -41,6 +56,13 @@ class Folder(unittest.TestCase):
 
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
+
+    def await_that(self, holds):
+        """Waits until holds() is true; a minute at the most."""
+        end = time.monotonic() + 60
+        while not holds():
+            self.assertLess(time.monotonic(), end, "it does not come true")
+            time.sleep(0.05)
 
     def manifest(self, out):
         with open(os.path.join(out, "manifest.json")) as file:

@@ -4,10 +4,9 @@ import os
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 
-from command import Project, collektive, last_error
+from command import Project, collektive, last_error, processes
 from places import COLLEKTIVE
 
 
@@ -45,11 +44,8 @@ class Outputs(Project):
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
                                     "--seconds", "1000000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        end = time.monotonic() + 60
-        while not os.path.exists(self.path("out", "metrics.csv")) or len(self.rows()) < 20:
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.05)
-        for pid in self.players():
+        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")) and len(self.rows()) >= 20)
+        for pid in processes("Collektive.Player.exe", self.path("out")):
             os.kill(pid, signal.SIGKILL)
         process.wait()
         self.assertEqual(process.returncode, 137)
@@ -63,19 +59,6 @@ class Outputs(Project):
         with open(self.path("out", "metrics.csv")) as file:
             return file.readlines()
 
-    def players(self):
-        """The player that writes to this test's folder."""
-        found = []
-        for pid in filter(str.isdigit, os.listdir("/proc")):
-            try:
-                with open(f"/proc/{pid}/cmdline", "rb") as file:
-                    words = file.read().split(b"\0")
-            except OSError:
-                continue
-            if words[0].endswith(b"mono-sgen") and self.path("out").encode() in words:
-                found.append(int(pid))
-        return found
-
     def test_a_run_that_fails_says_why_in_its_manifest(self):
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick < 4 ? Brightness : float.NaN;")
         result = self.run_it()
@@ -85,10 +68,7 @@ class Outputs(Project):
     def test_two_runs_into_one_folder_do_not_meet(self):
         command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
         first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        end = time.monotonic() + 60
-        while not os.path.exists(self.path("out", "manifest.json")):
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.05)
+        self.await_that(lambda: os.path.exists(self.path("out", "manifest.json")))
         second = self.run_it("--overwrite")
         self.assertEqual(second.returncode, 1)
         self.assertIn("another run writes to", last_error(second))

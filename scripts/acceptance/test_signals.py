@@ -4,7 +4,7 @@ import signal
 import subprocess
 import time
 
-from command import Project, collektive
+from command import Project, collektive, processes
 from places import COLLEKTIVE
 
 CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
@@ -22,21 +22,8 @@ class Signals(Project):
         output = process.communicate(timeout=60)[1]
         self.assertEqual(process.returncode, CODES[number], output)
         self.assertLess(time.monotonic() - began, 15)
-        self.assertEqual(self.left_behind(), [])
+        self.assertEqual(processes(self.folder), {})
         return output
-
-    def left_behind(self):
-        """Command lines of processes that name the folder of this test."""
-        found = []
-        for pid in filter(str.isdigit, os.listdir("/proc")):
-            try:
-                with open(f"/proc/{pid}/cmdline", "rb") as file:
-                    line = file.read().replace(b"\0", b" ").decode(errors="replace")
-            except OSError:
-                continue
-            if self.folder in line:
-                found.append(line)
-        return found
 
     def await_line(self, process, words):
         for line in process.stderr:
@@ -45,11 +32,7 @@ class Signals(Project):
         self.fail(f"the command ended before it wrote '{words}'")
 
     def await_metrics(self):
-        path = self.path("out", "metrics.csv")
-        end = time.monotonic() + 60
-        while not os.path.exists(path):
-            self.assertLess(time.monotonic(), end, "the run does not begin")
-            time.sleep(0.05)
+        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")))
         time.sleep(0.5)
 
     def test_a_run_ends_after_its_tick_with_its_outputs(self):
