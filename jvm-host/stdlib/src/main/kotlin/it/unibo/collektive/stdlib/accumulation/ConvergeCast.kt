@@ -65,7 +65,13 @@ internal fun <ID : Any, T> Aggregate<ID>.collect(
             val value = neighbor.value.option
             if (value is Some) collected = accumulateData(collected, value.value)
         }
-        val some = Maybe.some(collected)
-        received.map<Maybe<T>> { if (it.id == parent && parent != localId) some else Maybe.none }.yielding { collected }
+        if (parent == localId) {
+            received.mapToConstant(Maybe.none).yielding { collected }
+        } else {
+            received.toParent(parent, Maybe.some(collected), Maybe.none).yielding { collected }
+        }
     }
 }
+
+/** The field to send. [value] is boxed once by this call, not again for each neighbour. */
+private fun <ID : Any, T> Field<ID, *>.toParent(parent: ID, value: T, none: T): Field<ID, T> = map { if (it.id == parent) value else none }

@@ -102,28 +102,59 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
 
     /** The field to send; its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
-        val offers = coherentOffers(received)
-        val best = offers.minOrNull() ?: return received.mapToConstant(null)
+        val offers = offers(received)
+        val myself = received.context.localId
+        val best = nextCoherent(offers, myself) ?: return received.mapToConstant(null)
         val taken = take(best, received.local.value)
-        val other = offers.minWithOrNull { a, b -> if (a === best || b === best) (a === best).compareTo(b === best) else a.compareTo(b) }
-            ?.takeIf { it !== best }?.let { take(it, null) }
+        val other = nextCoherent(offers, myself)?.let { take(it, null) }
         return received.map { if (it.id == best.id) other else taken }
     }
 
-    /** The offers that neither pass through this device nor contradict a neighbour or a shorter path, in the field's order. */
-    private fun coherentOffers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
-        val myself = received.context.localId
-        val neighbors = ArrayList<Offer<ID, V, D>>(received.neighborCount)
+    /** What each neighbour offers, in the field's order. */
+    private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
+        val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
             val step = distance.coerceIn(bottom, top)
-            neighbors += Offer(id, step, accumulateDistance(value?.distance ?: bottom, step), value)
+            offers += Offer(id, step, accumulateDistance(value?.distance ?: bottom, step), value)
         }
-        val usable = neighbors.filterTo(ArrayList(neighbors.size)) { offer ->
-            val path = offer.path
-            path != null && path.size <= maxDiameter && myself !in path && neighbors.none { it < offer && it.id in path }
+        return offers
+    }
+
+    /** The nearest coherent one of the [offers] that were not yet considered, the first one of several; `null` without one. */
+    private fun nextCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Offer<ID, V, D>? {
+        while (true) {
+            var nearest: Offer<ID, V, D>? = null
+            for (index in offers.indices) {
+                val offer = offers[index]
+                if (!offer.considered && (nearest == null || offer < nearest)) nearest = offer
+            }
+            if (nearest == null) return null
+            nearest.considered = true
+            if (nearest.isCoherent(offers, myself)) return nearest
         }
-        if (usable.size < 2) return usable
-        return usable.filter { offer -> usable.none { it !== offer && it.contradicts(offer) } }
+    }
+
+    /** Whether this offer neither passes through this device or a nearer neighbour nor is contradicted by such an offer. */
+    private fun Offer<ID, V, D>.isCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Boolean {
+        if (!isUsable(offers, myself)) return false
+        for (index in offers.indices) {
+            val other = offers[index]
+            if (other !== this && other.contradicts(this) && other.isUsable(offers, myself)) return false
+        }
+        return true
+    }
+
+    private fun Offer<ID, V, D>.isUsable(offers: List<Offer<ID, V, D>>, myself: ID): Boolean =
+        usable ?: passesNoneOf(offers, myself).also { usable = it }
+
+    private fun Offer<ID, V, D>.passesNoneOf(offers: List<Offer<ID, V, D>>, myself: ID): Boolean {
+        val path = path
+        if (path == null || path.size > maxDiameter || myself in path) return false
+        for (index in offers.indices) {
+            val other = offers[index]
+            if (other.id in path && other < this) return false
+        }
+        return true
     }
 
     /** The value of [offer] on this device. Returns [former] itself if nothing changed, so that a settled network allocates no paths. */
@@ -145,14 +176,17 @@ private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val
     Comparable<Offer<ID, V, D>> {
     val path: HopPath<ID>? get() = value?.path
 
-    private var extended: HopPath<ID>? = null
+    var considered: Boolean = false
 
-    /** The path of the data if this device takes the offer. */
-    private fun extended(): HopPath<ID> = extended ?: (path ?: HopPath.empty()).plus(id).also { extended = it }
+    /** Whether the offer passes neither through this device nor through a nearer neighbour; `null` before somebody asked. */
+    var usable: Boolean? = null
 
     /** Whether this offer, at another distance than the [other], has no more hops and some of the same in another order. */
-    fun contradicts(other: Offer<ID, V, D>): Boolean =
-        compareTo(other) != 0 && extended().size <= other.extended().size && !extended().agreesWith(other.extended())
+    fun contradicts(other: Offer<ID, V, D>): Boolean {
+        val mine = path ?: return false
+        val others = other.path ?: return false
+        return mine.size <= others.size && compareTo(other) != 0 && !mine.agreesWith(id, others, other.id)
+    }
 
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)
 }

@@ -25,17 +25,32 @@ internal class HopPath<ID : Any> private constructor(
     /** Whether this path was made by appending [id] to [path]. Compares [path] by identity, so it takes constant time. */
     fun extends(path: HopPath<ID>, id: ID): Boolean = previous === path && hop == id
 
-    /** Whether the devices common to both paths are in the same order. */
-    fun agreesWith(other: HopPath<ID>): Boolean {
+    /**
+     * Whether the devices common to this path and [last], and to the [other] path and [otherLast], are in the same order. The last
+     * devices differ.
+     */
+    fun agreesWith(last: ID, other: HopPath<ID>, otherLast: ID): Boolean {
+        val mine = prefixUpTo(otherLast)
+        val others = other.prefixUpTo(last)
+        return when {
+            mine == null && others == null -> inOrderOf(other, other)
+            mine == null -> inOrderOf(others?.previous ?: empty(), other)
+            others == null -> other.inOrderOf(mine.previous ?: empty(), this)
+            else -> false
+        }
+    }
+
+    /** Whether the devices common to this path and [whole] are in the same order, and lie in [prefix], with which [whole] begins. */
+    private fun inOrderOf(prefix: HopPath<ID>, whole: HopPath<ID>): Boolean {
         var mine = this
-        var rest = other
+        var rest = prefix
         while (mine !== rest) {
             val before = mine.previous ?: return true
             val id = mine.hop ?: return true
             val found = rest.prefixUpTo(id)
             if (found != null) {
                 rest = found.previous ?: return true
-            } else if (id in other) {
+            } else if (rest !== whole && id in whole) {
                 return false
             }
             mine = before

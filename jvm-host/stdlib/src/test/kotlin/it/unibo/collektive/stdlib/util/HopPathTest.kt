@@ -31,20 +31,22 @@ class HopPathTest {
         var agreeing = 0
         repeat(2000) {
             val pool = (0 until 6).toList()
-            val a = pool.shuffled(random).take(random.nextInt(0, 5))
-            val b = pool.shuffled(random).take(random.nextInt(0, 5))
-            assertEquals(commonInOrder(a, b), path(a).agreesWith(path(b)), "$a and $b")
-            if (commonInOrder(a, b)) agreeing++
+            val a = pool.shuffled(random).take(random.nextInt(1, 6))
+            val b = pool.shuffled(random).take(random.nextInt(1, 6))
+            if (a.last() != b.last()) {
+                assertEquals(commonInOrder(a, b), path(a.dropLast(1)).agreesWith(a.last(), path(b.dropLast(1)), b.last()), "$a and $b")
+                if (commonInOrder(a, b)) agreeing++
+            }
         }
-        assertTrue(agreeing in 500..1900)
+        assertTrue(agreeing in 300..1500, "$agreeing")
     }
 
     @Test
     fun `branches of one path agree`() {
         val stem = path((0 until 20).toList())
-        assertTrue((stem + 50 + 51).agreesWith(stem + 60))
-        assertTrue(stem.agreesWith(stem))
-        assertFalse((stem + 50 + 51).agreesWith(stem + 51 + 50))
+        assertTrue((stem + 50).agreesWith(51, stem, 60))
+        assertTrue(stem.agreesWith(50, stem, 51))
+        assertFalse((stem + 50).agreesWith(51, stem + 51, 50))
     }
 
     @Test
