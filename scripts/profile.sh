@@ -2,7 +2,7 @@
 
 help_profile() {
   cat <<'H'
-usage: ./collektive profile SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--set FIELD=VALUE]...
+usage: ./collektive profile SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--set FIELD=VALUE]... [--trust-jvm]
 
 Runs a scenario as ./collektive run does, with a flight recording of the JVM, and prints what it tells: times of ticks, for each program
 its rounds and the methods where their time goes, allocation, and pauses. The recording is profile.jfr in --out (default:
@@ -15,7 +15,7 @@ cmd_profile() {
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
-      --overwrite) arguments+=(--overwrite); shift ;;
+      --overwrite | --trust-jvm) arguments+=("$1"); shift ;;
       --seed | --seconds | --set) [ $# -ge 2 ] || fail "profile: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "profile: unknown option $1 (see ./collektive profile --help)" ;;
       *) [ -z "$scenario" ] || fail "profile: one scenario at a time"; scenario=$1; shift ;;

@@ -1,22 +1,26 @@
 # ./collektive run, repeat and demo: scenarios without Unity.
 
+# A file for each jar that was run here, named by its SHA-256.
+OWN_PROGRAMS="$BUILD/own-programs"
 DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 
 help_run() {
   cat <<'H'
 usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--recording FILE.jfr] [--set FIELD=VALUE]...
+                       [--trust-jvm]
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
 run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. A folder with results of a run is refused; --overwrite
 removes them first. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
+--trust-jvm lets the file's JVM settings write files, open ports and load code, which else are refused: Documentation~/trust.md.
 The scenario file's keys are described in Documentation~/headless.md.
 H
 }
 
 help_repeat() {
   cat <<'H'
-usage: ./collektive repeat MANIFEST.json [--out DIR] [--overwrite] [--folder DIR]
+usage: ./collektive repeat MANIFEST.json [--out DIR] [--overwrite] [--folder DIR] [--trust-jvm]
 
 Runs again what a run's manifest.json tells of, from the manifest alone, and compares ticks, digest and the metrics at the end. Scripts, schema
 and programs are found where they were, or in --folder: the folder of the run's scenario file. One line names each of them, and the JVM, that is
@@ -60,6 +64,12 @@ made() {
     mv -T "$work" "$folder" 2>/dev/null || rm -rf "$work"
   fi
   printf '%s\n' "$folder/$file"
+}
+
+# own_programs JAR: notes a jar that the user runs. ./collektive replay runs those again without a question.
+own_programs() {
+  mkdir -p "$OWN_PROGRAMS"
+  : >"$OWN_PROGRAMS/$(sha256sum <"$1" | cut -d ' ' -f 1)"
 }
 
 # programs_jar SCHEMA PROGRAMS: prints the jar of a folder of Kotlin, compiled when it changed; a jar is printed as it is.
@@ -111,13 +121,14 @@ compile_scripts() {
 }
 
 cmd_run() {
-  local scenario= out= seed= overwrite=() folder=() arguments=()
+  local scenario= out= seed= overwrite=() reading=() arguments=()
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
       --overwrite) overwrite=(--overwrite); shift ;;
       --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
-      --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
+      --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; reading+=(--folder "$2"); shift 2 ;;
+      --trust-jvm) reading+=(--trust-jvm); shift ;;
       --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
       *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;
@@ -129,7 +140,7 @@ cmd_run() {
   build_jvm
   build_csharp
   local plan schema programs scripts replay pictures jar dll template=()
-  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${folder[@]}")
+  plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${reading[@]}")
   schema=$(planned "$plan" schema)
   programs=$(planned "$plan" programs)
   scripts=$(planned "$plan" scripts)
@@ -142,9 +153,10 @@ cmd_run() {
   fi
   [ -n "$out" ] || out="out/$(basename "$scenario" .json)-seed${seed:-$(planned "$plan" seed)}"
   claim "$out" "${overwrite[@]}"
+  own_programs "$jar"
   say "running $scenario"
   managed mono-sgen "$CSHARP/Collektive.Player.exe" run "$scenario" --scripts "$dll" --jar "$jar" --host-jar "$HOST_JAR" \
-    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${folder[@]}" "${arguments[@]}"
+    --java-home "$(find_jdk)" --out "$out" "${template[@]}" "${reading[@]}" "${arguments[@]}"
   pictures=$(planned "$plan" pictures)
   if [ "$pictures" = yes ]; then
     logged "$BUILD/log/pictures.log" make_pictures "$out"
@@ -169,12 +181,12 @@ make_pictures() {
 }
 
 cmd_repeat() {
-  local manifest= out= folder=() overwrite=()
+  local manifest= out= arguments=()
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
-      --overwrite) overwrite=(--overwrite); shift ;;
-      --folder) [ $# -ge 2 ] || fail "repeat: --folder needs a folder"; folder=(--folder "$2"); shift 2 ;;
+      --overwrite | --trust-jvm) arguments+=("$1"); shift ;;
+      --folder) [ $# -ge 2 ] || fail "repeat: --folder needs a folder"; arguments+=(--folder "$2"); shift 2 ;;
       -*) fail "repeat: unknown option $1 (see ./collektive repeat --help)" ;;
       *) [ -z "$manifest" ] || fail "repeat: one manifest at a time"; manifest=$1; shift ;;
     esac
@@ -182,7 +194,7 @@ cmd_repeat() {
   [ -n "$manifest" ] || fail "repeat: name the manifest.json of a run (see ./collektive repeat --help)"
   [ -f "$manifest" ] || fail "repeat: there is no file '$manifest'"
   grep -q '"folder":' "$manifest" || fail "repeat: '$manifest' is no manifest of a run: ./collektive run runs scenario files"
-  cmd_run "$manifest" --out "${out:-$(realpath "$(dirname "$manifest")")-repeated}" "${overwrite[@]}" "${folder[@]}"
+  cmd_run "$manifest" --out "${out:-$(realpath "$(dirname "$manifest")")-repeated}" "${arguments[@]}"
 }
 
 cmd_demo() {

@@ -144,7 +144,17 @@ class AForeignProject(Project):
 
     def test_a_jvm_that_is_none_is_named(self):
         self.change("lamps.json", '"jvm": {', '"jvm": { "location": "Folder", "home": "/nowhere/jdk",')
-        self.refused("/nowhere/jdk")
+        self.refused("lamps.json:11", "'jvm.home' is refused", "--trust-jvm")
+        self.refused("/nowhere/jdk", arguments=("--trust-jvm",))
+
+    def test_a_jvm_option_that_writes_a_file_needs_trust(self):
+        target = self.path("written.log")
+        self.change("lamps.json", '"-Xss2m"', f'"-Xlog:gc*:file={target}"')
+        self.refused("lamps.json:11", "'jvm.flags[0]'", "-Xlog:gc*:file=", "--trust-jvm")
+        self.assertFalse(os.path.exists(target))
+        result = self.run_it("--trust-jvm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(os.path.exists(target))
 
     def test_a_jvm_option_that_is_wrong_is_shown(self):
         self.change("lamps.json", '"-Xss2m"', '"-Xss2m", "-XX:+UseNonesuchGC"')

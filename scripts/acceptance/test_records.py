@@ -1,9 +1,26 @@
 """Recorded runs are replayed and compared."""
 import os
+import struct
+import zlib
 
 import pytest
 from command import Project, collektive, last_error
 from places import ROOT
+
+
+def with_another_jar(record):
+    """The record with another date on the first entry of its jar, as if it were compiled elsewhere."""
+    at, data = record.index(b"PK\3\4"), bytearray(record)
+    data[at + 10] ^= 1
+    # Magic and version, then chunks: kind, length, checksum, payload (docs/record-format.md).
+    chunk = 8
+    while True:
+        length, = struct.unpack_from("<I", data, chunk + 4)
+        if at < chunk + 12 + length:
+            checksum = zlib.crc32(data[chunk + 12:chunk + 12 + length], zlib.crc32(data[chunk:chunk + 8]))
+            struct.pack_into("<I", data, chunk + 8, checksum)
+            return bytes(data)
+        chunk += 12 + length
 
 
 class Records(Project):
@@ -40,6 +57,24 @@ class Records(Project):
         result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("tick 1: input of node 9, nodesAdded: present in A, absent in B", result.stdout)
+
+    def test_programs_that_never_ran_here_are_replayed_only_with_trust(self):
+        elsewhere = self.path("elsewhere.clkrec")
+        with open(self.a, "rb") as file:
+            data = file.read()
+        # The same record with another jar: its name, and so its length, stays; an entry of it has another date.
+        with open(elsewhere, "wb") as file:
+            file.write(with_another_jar(data))
+        result = collektive("replay", elsewhere)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("contains programs that were never run here", last_error(result))
+        self.assertIn("--trust", last_error(result))
+        self.assertNotIn("ticks replayed", result.stdout)
+        result = collektive("replay", elsewhere, "--trust")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks replayed", result.stdout)
+        result = collektive("replay", elsewhere, "--programs", self.programs_jar())
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self):
         with open(self.a, "rb") as file:

@@ -8,9 +8,9 @@ namespace Collektive.Headless
     internal sealed class Options
     {
         internal const string Usage =
-            "Player plan SCENARIO [--folder DIR]\n" +
+            "Player plan SCENARIO [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
-            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR]\n" +
+            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -30,6 +30,9 @@ namespace Collektive.Headless
         /// <summary>Where the scenario's relative paths start; null: where the file says.</summary>
         internal string Folder { get; private set; }
 
+        /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>
+        internal bool TrustJvm { get; private set; }
+
         internal string Template { get; private set; }
 
         /// <summary>File of a flight recording of the whole run; null for none.</summary>
@@ -47,6 +50,12 @@ namespace Collektive.Headless
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {
+                if (arguments[i] == "--trust-jvm")
+                {
+                    options.TrustJvm = true;
+                    i--;
+                    continue;
+                }
                 if (i + 1 == arguments.Length) throw new ScenarioException(arguments[i] + " needs a value");
                 options.Set(arguments[i], arguments[i + 1]);
             }

@@ -37,7 +37,7 @@ namespace Collektive.Headless
             try
             {
                 var options = Options.Parse(arguments);
-                var scenario = Scenario.Read(options.Scenario, options.Folder);
+                var scenario = Scenario.Read(options.Scenario, options.Folder, options.TrustJvm);
                 if (options.Command == "plan")
                 {
                     Plan(scenario);

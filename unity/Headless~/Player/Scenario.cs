@@ -32,7 +32,7 @@ namespace Collektive.Headless
 
         private readonly JObject root;
 
-        private Scenario(JsonFile file, string path, JObject root, string folder)
+        private Scenario(JsonFile file, string path, JObject root, string folder, bool trustsJvm)
         {
             this.root = root;
             file.RefuseUnknown(root, "", OwnKeys.Concat(Shared.Select(field => field.Name)));
@@ -49,7 +49,7 @@ namespace Collektive.Headless
             Seconds = file.Required<double>(root, "seconds");
             file.Required<string>(root, nameof(SimulationSettings.program));
             file.Fill(Settings, Shared, root, "");
-            Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder);
+            Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder, trustsJvm);
             var outputs = file.Optional(root, "outputs", new JObject());
             file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "replay", "pictures", "record" });
             Metrics = file.Optional(outputs, "metrics", true);
@@ -101,19 +101,20 @@ namespace Collektive.Headless
 
         /// <param name="path">A scenario file, or the manifest of a run.</param>
         /// <param name="folder">Where relative paths start; null: at the file, and for a manifest where they did in its run.</param>
-        internal static Scenario Read(string path, string folder)
+        /// <param name="trustsJvm">Whether the file's JVM settings may write files, open ports and load code.</param>
+        internal static Scenario Read(string path, string folder, bool trustsJvm)
         {
             var file = JsonFile.Read(path);
             path = System.IO.Path.GetFullPath(path);
             if (!(file.Root[FormerRun.ScenarioKey] is JObject run))
             {
-                return new Scenario(file, path, file.Root, System.IO.Path.GetFullPath(folder ?? System.IO.Path.GetDirectoryName(path)));
+                return new Scenario(file, path, file.Root, System.IO.Path.GetFullPath(folder ?? System.IO.Path.GetDirectoryName(path)), trustsJvm);
             }
             var former = new FormerRun(file, path);
             folder = System.IO.Path.GetFullPath(folder ?? former.Folder);
             if (!Directory.Exists(folder))
                 throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
-            return new Scenario(file, path, run, folder) { Former = former };
+            return new Scenario(file, path, run, folder, trustsJvm) { Former = former };
         }
 
         /// <summary>Takes what the command line says instead of the file.</summary>
@@ -171,7 +172,7 @@ namespace Collektive.Headless
 
         private static string Text(double number) => number.ToString("G6", System.Globalization.CultureInfo.InvariantCulture);
 
-        private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder)
+        private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder, bool trusted)
         {
             var settings = new JvmSettings();
             file.RefuseUnknown(root, "jvm.", JvmSetting.All.Select(setting => setting.Key));
@@ -184,7 +185,30 @@ namespace Collektive.Headless
                 setting.Set(settings, isFolder ? System.IO.Path.Combine(folder, (string)value) : value);
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
+            if (!trusted) RefuseHarmful(file, root, settings);
             return settings;
+        }
+
+        /// <summary>A scenario file may come from anybody: what its settings of the JVM do to this machine is the user's decision.</summary>
+        private static void RefuseHarmful(JsonFile file, JObject root, JvmSettings settings)
+        {
+            const string advice = "; add --trust-jvm if you trust the file, or remove it";
+            if (settings.home.Length > 0)
+                throw file.Error(root[nameof(settings.home)], "'jvm.home' is refused, as it runs the JVM of a folder that the file names" + advice);
+            if (settings.debugPort != 0)
+            {
+                throw file.Error(
+                    root[nameof(settings.debugPort)],
+                    "'jvm.debugPort' is refused, as whoever reaches a debugger's port, any user of this machine, runs code of his own" + advice);
+            }
+            for (var i = 0; i < settings.flags.Count; i++)
+            {
+                if (HarmlessFlags.Contains(settings.flags[i])) continue;
+                throw file.Error(
+                    root[nameof(settings.flags)],
+                    "'jvm.flags[" + i + "]', " + settings.flags[i] + ", is refused: it is none of the flags that neither write files nor open ports nor load code"
+                        + advice);
+            }
         }
 
         private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)

@@ -66,11 +66,99 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Assert.Throws<ScenarioException>(() => Read(root)).Message, Is.StringContaining(message));
         }
 
-        private Scenario Read(JObject root)
+        [TestCase("-Xmx1g")]
+        [TestCase("-XX:+UseZGC")]
+        [TestCase("-XX:-OmitStackTraceInFastThrow")]
+        [TestCase("-XX:CompileThresholdScaling=0.5")]
+        [TestCase("-XX:MaxGCPauseMillis=5")]
+        [TestCase("-XX:NativeMemoryTracking=summary")]
+        [TestCase("-Xlog:gc*=debug")]
+        [TestCase("-Xlog:gc+heap,safepoint:stderr:uptime,tags")]
+        [TestCase("-verbose:gc")]
+        [TestCase("-ea:org.example...")]
+        [TestCase("-Dexample.size=3")]
+        [TestCase("--add-opens=java.base/java.lang=ALL-UNNAMED")]
+        public void A_flag_that_does_nothing_to_the_machine_is_accepted(string flag) => Assert.That(ReadWith(flag, false).Jvm.flags, Has.Member(flag));
+
+        [TestCase("-Xlog:gc:file=/home/me/thesis.tex")]
+        [TestCase("-Xlog:gc:/home/me/thesis.tex")]
+        [TestCase("-Xlog:gc:stdout/../x")]
+        [TestCase("-Xlog::file=x")]
+        [TestCase("-Xloggc:x")]
+        [TestCase("-XX:LogFile=x")]
+        [TestCase("-XX:LogFile=7")]
+        [TestCase("-XX:+LogVMOutput")]
+        [TestCase("-XX:+LogCompilation")]
+        [TestCase("-XX:DumpLoadedClassList=x")]
+        [TestCase("-Xshare:dump")]
+        [TestCase("-XX:SharedArchiveFile=x")]
+        [TestCase("-XX:ArchiveClassesAtExit=x")]
+        [TestCase("-XX:+DynamicDumpSharedSpaces")]
+        [TestCase("-XX:+AutoCreateSharedArchive")]
+        [TestCase("-XX:AOTCacheOutput=x")]
+        [TestCase("-XX:AOTConfiguration=x")]
+        [TestCase("-XX:AOTCache=x")]
+        [TestCase("-XX:StartFlightRecording")]
+        [TestCase("-XX:StartFlightRecording=filename=x")]
+        [TestCase("-XX:FlightRecorderOptions=repository=x")]
+        [TestCase("-XX:+HeapDumpOnOutOfMemoryError")]
+        [TestCase("-XX:HeapDumpPath=x")]
+        [TestCase("-XX:ErrorFile=x")]
+        [TestCase("-XX:ReplayDataFile=x")]
+        [TestCase("-XX:CompileCommandFile=x")]
+        [TestCase("-XX:CompilerDirectivesFile=x")]
+        [TestCase("-XX:+PerfDataSaveToFile")]
+        [TestCase("-XX:PerfDataSaveFile=x")]
+        [TestCase("-XX:+DumpPerfMapAtExit")]
+        [TestCase("-XX:AllocateHeapAt=x")]
+        [TestCase("-XX:+ManagementServer")]
+        [TestCase("-XX:+StartAttachListener")]
+        [TestCase("-XX:+EnableJVMCI")]
+        [TestCase("-XX:+PauseAtStartup")]
+        [TestCase("-Djdk.internal.lambda.dumpProxyClasses=x")]
+        [TestCase("-Djava.library.path=x")]
+        [TestCase("-Dcom.sun.management.jmxremote.port=1")]
+        [TestCase("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005")]
+        [TestCase("-agentpath:/tmp/x.so")]
+        [TestCase("-javaagent:x.jar")]
+        [TestCase("-Xrunhprof")]
+        [TestCase("-Xbootclasspath/a:x.jar")]
+        [TestCase("--patch-module=java.base=x")]
+        [TestCase("--module-path=x")]
+        [TestCase("-Xmx1g\n-XX:LogFile=x")]
+        [TestCase("-XX:SomethingOfTheNextRelease=x")]
+        public void A_flag_that_may_write_files_open_ports_or_load_code_needs_trust(string flag)
+        {
+            var message = Assert.Throws<ScenarioException>(() => ReadWith(flag, false)).Message;
+            Assert.That(message, Is.StringContaining("scenario.json:"));
+            Assert.That(message, Is.StringContaining("'jvm.flags[1]', " + flag + ", is refused"));
+            Assert.That(message, Is.StringContaining("--trust-jvm"));
+            Assert.That(ReadWith(flag, true).Jvm.flags, Has.Member(flag));
+        }
+
+        [TestCase("home", "\"jdk\"")]
+        [TestCase("debugPort", "5005")]
+        public void A_setting_of_the_jvm_that_opens_ports_or_runs_other_code_needs_trust(string key, string value)
+        {
+            var root = Minimal();
+            root["jvm"] = new JObject(new JProperty(key, JToken.Parse(value)));
+            var message = Assert.Throws<ScenarioException>(() => Read(root)).Message;
+            Assert.That(message, Is.StringContaining("'jvm." + key + "' is refused").And.StringContaining("--trust-jvm"));
+            Assert.That(Read(root, true), Is.Not.Null);
+        }
+
+        private Scenario ReadWith(string flag, bool trustsJvm)
+        {
+            var root = Minimal();
+            root["jvm"] = new JObject(new JProperty("flags", new JArray("-Xss2m", flag)));
+            return Read(root, trustsJvm);
+        }
+
+        private Scenario Read(JObject root, bool trustsJvm = false)
         {
             var path = Path.Combine(folder, "scenario.json");
             File.WriteAllText(path, root.ToString());
-            return Scenario.Read(path, null);
+            return Scenario.Read(path, null, trustsJvm);
         }
 
         private static JObject Minimal() => JObject.Parse(

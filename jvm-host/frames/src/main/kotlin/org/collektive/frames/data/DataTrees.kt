@@ -2,21 +2,39 @@ package org.collektive.frames.data
 
 import com.google.flatbuffers.reflection.BaseType
 import com.google.flatbuffers.reflection.Field
-import com.google.flatbuffers.reflection.Schema
 import com.google.flatbuffers.reflection.Type
 import org.collektive.frames.OFFSET_BYTES
+import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 import com.google.flatbuffers.reflection.Object as Composite
 
 /**
  * Reads any type of a schema by the binary form of the schema, for tools that compare or show data: structs and tables as maps from the
  * names of their fields, in the order of the schema, vectors as lists, an absent field as `null`. An absent vector is
- * empty, as for programs. The data must have passed a check.
+ * empty, as for programs. It needs no generated code, so none runs.
+ *
+ * @param binarySchema flatc's binary form of the schema.
+ * @throws org.collektive.frames.MalformedFrameException when that is damaged.
  */
-public class DataTrees private constructor(private val schema: Schema) {
-    /** Reads a [type], named with its namespace, at [position] of [frame]. */
+public class DataTrees(binarySchema: ByteArray) {
+    private val schema = BinarySchema(binarySchema)
+
+    /** Whether the schema defines [type], named with its namespace. */
+    public fun defines(type: String): Boolean = schema.find(type) != null
+
+    /**
+     * Makes a reader of the table `Sensors` or `Actuators` with elements of [type].
+     *
+     * @throws org.collektive.frames.MalformedFrameException when the schema does not define [type], or is damaged there.
+     */
+    public fun elements(type: String): ElementReader = schema.elements(type)
+
+    /** The layout of the table [type]; throws like [elements]. */
+    public fun table(type: String): TableLayout = schema.table(type)
+
+    /** Reads a [type], named with its namespace, at [position] of [frame]. The data must have passed the check of its layout. */
     public fun read(type: String, frame: ByteBuffer, position: Int): Map<String, Any?> =
-        read(checkNotNull(schema.objectsByKey(type)) { "the schema defines no $type" }, frame, position)
+        read(checkNotNull(schema.find(type)) { "the schema defines no $type" }, frame, position)
 
     private fun read(type: Composite, frame: ByteBuffer, position: Int): Map<String, Any?> =
         List(type.fieldsLength(), type::fields).sortedBy(Field::id).filter { !it.deprecated() }.associate { field ->
@@ -49,7 +67,7 @@ public class DataTrees private constructor(private val schema: Schema) {
     }
 
     private fun composite(type: Type, frame: ByteBuffer, at: Int): Any {
-        val composite = schema.objects(type.index())
+        val composite = schema.composite(type)
         return read(composite, frame, if (composite.isStruct) at else at + frame.getInt(at))
     }
 
@@ -87,11 +105,7 @@ public class DataTrees private constructor(private val schema: Schema) {
     private fun unsigned(frame: ByteBuffer, at: Int): Int = frame.getShort(at).toUShort().toInt()
 
     public companion object {
-        /** The trees of [schema], whose binary form lies in the jar of its code. */
-        public fun of(schema: DataSchema): DataTrees {
-            val resource = "META-INF/collektive/${schema.name}.bfbs"
-            val stream = checkNotNull(schema.javaClass.getResourceAsStream("/$resource")) { "the jar of ${schema.name} holds no $resource" }
-            return DataTrees(Schema.getRootAsSchema(ByteBuffer.wrap(stream.use { it.readAllBytes() })))
-        }
+        /** The entry of a programs' jar that holds the binary form of the schema [name]. */
+        public fun entry(name: String): String = "META-INF/collektive/$name.bfbs"
     }
 }

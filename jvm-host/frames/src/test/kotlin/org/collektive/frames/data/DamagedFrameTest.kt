@@ -72,7 +72,7 @@ internal class DamagedFrameTest {
         } catch (e: MalformedFrameException) {
             return false
         }
-        val trees = DataTrees.of(schema)
+        val trees = trees(schema)
         for (i in 0 until reader.size) {
             GeneratedSchemas.unpacked(schema, schema.sensorType.name, reader.frame, reader.place(i))
             trees.read(schema.sensorType.name, reader.frame, reader.place(i))

@@ -30,7 +30,7 @@ internal class GeneratedCodeTest {
         val reader = schema.sensorReader()
         reader.attach(frame.buffer(), frame.position)
         reader.check()
-        val trees = DataTrees.of(schema)
+        val trees = trees(schema)
         val read = List(reader.size) { Objects.dump(trees.read(schema.sensorType.name, reader.frame, reader.place(it))) }
         assertEquals(frame.objects.map(Objects::dump), read)
     }
@@ -57,7 +57,7 @@ internal class GeneratedCodeTest {
         reader.attach(frame.buffer(), frame.position)
         reader.check()
         assertEquals(frame.objects.single().let { it.javaClass.getMethod("getGain").invoke(it) }, gain(reader.data))
-        val tree = DataTrees.of(schema).read(reader.data.javaClass.name, frame.buffer(), frame.position)
+        val tree = trees(schema).read(reader.data.javaClass.name, frame.buffer(), frame.position)
         assertEquals(Objects.dump(frame.objects.single()), Objects.dump(tree))
         assertNull(GeneratedSchemas.blocks.globalReader())
     }

@@ -23,7 +23,7 @@ internal object RoundTrip {
     private fun read(schema: DataSchema, file: File) {
         val sensors = schema.sensorReader()
         val globals = schema.globalReader()
-        val trees = DataTrees.of(schema)
+        val trees = trees(schema)
         var passed = 0
         var failed = 0
         DataInputStream(file.inputStream().buffered()).use { input ->

@@ -2,15 +2,36 @@ package org.collektive.host.programs
 
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
+import java.io.ByteArrayInputStream
 import java.io.IOException
 import java.nio.file.Files
 import java.nio.file.InvalidPathException
 import java.nio.file.NoSuchFileException
 import java.nio.file.Path
+import java.util.zip.ZipInputStream
 
 /** The bytes of a jar, and the path from which they were read. */
 public class JarBytes(public val path: String, public val bytes: ByteArray) {
+    /**
+     * The content of the entry [name]; `null` when there is none.
+     *
+     * @throws HostException when the jar is damaged, or the entry has more than 16 MiB.
+     */
+    public fun entry(name: String): ByteArray? = try {
+        ZipInputStream(ByteArrayInputStream(bytes)).use { zip ->
+            generateSequence(zip::getNextEntry).find { it.name == name }?.let { zip.readNBytes(MAX_ENTRY_BYTES + 1) }
+        }
+    } catch (e: IOException) {
+        throw damaged(e.message)
+    } catch (e: IllegalArgumentException) {
+        throw damaged(e.message)
+    }.also { if (it != null && it.size > MAX_ENTRY_BYTES) throw damaged("$name has more than $MAX_ENTRY_BYTES bytes") }
+
+    internal fun damaged(why: String?) = HostException(HostError.PROGRAM, "the jar $path is damaged ($why); build it again")
+
     public companion object {
+        private const val MAX_ENTRY_BYTES = 16 shl 20
+
         /**
          * Reads the jar at [path].
          *

@@ -1,6 +1,5 @@
 package org.collektive.host.programs
 
-import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import java.io.ByteArrayInputStream
 import java.io.IOException
@@ -23,19 +22,15 @@ public class ProgramJar private constructor(public val path: String, internal va
          * @throws HostException when the jar is damaged.
          */
         public fun open(jar: JarBytes): ProgramJar {
-            val path = jar.path
-            if (!hasEndRecord(jar.bytes)) throw damaged(path, "its end is missing")
+            if (!hasEndRecord(jar.bytes)) throw jar.damaged("its end is missing")
             return try {
-                ProgramJar(path, unzip(jar.bytes))
+                ProgramJar(jar.path, unzip(jar.bytes))
             } catch (e: IOException) {
-                throw damaged(path, e.message)
+                throw jar.damaged(e.message)
             } catch (e: IllegalArgumentException) {
-                throw damaged(path, e.message)
+                throw jar.damaged(e.message)
             }
         }
-
-        private fun damaged(path: String, why: String?) =
-            HostException(HostError.PROGRAM, "the jar $path is damaged ($why); build it again")
 
         private fun unzip(bytes: ByteArray): Map<String, ByteArray> {
             val entries = LinkedHashMap<String, ByteArray>()

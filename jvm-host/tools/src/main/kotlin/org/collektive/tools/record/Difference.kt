@@ -6,9 +6,6 @@ import org.collektive.frame.StepRequest
 import org.collektive.frames.FrameChecker
 import org.collektive.frames.FramePolicy
 import org.collektive.frames.MalformedFrameException
-import org.collektive.frames.data.DataSchema
-import org.collektive.frames.data.DataTrees
-import org.collektive.frames.data.ElementReader
 import org.collektive.frames.target
 import org.collektive.frames.tick.StepResponseReader
 import java.nio.ByteBuffer
@@ -33,10 +30,10 @@ internal class Difference(private val whose: String, private val field: String, 
             ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
 
         /** The first difference of two inputs of a tick, whatever the order of their changes. */
-        fun ofRequests(schema: DataSchema, left: ByteBuffer, right: ByteBuffer): Difference? {
+        fun ofRequests(types: RecordedTypes, left: ByteBuffer, right: ByteBuffer): Difference? {
             if (left == right) return null
-            val a = Request.read(schema, left)
-            val b = Request.read(schema, right)
+            val a = Request.read(types, left)
+            val b = Request.read(types, right)
             if (a == null || b == null) return Difference("", "the request", kind(a), kind(b))
             return ObjectDifference.first(a.frame, b.frame)
                 ?: ofNodes("sensors", a.sensors, b.sensors)
@@ -44,8 +41,8 @@ internal class Difference(private val whose: String, private val field: String, 
         }
 
         /** The first difference of two outputs of a tick. */
-        fun ofAnswers(schema: DataSchema, left: StepResponseReader, right: StepResponseReader): Difference? =
-            ofNodes("actuators", actuators(schema, left), actuators(schema, right))
+        fun ofAnswers(types: RecordedTypes, left: StepResponseReader, right: StepResponseReader): Difference? =
+            ofNodes("actuators", actuators(types, left), actuators(types, right))
                 ?: ObjectDifference.first(left.response.unpack(), right.response.unpack(), except = MEASURED)
 
         private fun kind(request: Request?) = if (request == null) "damaged" else "another"
@@ -55,21 +52,9 @@ internal class Difference(private val whose: String, private val field: String, 
                 ObjectDifference.first(left[node], right[node], whose = "node $node", field = field)
             }
 
-        private fun actuators(schema: DataSchema, answer: StepResponseReader): Map<Int, Any> {
+        private fun actuators(types: RecordedTypes, answer: StepResponseReader): Map<Int, Any> {
             val response = answer.response
-            val reader = schema.actuatorReader()
-            val places = places(reader, answer.frame, answer.actuators, response.nodesLength(), response::nodes)
-            val trees = DataTrees.of(schema)
-            return places.mapValues { (_, place) -> trees.read(schema.actuatorType.name, answer.frame, place) }
-        }
-
-        /** The places of the elements of the table `Sensors` or `Actuators` at [position], by node. */
-        private fun places(reader: ElementReader, frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Int> {
-            if (position == 0) return emptyMap()
-            reader.attach(frame, position)
-            reader.check()
-            if (reader.size != count) throw MalformedFrameException("there are data of ${reader.size} nodes for $count")
-            return (0 until count).associate { node(it) to reader.place(it) }
+            return types.actuators(answer.frame, answer.actuators, response.nodesLength(), response::nodes)
         }
     }
 
@@ -77,28 +62,18 @@ internal class Difference(private val whose: String, private val field: String, 
     private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
         companion object {
             /** Reads [bytes]; `null` when they are damaged: a record may contain a frame that the host refused. */
-            fun read(schema: DataSchema, bytes: ByteBuffer): Request? = try {
+            fun read(types: RecordedTypes, bytes: ByteBuffer): Request? = try {
                 val root = FrameChecker(FramePolicy.FRAME).checkRoot(bytes, FrameLayouts.STEP_REQUEST)
                 val request = StepRequest().__assign(root, bytes)
                 val sensors = target(bytes, root, FrameLayouts.STEP_REQUEST_SENSORS)
                 val globals = target(bytes, root, FrameLayouts.STEP_REQUEST_GLOBALS)
-                val trees = DataTrees.of(schema)
-                val places = places(schema.sensorReader(), bytes, sensors, request.dueLength(), request::due)
                 Request(
                     request.unpack(),
-                    places.mapValues { (_, place) -> trees.read(schema.sensorType.name, bytes, place) },
-                    globals(schema, trees, bytes, globals),
+                    types.sensors(bytes, sensors, request.dueLength(), request::due),
+                    types.globals(bytes, globals),
                 )
             } catch (_: MalformedFrameException) {
                 null
-            }
-
-            private fun globals(schema: DataSchema, trees: DataTrees, bytes: ByteBuffer, position: Int): Any? {
-                val reader = schema.globalReader()
-                if (position == 0 || reader == null) return null
-                reader.attach(bytes, position)
-                reader.check()
-                return trees.read(reader.data.javaClass.name, bytes, position)
             }
         }
     }

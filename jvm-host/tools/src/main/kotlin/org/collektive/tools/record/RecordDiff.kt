@@ -1,14 +1,10 @@
 package org.collektive.tools.record
 
-import org.collektive.frames.data.DataSchema
 import org.collektive.frames.session.types
 import org.collektive.host.programs.JarBytes
-import org.collektive.host.programs.ProgramJar
-import org.collektive.host.programs.ProgramLoader
-import org.collektive.host.programs.SchemaFinder
 import java.security.MessageDigest
 
-/** Finds the first difference of two records of one schema. */
+/** Finds the first difference of two records of one schema. Runs no code of their jars. */
 internal class RecordDiff(private val left: Record, private val right: Record, private val report: Report) {
     private val names = "A" to "B"
 
@@ -25,10 +21,10 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
         }
         val opened = ofOpen()
         opened?.let { report.line("opened differently: $it") }
-        return first(schema()) && opened == null
+        return first(RecordedTypes.of(left.settings.schema(), left.jars)) && opened == null
     }
 
-    private fun first(schema: DataSchema): Boolean {
+    private fun first(types: RecordedTypes): Boolean {
         var tick = 1L
         while (true) {
             val a = left.next()
@@ -39,7 +35,7 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
             }
             val difference = when {
                 a == null || b == null -> "the record ${if (a == null) "A" else "B"} ends after tick ${tick - 1}, the other goes on"
-                else -> ofSteps(schema, a, b)
+                else -> ofSteps(types, a, b)
             }
             if (difference != null) {
                 report.line("tick $tick: $difference")
@@ -55,8 +51,8 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
 
     private var lastDigest = 0L
 
-    private fun ofSteps(schema: DataSchema, a: RecordedStep, b: RecordedStep): String? {
-        Difference.ofRequests(schema, a.request, b.request)?.let { return "input of ${it.line(names)}" }
+    private fun ofSteps(types: RecordedTypes, a: RecordedStep, b: RecordedStep): String? {
+        Difference.ofRequests(types, a.request, b.request)?.let { return "input of ${it.line(names)}" }
         val x = a.answer
         val y = b.answer
         return when {
@@ -66,7 +62,7 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
 
             y == null -> "it failed in B (${b.failure}), and not in A"
 
-            else -> Difference.ofAnswers(schema, x, y)?.let { "output of ${it.line(names)}" }
+            else -> Difference.ofAnswers(types, x, y)?.let { "output of ${it.line(names)}" }
                 ?: if (x.response.digest() == y.response.digest()) null else "the digests differ, but no field does"
         }
     }
@@ -76,11 +72,6 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
         val a = left.jars.map(::sha256)
         val b = right.jars.map(::sha256)
         return if (a == b) null else "programs: SHA-256 ${a.joinToString()} in A, ${b.joinToString()} in B"
-    }
-
-    private fun schema(): DataSchema {
-        val jars = left.jars.map(ProgramJar::open)
-        return SchemaFinder.find(left.settings.schema(), left.settings.types, SchemaFinder.all(ProgramLoader(jars), jars), jars)
     }
 }
 

@@ -14,7 +14,10 @@ private const val DIFFERENT = 1
 private const val TROUBLE = 2
 
 /**
- * Runs `replay FILE [--programs JAR]...` or `diff A B` on a plain JVM, without Unity.
+ * Runs `replay FILE [--trust] [--own FOLDER]... [--programs JAR]...` or `diff A B` on a plain JVM, without Unity.
+ *
+ * `--own` names a folder with a file for each jar that the user has run, named by its SHA-256: `replay` runs the record's jars only if they
+ * are among them, or with `--trust`. `diff` never runs them.
  *
  * Exit code 0: no difference; 1: a difference; 2: a record or a jar cannot be used, or a record not to its end.
  */
@@ -31,7 +34,7 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
         when (arguments.firstOrNull()) {
             "replay" -> replay(arguments.drop(1), report)
             "diff" -> diff(arguments.drop(1), report)
-            else -> throw RecordRefused("usage: replay FILE [--programs JAR]... | diff A B")
+            else -> throw RecordRefused("usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... | diff A B")
         }
     } catch (e: RecordException) {
         trouble(messages, e)
@@ -46,15 +49,18 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
 
 private fun replay(arguments: List<String>, report: Report): Int {
     val file = arguments.firstOrNull() ?: throw RecordRefused("replay: name a record")
-    val jars = arguments.drop(1).chunked(2).map { option ->
-        if (option.first() != "--programs" || option.size < 2) {
+    val isTrusted = "--trust" in arguments
+    val options = (arguments.drop(1) - "--trust").chunked(2).map { option ->
+        if (option.first() !in setOf("--programs", "--own") || option.size < 2) {
             throw RecordRefused("replay: '${option.first()}' is no option, or lacks its value")
         }
-        JarBytes.read(option[1])
+        option.first() to option[1]
     }
+    val jars = options.filter { it.first == "--programs" }.map { JarBytes.read(it.second) }
     Record.open(path(file)).use { record ->
         report.line(describe(record))
         for (jar in jars) report.line("programs of ${jar.path}, SHA-256 ${sha256(jar)}")
+        if (jars.isEmpty() && !isTrusted) OwnPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
         return code(Replay(record, jars, report).run())
     }
 }
@@ -69,8 +75,10 @@ private fun diff(arguments: List<String>, report: Report): Int {
 private fun describe(record: Record): String {
     val settings = record.settings
     val jars = record.jars.joinToString { "${it.path.substringAfterLast('/').substringAfterLast('\\')} (SHA-256 ${sha256(it)})" }
-    return "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars; " +
+    val text = "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars; " +
         "recorded with ${record.head.trim().replace("\n", ", ")}"
+    // A record must not steer the terminal.
+    return text.map { if (it.isISOControl()) '?' else it }.joinToString("")
 }
 
 private fun path(name: String): Path = try {

@@ -14,17 +14,20 @@ import java.util.concurrent.TimeUnit
 /**
  * Runs the programs of a record, or others, on the recorded requests, and compares the answers with the recorded ones.
  *
- * @property programs jars to use instead of the record's; if empty, the record's are used.
+ * @param programs jars to use instead of the record's; if empty, the record's are used.
  */
-internal class Replay(private val record: Record, private val programs: List<JarBytes>, private val report: Report) : ShimCalls {
+internal class Replay(private val record: Record, programs: List<JarBytes>, private val report: Report) : ShimCalls {
     private var answer: ByteBuffer = ByteBuffer.allocate(FIRST_ANSWER_BYTES)
     private var ticks = 0L
     private var failedRounds = 0L
     private var recordedFailedRounds = 0L
 
+    private val jars = programs.ifEmpty { record.jars }
+    private val types by lazy { RecordedTypes.of(record.settings.schema(), jars) }
+
     /** Runs to the record's end. Returns whether every answer equals the recorded one. */
     fun run(): Boolean {
-        val session = SessionOpening.open(record.settings, programs.ifEmpty { record.jars }, this)
+        val session = SessionOpening.open(record.settings, jars, this)
         return try {
             run(session)
         } finally {
@@ -40,7 +43,7 @@ internal class Replay(private val record: Record, private val programs: List<Jar
                 val step = record.next() ?: break
                 val now = step(session, step)
                 if (isEqual) {
-                    val difference = difference(session, step, now)
+                    val difference = difference(step, now)
                     if (difference != null) {
                         isEqual = false
                         report.line("tick ${ticks + 1} is the first that differs. $difference")
@@ -75,7 +78,7 @@ internal class Replay(private val record: Record, private val programs: List<Jar
         }
     }
 
-    private fun difference(session: Session, step: RecordedStep, now: Any): String? {
+    private fun difference(step: RecordedStep, now: Any): String? {
         val then = step.answer
         return when {
             then == null -> if (now is StepResponseReader) "It failed in the record (${step.failure}), and not now" else null
@@ -85,7 +88,7 @@ internal class Replay(private val record: Record, private val programs: List<Jar
             then.response.digest() == now.response.digest() -> null
 
             else -> "Digest ${hex(then.response.digest())} in the record, ${hex(now.response.digest())} now. " +
-                (Difference.ofAnswers(session.schema, then, now)?.line("the record" to "the replay") ?: "No field of its answers differs")
+                (Difference.ofAnswers(types, then, now)?.line("the record" to "the replay") ?: "No field of its answers differs")
         }
     }
 

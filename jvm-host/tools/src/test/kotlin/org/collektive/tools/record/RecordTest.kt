@@ -16,9 +16,13 @@ import java.io.ByteArrayOutputStream
 import java.io.PrintStream
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
+import java.nio.file.FileSystems
 import java.nio.file.Files
 import java.nio.file.Path
 import java.util.zip.CRC32
+import kotlin.io.path.appendText
+import kotlin.io.path.deleteExisting
+import kotlin.io.path.deleteIfExists
 import kotlin.io.path.exists
 import kotlin.io.path.readBytes
 import kotlin.io.path.writeBytes
@@ -60,10 +64,14 @@ class RecordTest {
 
     private class Result(val code: Int, val results: String, val messages: String)
 
+    /** The tests trust their records, unless they name what is their own. */
+    private fun trust(arguments: Array<out Any>) =
+        if (arguments.firstOrNull() == "replay" && "--own" !in arguments) listOf("--trust") else emptyList()
+
     private fun run(vararg arguments: Any): Result {
         val results = ByteArrayOutputStream()
         val messages = ByteArrayOutputStream()
-        val code = records(arguments.map { it.toString() }, PrintStream(results), PrintStream(messages))
+        val code = records(arguments.map { it.toString() } + trust(arguments), PrintStream(results), PrintStream(messages))
         return Result(code, results.toString(), messages.toString())
     }
 
@@ -386,6 +394,70 @@ class RecordTest {
         }
         assertContains(refused("replay", changed), "type ")
         assertContains(refused("diff", file, changed), "different schemas")
+    }
+
+    @Test
+    fun `programs of somebody else run only with trust`() {
+        val jar = summing("sensors.value()")
+        val file = record(jar = jar)
+        val own = Files.createDirectory(folder.resolve("own"))
+        val refused = run("replay", file, "--own", own)
+        assertEquals(2, refused.code)
+        val hash = sha256(JarBytes.read(jar.toString()))
+        assertContains(refused.messages, "$file contains programs that were never run here (SHA-256 $hash)")
+        assertContains(refused.messages, "add --trust")
+        assertFalse("ticks replayed" in refused.results)
+        assertEquals(0, run("replay", file, "--own", own, "--trust").code)
+        assertEquals(0, run("replay", file, "--own", own, "--programs", jar).code)
+        Files.createFile(own.resolve(hash))
+        assertEquals(0, run("replay", file, "--own", own).code)
+    }
+
+    @Test
+    fun `a comparison runs no code of a record`() {
+        val ran = folder.resolve("ran")
+        val jar = ProbeJars.withClass(
+            """
+            package probe;
+            import org.collektive.frames.data.*;
+            public final class Bad implements DataSchema {
+              static { try { java.nio.file.Files.createFile(java.nio.file.Path.of("$ran")); } catch (java.io.IOException e) { throw new Error(e); } }
+              public String getName() { return "probe.Bad"; }
+              public java.util.Map<String, Long> getTypes() { return java.util.Map.of(); }
+              public Class<?> getSensorType() { return Bad.class; }
+              public Class<?> getActuatorType() { return Bad.class; }
+              public ElementReader sensorReader() { return null; }
+              public View sensorView() { return null; }
+              public ElementReader actuatorReader() { return null; }
+              public ActuatorWriter actuatorWriter() { return null; }
+              public GlobalReader globalReader() { return null; }
+              @org.collektive.api.Program(name = "sum")
+              public static ActuatorData sum(it.unibo.collektive.aggregate.api.Aggregate<Integer> aggregate, SensorData sensors) {
+                return new ActuatorData(sensors.value());
+              }
+            }
+            """.trimIndent(),
+        )
+        FileSystems.newFileSystem(jar).use { zip ->
+            zip.getPath("META-INF/services/org.collektive.frames.data.DataSchema").appendText("probe.Bad\n")
+        }
+        val file = record(jar = jar)
+        assertTrue(ran.deleteIfExists(), "the session has loaded the class")
+        val other = record("b", jar = jar) { if (tick == 3L) wind = 9f }
+        ran.deleteExisting()
+        val result = run("diff", file, other)
+        assertContains(result.results, "tick 3: input of globals: absent in A, present in B")
+        assertFalse(ran.exists(), "the comparison has loaded a class of the record")
+        assertEquals(2, run("replay", file, "--own", folder).code)
+        assertFalse(ran.exists(), "the refused replay has loaded a class of the record")
+    }
+
+    @Test
+    fun `a record cannot steer the terminal`() {
+        val jar = folder.resolve("\u001b[2Jhidden.jar")
+        Files.copy(ProbeJars.programs, jar)
+        val result = run("replay", record(jar = jar))
+        assertContains(result.results, "?[2Jhidden.jar")
     }
 
     /** A jar whose program "sum" returns [expression]. */

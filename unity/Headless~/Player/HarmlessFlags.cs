@@ -1,0 +1,37 @@
+using System.Linq;
+using System.Text.RegularExpressions;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// The flags of the JVM that can neither write a file, open a port nor load code, whatever else they do: those that a scenario file may set by itself.
+    /// A flag is harmful unless its form is known: new JVMs have new flags. Flags that endanger the process are the native library's matter.
+    /// </summary>
+    internal static class HarmlessFlags
+    {
+        private static readonly Regex[] Forms = new[]
+        {
+            @"-X(mx|ms|mn|ss)[0-9]+[kKmMgGtT]?",
+            @"-X(int|comp|mixed|batch|noclassgc|check:jni|share:(auto|on|off))",
+            @"-XX:-\w+",
+            @"-XX:\+(?!\w*(" + WritingSwitches + @"))\w+",
+            @"-XX:(?!\w*(" + NamesOfPlaces + @")=)\w+=-?[0-9]+(\.[0-9]+)?[kKmMgGtT]?",
+            @"-XX:(NativeMemoryTracking|DisableIntrinsic|ControlIntrinsic|ShenandoahGCHeuristics|ShenandoahGCMode)=[\w,+-]+",
+            @"-Xlog(:disable|(:[\w+*=,-]*(:(stdout|stderr)?(:\w*(,\w+)*)?)?)?)",
+            @"-verbose(:(gc|class|module|jni))?",
+            @"-(ea|da|enableassertions|disableassertions)(:[\w.$]+)?",
+            @"-(esa|dsa|enablesystemassertions|disablesystemassertions)",
+            @"-D(?!(java|javax|jdk|sun|com\.sun|org\.collektive)\.)[\w.-]+(=.*)?",
+            @"--(add-exports|add-opens|add-reads|enable-native-access|enable-final-field-mutation)=[\w.,/=-]+",
+            @"--(enable-preview|((illegal-(access|final-field-mutation|native-access))|sun-misc-unsafe-memory-access|finalization)=\w+)",
+        }.Select(form => new Regex("^(" + form + @")\z", RegexOptions.CultureInvariant | RegexOptions.Singleline)).ToArray();
+
+        /// <summary>Parts of the names of switches that make the JVM write files, listen, or load code.</summary>
+        private const string WritingSwitches = "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
+
+        /// <summary>Ends of the names of options whose value is a path, even when it looks like a number.</summary>
+        private const string NamesOfPlaces = "File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
+
+        internal static bool Contains(string flag) => Forms.Any(form => form.IsMatch(flag));
+    }
+}
