@@ -5,7 +5,7 @@ PYTHON="$BUILD/python/bin/python"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES] | bare [ROOT]...
+usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES] | fuzz schemas [MINUTES [SEED]] | bare [ROOT]...
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
 bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
@@ -16,6 +16,7 @@ bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADL
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
   --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
   fuzz        frames of any bytes against open, step and control, 5 minutes each or MINUTES; what it learns stays in build/fuzz
+  fuzz schemas  random schemas: each is refused with its line, or compiles on both sides and its data come through; 5 minutes or MINUTES
   bare        the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
               as root; one whose packages cannot be had is skipped
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. Results are read from the JUnit XML files of
@@ -28,7 +29,7 @@ cmd_test() {
   case ${1:-} in
     --faults) at_length faults_at_length "${*:2}" ;;
     --stress) stress_at_length ;;
-    fuzz) test_fuzz "${@:2}" ;;
+    fuzz) if [ "${2:-}" = schemas ]; then fuzz_schemas "${@:3}"; else test_fuzz "${@:2}"; fi ;;
     --exits | --sanitize)
       [ $# = 1 ] || fail "test: $1 takes no arguments"
       at_length "${1#--}_at_length"
@@ -254,6 +255,7 @@ test_roundtrip() {
   jdk=$(find_jdk)
   classes="$work:$modules/frames/target/test-classes:$HOST_JAR"
   build_roundtrip "$work"
+  export_fuzz "$jdk"
   ROUNDTRIP_CSHARP="$CSHARP/RoundTrip.exe" ROUNDTRIP_CLASSES="$classes" ROUNDTRIP_JAVA="$jdk/bin/java" python_tests "$1" "$ROOT/schema/test"
 }
 
@@ -273,6 +275,39 @@ build_roundtrip() {
     "$FLATC" --java --gen-object-api --gen-all --no-warnings --java-package-prefix objects -I "$ROOT/schema" -o "$1/generated" "$schema"
   done
   compile_jvm "$1/generated" "$1"
+}
+
+# export_fuzz JDK: what schema/test/fuzz.py needs. The suite jvm compiles it, or `test fuzz schemas`.
+export_fuzz() {
+  local modules="$ROOT/jvm-host"
+  export FUZZ_JAVA="$1/bin/java" FUZZ_FLATC="$FLATC"
+  export FUZZ_GENERATOR="$modules/generator/target/test-classes:$GENERATOR_JAR" FUZZ_FRAMES="$modules/frames/target/test-classes:$HOST_JAR"
+}
+
+# fuzz_schemas [MINUTES [SEED]]: batches of random schemas; what is found stays in build/fuzz/schemas/findings.
+fuzz_schemas() {
+  [[ ${1:-5} =~ ^[1-9][0-9]*$ && ${2:-1} =~ ^[0-9]+$ && $# -le 2 ]] || fail "test fuzz schemas: name whole minutes, and a seed (see ./collektive test --help)"
+  lock -x
+  setup_system
+  setup_python
+  setup_kotlin
+  build_native
+  package_jvm -q -pl host -am -DskipTests
+  build_csharp
+  lock -s
+  build_roundtrip "$BUILD/roundtrip"
+  export_fuzz "$(find_jdk)"
+  "$PYTHON" "$ROOT/schema/test/fuzz.py" "${1:-5}" ${2:+"$2"} || fail "test fuzz schemas: mend the defect and copy its schema to schema/test/corpus"
+}
+
+# compile_fuzzed FOLDER: both sides' code that schema/test/fuzz.py has generated there.
+compile_fuzzed() {
+  local folder=$1
+  (cd "$folder" && find csharp -name '*.cs' -printf '"'"$folder"'/%p"\n' | LC_ALL=C sort >sources.rsp)
+  csc "$folder/TestSchemas.dll" "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll" "@$folder/sources.rsp"
+  cp "$CSHARP"/{RoundTrip.exe,Collektive.FlatBuffers.dll,Collektive.Bridge.dll} "$folder"
+  mkdir -p "$folder/classes"
+  compile_jvm "$folder/jvm" "$folder/classes"
 }
 
 # The suites below use other commands, which lock build/ themselves.

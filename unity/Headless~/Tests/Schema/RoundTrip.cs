@@ -8,18 +8,23 @@ namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
     /// The C# half of <c>schema/test/test_roundtrip.py</c>: writes random sensor and global data for the JVM, and compares actuator
-    /// data that the JVM wrote. A file is a row of records: sensors, globals (-1 for none), count, frame, text; see Record.
+    /// data that the JVM wrote. A file for each of the schemas, which are separated by commas, is a row of records: sensors, globals (-1 for none), count, frame, text; see Record.
     /// </summary>
     internal static class RoundTrip
     {
         private static int Main(string[] arguments)
         {
-            var schema = (DataSchema)Activator.CreateInstance(Type.GetType(arguments[1] + ", TestSchemas", true));
-            if (arguments[0] == "write") return Write(schema, arguments[2], int.Parse(arguments[3]), int.Parse(arguments[4]));
-            return Read(schema, arguments[2]);
+            foreach (var name in arguments[1].Split(','))
+            {
+                var schema = (DataSchema)Activator.CreateInstance(Type.GetType(name + ", TestSchemas", true));
+                var file = arguments[2] + "." + name;
+                if (arguments[0] == "write") Write(schema, file, int.Parse(arguments[3]), int.Parse(arguments[4]));
+                else Read(schema, file);
+            }
+            return 0;
         }
 
-        private static int Write(DataSchema schema, string file, int records, int seed)
+        private static void Write(DataSchema schema, string file, int records, int seed)
         {
             var random = new RandomData(seed);
             var sensors = schema.CreateSensors();
@@ -48,7 +53,6 @@ namespace Collektive.Headless.Tests.Schema
                     Record(output, frame.Length - sensorOffset, globalOffset < 0 ? -1 : frame.Length - globalOffset, count, frame, text.ToString());
                 }
             }
-            return 0;
         }
 
         private static void Fill(SensorBuffer sensors, RandomData random, int count, StringBuilder text)
@@ -87,7 +91,7 @@ namespace Collektive.Headless.Tests.Schema
             return text.ToString();
         }
 
-        private static int Read(DataSchema schema, string file)
+        private static void Read(DataSchema schema, string file)
         {
             var actuators = schema.CreateActuators();
             var kept = new KeptAnswer[0];
@@ -124,7 +128,6 @@ namespace Collektive.Headless.Tests.Schema
                 }
             }
             Console.WriteLine(schema.Name + ": Kotlin to C#: " + passed + " passed, " + failed + " failed");
-            return 0;
         }
     }
 }

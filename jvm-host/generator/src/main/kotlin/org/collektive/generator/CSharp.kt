@@ -283,8 +283,11 @@ internal class CSharp(private val schema: UserSchema) {
         return if (name in TAKEN || name == type || name in makers) "${name}_" else name
     }
 
-    private fun documentation(text: String, kind: String, name: String): String =
-        if (text.isEmpty()) "$kind <c>$name</c>." else text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    private fun documentation(text: String, kind: String, name: String): String = if (text.isEmpty()) {
+        "$kind <c>$name</c>."
+    } else {
+        SchemaText.withoutLineEnds(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    }
 
     companion object {
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")

@@ -39,7 +39,20 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         val process = ProcessBuilder(command).redirectErrorStream(true).start()
         process.outputStream.close()
         val messages = process.inputStream.bufferedReader().readText().trim()
-        if (process.waitFor() != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n$messages")
+        val code = process.waitFor()
+        if (code >
+            SIGNAL
+        ) {
+            throw GeneratorException(
+                "${schema.fileName}:1: flatc cannot read this file: it ended with signal ${code - SIGNAL}; make it simpler",
+            )
+        }
+        if (code != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n$messages")
         if (messages.isNotEmpty()) System.err.println(messages)
+    }
+
+    private companion object {
+        /** The exit code of a process that a signal ended is this and the signal's number. */
+        const val SIGNAL = 128
     }
 }

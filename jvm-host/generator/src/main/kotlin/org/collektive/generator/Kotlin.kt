@@ -49,7 +49,7 @@ internal class Kotlin(private val schema: UserSchema) {
         "fields" to type.fields.map { mapOf("member" to member(it), "type" to kotlin(type, it), "default" to default(type, it)) },
     )
 
-    private fun documentation(text: String) = text.replace("*/", "*&#47;")
+    private fun documentation(text: String) = SchemaText.withoutLineEnds(text).replace("*/", "*&#47;").replace("/*", "/&#42;")
 
     private fun kotlin(owner: Composite, field: Field): String = kotlin(field.type) + if (isNullable(owner, field)) "?" else ""
 
@@ -245,14 +245,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun value(type: Composite): String = if (type === schema.actuator) "${type.name}" else "${type.name}Value"
 
-    private fun member(field: Field): String = lowerCamel(field.name).let { if (it in keywords) "`$it`" else it }
+    private fun member(field: Field): String = lowerCamel(field.name).let { if (it in Words.kotlin) "`$it`" else it }
 
     private fun constant(type: TableType): String = "LAYOUT_${type.name.toString().replace('.', '_').uppercase()}"
-
-    private companion object {
-        val keywords = setOf(
-            "as", "break", "class", "continue", "do", "else", "false", "for", "fun", "if", "in", "interface", "is", "null", "object",
-            "package", "return", "super", "this", "throw", "true", "try", "typealias", "typeof", "val", "var", "when", "while",
-        )
-    }
 }

@@ -43,11 +43,13 @@ private fun generate(arguments: Arguments, work: Path) {
     }
     if (arguments.csharp == null && arguments.jvm == null) return
     val schema = reader.read()
+    val copies = HarmlessCopies(reader.files, include.resolve(CORE_TYPES), work)
+    val harmless = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
 
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)
         val csharp = CSharp(schema)
-        reader.files.forEach { flatc.csharp(it, work.resolve("csharp")) }
+        reader.files.forEach { harmless.csharp(copies.of(it), work.resolve("csharp")) }
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.defineSymbols(text) else null }
         for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
@@ -56,29 +58,15 @@ private fun generate(arguments: Arguments, work: Path) {
     arguments.jvm?.let { folder ->
         val output = OutputFolder(folder)
         val kotlin = Kotlin(schema)
-        reader.files.forEach { flatc.java(it, work.resolve("java")) }
+        reader.files.forEach { harmless.java(copies.of(it), work.resolve("java")) }
         // Programs only write the actuator data.
         output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
         for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
         output.write("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
-        output.write("META-INF/collektive/${schema.name}.bfbs", portable(reader, file, include, arguments.flatc.toAbsolutePath(), work))
+        harmless.binarySchema(copies.of(file), work.resolve("portable"))
+        output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
         output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.kt") }
     }
-}
-
-/** The binary form of the schema, which names the files of the schema by their places relative to each other, not on this machine. */
-private fun portable(reader: SchemaReader, file: Path, include: Path, flatc: Path, work: Path): ByteArray {
-    val root = reader.files.map(Path::getParent).reduce { a, b -> generateSequence(a, Path::getParent).first(b::startsWith) }
-    fun copied(source: Path) = work.resolve("schema").resolve(root.relativize(source).toString()).also {
-        Files.createDirectories(it.parent)
-        Files.copy(source, it)
-    }
-    reader.files.filter { it != file }.forEach { copied(it) }
-    val copy = copied(file)
-    val core = Files.createDirectories(work.resolve("core"))
-    Files.copy(include.resolve(CORE_TYPES), core.resolve(CORE_TYPES))
-    Flatc(flatc, listOf(core, copy.parent)).binarySchema(copy, work.resolve("portable"))
-    return Files.readAllBytes(work.resolve("portable").resolve(binary(file)))
 }
 
 private const val SERVICES = "META-INF/services/org.collektive.frames.data.DataSchema"

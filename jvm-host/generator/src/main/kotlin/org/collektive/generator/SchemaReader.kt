@@ -3,7 +3,6 @@ package org.collektive.generator
 import com.google.flatbuffers.reflection.BaseType
 import com.google.flatbuffers.reflection.Schema
 import java.nio.ByteBuffer
-import java.nio.file.Files
 import java.nio.file.Path
 import com.google.flatbuffers.reflection.Enum as BinaryEnum
 import com.google.flatbuffers.reflection.Field as BinaryField
@@ -21,15 +20,24 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         .map { plain(schema.fbsFiles(it).filename()) }
         .filter { it != core }
 
+    private val texts by lazy { files.associateWith(SchemaText::read) }
+
+    /** How many types that contain each other are being read. */
+    private var nesting = 0
+
     fun read(): UserSchema {
+        checkFile()
         files.forEach(::checkNumbers)
         val sensor = root("SensorData") ?: throw missing("SensorData")
         val actuator = root("ActuatorData") ?: throw missing("ActuatorData")
         val global = root("GlobalData")
         if (sensor.name.namespace != actuator.name.namespace) {
-            throw error("SensorData lies in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one")
+            throw error(
+                "SensorData lies in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one",
+                "${actuator.name}",
+            )
         }
-        if (global != null && global !is TableType) throw error("GlobalData is a struct: make it a table")
+        if (global != null && global !is TableType) throw error("make it a table", global.name.toString())
         val reached = composites.values.sortedBy { it.name.toString() }
         val user = UserSchema(
             file.fileName.toString(),
@@ -42,7 +50,10 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             enums.values,
         )
         checkRoots(user)
-        checkGeneratedNames(user)
+        checkVisible()
+        checkExtent(user)
+        val made = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
+        NameRules(schema, { plain(it) in files }) { name, what -> throw error(what, name) }.check(made)
         return user
     }
 
@@ -55,7 +66,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     /** Rejects numbers that do not fit 64 bits with a sign: flatc's binary schema silently replaces them by 0. */
     private fun checkNumbers(source: Path) {
-        for ((index, line) in Files.readAllLines(source).withIndex()) {
+        for ((index, line) in texts.getValue(source).harmless.lines().withIndex()) {
             for (match in number.findAll(line.substringBefore("//"))) {
                 val text = match.groupValues[1]
                 val value = if (text.startsWith("0x", ignoreCase = true)) text.drop(2).toBigInteger(16) else text.toBigInteger()
@@ -68,7 +79,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private fun root(name: String): Composite? {
         val found = objects().filter { simple(it.second.name()) == name }
-        if (found.size > 1) throw error("$name is defined twice: ${found.joinToString(" and ") { it.second.name() }}")
+        if (found.size >
+            1
+        ) {
+            throw error("$name is defined twice: ${found.joinToString(" and ") { it.second.name() }}", found[1].second.name())
+        }
         return found.firstOrNull()?.let { composite(it.first) }
     }
 
@@ -90,36 +105,30 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             TableType(name, documentation, slots(name, sources))
         }
         composites[index] = type
+        if (nesting == MAX_DEPTH) throw error(TOO_DEEP, source.name())
+        nesting++
         type.fields = sources.filter { !it.deprecated() }.map { field(source, it) }
+        nesting--
         if (type is StructType) checkLayout(type)
         return type
     }
 
     private fun slots(table: TypeName, fields: List<BinaryField>): Int {
         val slots = (fields.maxOfOrNull { it.id() } ?: -1) + 1
-        if (slots >
-            MAX_SLOTS
-        ) {
-            throw error("${table.simple}: it has $slots fields, more than $MAX_SLOTS; put some into a table of their own")
-        }
+        if (slots > MAX_SLOTS) throw error("it has $slots fields, more than $MAX_SLOTS; put some into a table of their own", "$table")
         return slots
     }
 
-    private fun field(owner: BinaryObject, source: BinaryField): Field {
-        if (upperCamel(source.name()) in reservedMembers) {
-            throw unsupported(owner, source.name(), "C# or Java has a member of this name in every class; rename the field")
-        }
-        return Field(
-            source.name(),
-            type(owner, source),
-            source.id(),
-            source.offset(),
-            Default(source.defaultInteger(), source.defaultReal()),
-            source.optional() && scalar(source.type().baseType()) != null,
-            source.required(),
-            lines(source.documentationLength(), source::documentation),
-        )
-    }
+    private fun field(owner: BinaryObject, source: BinaryField): Field = Field(
+        source.name(),
+        type(owner, source),
+        source.id(),
+        source.offset(),
+        Default(source.defaultInteger(), source.defaultReal()),
+        source.optional() && scalar(source.type().baseType()) != null,
+        source.required(),
+        lines(source.documentationLength(), source::documentation),
+    )
 
     private fun type(owner: BinaryObject, field: BinaryField): Type {
         val type = field.type()
@@ -181,7 +190,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
                 is Scalar -> fieldType.bytes to fieldType.bytes
                 is EnumType -> fieldType.underlying.bytes to fieldType.underlying.bytes
                 is StructType -> fieldType.bytes to fieldType.alignment
-                else -> throw error("${type.name.simple}.${field.name}: structs hold only scalars, enums and structs")
+                else -> throw error("structs hold only scalars, enums and structs", "${type.name}.${field.name}")
             }
             end = aligned(end, alignment)
             if (end != field.offset) break
@@ -189,7 +198,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             largest = maxOf(largest, alignment)
         }
         if (aligned(end, largest) != type.bytes || largest != type.alignment) {
-            throw error("${type.name.simple}: force_align is not supported; remove it")
+            throw error("force_align is not supported; remove it", "${type.name}")
         }
     }
 
@@ -200,45 +209,110 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
                 val part = (field.type as? VectorType)?.element ?: field.type
                 if (part in user.roots) {
                     val name = (part as Composite).name.simple
-                    throw error("${type.name.simple}.${field.name}: $name cannot be part of a type; use a type of its own")
+                    throw error("$name cannot be part of a type; use a type of its own", "${type.name}.${field.name}")
                 }
             }
         }
     }
 
-    /** Generated types share a namespace with flatc's, so their names must differ. */
-    private fun checkGeneratedNames(user: UserSchema) {
-        val taken = objects().map { it.second.name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
-        val made = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
-        taken.intersect(made.toSet()).firstOrNull()?.let {
-            throw error("${simple(it)} is a name that the generator gives; rename the type")
+    /** The schema's class is named after the file, and its binary form for flatc carries a name of four letters at most. */
+    private fun checkFile() {
+        if (!fileName.matches(file.fileName.toString())) {
+            throw error(
+                "the schema's class is named after its file: begin the file's name with a letter, and use letters of ASCII, digits, _ and -",
+            )
+        }
+        val identifier = schema.fileIdent().orEmpty()
+        if (!identifier.all { it in 'A'..'Z' || it in 'a'..'z' || it in '0'..'9' }) {
+            throw error("the file_identifier has other characters than letters and digits of ASCII; correct or remove it")
+        }
+    }
+
+    /** Code of types that others cannot see does not compile beside code of types that others can see. */
+    private fun checkVisible() {
+        for (type in objects().map { it.second }) {
+            if (type.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", type.name())
+        }
+        for (enum in (0 until schema.enumsLength()).map(schema::enums)) {
+            if (enum.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", enum.name())
+        }
+    }
+
+    /** Types can contain each other in so many ways, or have so many fields, that code about all of them has no end or no room. */
+    private fun checkExtent(user: UserSchema) {
+        var ways = 0
+        fun visit(type: Composite, outer: List<Composite>) {
+            if (outer.size > MAX_DEPTH) throw error(TOO_DEEP, "${type.name}")
+            for (field in type.fields) {
+                if (++ways >
+                    MAX_WAYS
+                ) {
+                    throw error(
+                        "types contain each other in more than $MAX_WAYS ways; use fewer or flatter ones",
+                        "${outer.first().name}",
+                    )
+                }
+                val part = (field.type as? VectorType)?.element ?: field.type
+                if (part is Composite && part !in outer) visit(part, outer + part)
+            }
+        }
+        for (root in user.roots) visit(root, listOf(root))
+        for (struct in user.structs) {
+            if (slots(struct) >
+                MAX_PARAMETERS
+            ) {
+                throw error("it has more numbers than a call can pass, $MAX_PARAMETERS; use a table", "${struct.name}")
+            }
+        }
+        val fields = user.tables.sumOf { it.fields.size }
+        if (fields > MAX_FIELDS) throw error("its tables have $fields fields, more than $MAX_FIELDS; leave some out")
+    }
+
+    /** How many parameters of the JVM the numbers of a struct are; those of 64 bits count twice. */
+    private fun slots(struct: StructType): Int = struct.fields.sumOf { field ->
+        when (val type = field.type) {
+            is StructType -> slots(type)
+            is Scalar -> if (type.bytes == Long.SIZE_BYTES || type == Scalar.UINT) 2 else 1
+            is EnumType -> 2
+            else -> 1
         }
     }
 
     private fun objects() = (0 until schema.objectsLength()).map { it to schema.objects(it) }
 
     private fun name(full: String): TypeName {
-        if ('.' !in full) throw error("$full lies in no namespace; write `namespace yours;` before the first type of its file")
+        if ('.' !in full) throw error("it lies in no namespace; write `namespace yours;` before the first type of its file", full)
         return TypeName(full.substringBeforeLast('.'), simple(full))
     }
 
-    private fun unsupported(owner: BinaryObject, field: String, what: String): GeneratorException {
-        val place = plain(owner.declarationFile()).fileName
-        return GeneratorException("$place: ${simple(owner.name())}.$field: $what")
-    }
+    private fun unsupported(owner: BinaryObject, field: String, what: String): GeneratorException = error(what, "${owner.name()}.$field")
 
-    private fun error(what: String) = GeneratorException("${file.fileName}: $what")
+    /** An error about the type or field [name], or about the whole schema. */
+    private fun error(what: String, name: String = ""): GeneratorException {
+        if (name.isEmpty()) return GeneratorException("${file.fileName}:1: $what")
+        val isType = (0 until schema.objectsLength()).any { schema.objects(it).name() == name } ||
+            (0 until schema.enumsLength()).any { schema.enums(it).name() == name }
+        val shown = if (isType) simple(name) else name.split('.').takeLast(2).joinToString(".")
+        val place = texts.firstNotNullOfOrNull { (file, text) -> text.lineOf(name)?.let { "${file.fileName}:$it" } } ?: "${file.fileName}:1"
+        return GeneratorException("$place: $shown: $what")
+    }
 
     private companion object {
         /** The bridge stores the absence of fields in a 64-bit mask. */
         const val MAX_SLOTS = 64
         const val UNION = "unions are not supported; use one optional table field for each case"
 
-        /** Field names with which flatc's code does not compile. */
-        val reservedMembers = setOf(
-            "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
-            "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer",
-        )
+        /** As `FrameChecker` reads frames. */
+        const val MAX_DEPTH = 64
+        const val TOO_DEEP = "types contain each other more than $MAX_DEPTH deep, and no frame is read deeper; use fewer levels"
+        const val MAX_WAYS = 20_000
+
+        /** A constructor of Java has 255 parameters, some of which Kotlin takes. */
+        const val MAX_PARAMETERS = 240
+
+        /** The layouts of all tables are made by one method of Java, which has 64 KB at most. */
+        const val MAX_FIELDS = 3000
+        val fileName = Regex("[A-Za-z][A-Za-z0-9_. -]*")
 
         /** A default or enum value, decimal or hexadecimal. */
         val number = Regex("""=\s*\+?(0[xX][0-9a-fA-F]+|[0-9]+)\b(?![.eE])""")

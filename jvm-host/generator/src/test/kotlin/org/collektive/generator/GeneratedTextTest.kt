@@ -80,6 +80,28 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `no comment of a schema can become code`() {
+        val ends = listOf("*/ int x;", "\\u002a\\u002f int x;", "/ int x;", "C:\\users", "/* int x;", "*") +
+            listOf('\u2028', '\u0085', '\u000c').map { "a${it}int x;" }
+        val comments = ends.joinToString("") { "///$it\n" }
+        val output = Workshop.generate(
+            "namespace a;\n$comments enum E : byte {\n$comments A }\n$comments struct P {\n$comments y: int; }\n" +
+                "$comments table SensorData {\n$comments x: P; e: E; }\n$comments table ActuatorData {\n$comments x: P; e: E; }",
+        )
+        for ((path, bytes) in texts(output)) {
+            val text = bytes.toByteArray(Charsets.ISO_8859_1).decodeToString()
+            if (path.endsWith(".java")) assertFalse('\\' in text, path)
+            if (path.endsWith(".bfbs")) continue
+            val code = text.lines().filter {
+                !it.trim().startsWith("///")
+            }.joinToString("\n").replace(Regex("/\\*.*?\\*/", RegexOption.DOT_MATCHES_ALL), "")
+            for (word in listOf("int x;", "users")) assertFalse(word in code, "$path\n$text")
+            assertFalse(Regex("[\u0085\u2028\u2029\u000c]") in text, path)
+            if (!path.endsWith(".cs")) assertEquals(text.split("/*").size, text.split("*/").size, path)
+        }
+    }
+
+    @Test
     fun `an unchanged file keeps its modification time`() {
         val output = Workshop.newFolder()
         val schema = Workshop.testSchemas.resolve("globals.fbs")

@@ -13,7 +13,7 @@ internal class RefusalTest {
     @Test
     fun `a schema without one of the two types is refused, and the message lists its types`() {
         assertEquals(
-            "user.fbs: there is no SensorData; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
+            "user.fbs:1: there is no SensorData; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
             refusal("namespace a; struct Sensors { x: float; } struct ActuatorData { x: float; }"),
         )
         assertContains(refusal("namespace a; struct SensorData { x: float; }"), "there is no ActuatorData")
@@ -24,32 +24,36 @@ internal class RefusalTest {
     fun `a schema without a namespace is refused`() {
         assertContains(
             refusal("struct SensorData { x: float; } struct ActuatorData { x: float; }"),
-            "lies in no namespace; write `namespace yours;`",
+            "it lies in no namespace; write `namespace yours;`",
         )
     }
 
     @Test
     fun `an unsupported type is refused with its field and an alternative`() {
         assertEquals(
-            "user.fbs: SensorData.shape: unions are not supported; use one optional table field for each case",
+            "user.fbs:1: SensorData.shape: unions are not supported; use one optional table field for each case",
             refusal(user("table A {} table B {} union Shape { A, B }", "shape: Shape;")),
         )
         assertEquals(
-            "user.fbs: SensorData.shapes: unions are not supported; use one optional table field for each case",
+            "user.fbs:1: SensorData.shapes: unions are not supported; use one optional table field for each case",
             refusal(user("table A {} table B {} union Shape { A, B }", "shapes: [Shape];")),
         )
         assertEquals(
-            "user.fbs: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table",
+            "user.fbs:1: Grid.cells: fixed arrays are not supported; use one field for each element, or a vector in a table",
             refusal(user("struct Grid { cells: [float:4]; }", "grid: Grid;")),
         )
         assertContains(refusal(user("", "huge: [ubyte] (vector64);")), "SensorData.huge")
         val many = (0..64).joinToString(" ") { "f$it: int;" }
         assertEquals(
-            "user.fbs: Wide: it has 65 fields, more than 64; put some into a table of their own",
+            "user.fbs:1: Wide: it has 65 fields, more than 64; put some into a table of their own",
             refusal(user("table Wide { $many }", "wide: Wide;")),
         )
         assertEquals(
-            "user.fbs: Odd: force_align is not supported; remove it",
+            "user.fbs:1: Own: private types are not supported; remove the attribute",
+            refusal(user("struct Own (private) { x: float; }", "own: Own;")),
+        )
+        assertEquals(
+            "user.fbs:1: Odd: force_align is not supported; remove it",
             refusal(user("struct Odd (force_align: 16) { x: float; }", "odd: Odd;")),
         )
     }
@@ -58,24 +62,92 @@ internal class RefusalTest {
     fun `names that collide with generated code are refused`() {
         for (name in listOf("class", "to_string", "wait", "byte_buffer")) {
             assertEquals(
-                "user.fbs: SensorData.$name: C# or Java has a member of this name in every class; rename the field",
+                "user.fbs:1: SensorData.$name: C# or Java has a member of this name in every class; rename the field",
                 refusal(user("", "$name: int;")),
             )
         }
         assertEquals(
-            "user.fbs: DetailValue is a name that the generator gives; rename the type",
+            "user.fbs:1: DetailValue: it is a name that the generator gives; rename the type",
             refusal(user("table DetailValue {} table Detail {}", "x: Detail;")),
         )
     }
 
     @Test
+    fun `a name that means something else in generated code is refused with its line`() {
+        fun type(declaration: String) = "namespace a;\n\n$declaration\ntable SensorData { x: int; }\nstruct ActuatorData { x: float; }"
+        fun fields(text: String) = "namespace a;\nstruct ActuatorData { x: float; }\ntable SensorData {\n$text\n}"
+        fun namespace(name: String) = "namespace $name;\ntable SensorData { x: int; }\nstruct ActuatorData { x: float; }"
+        val refusals = mapOf(
+            type("table Table { y: int; }") to "user.fbs:3: Table: generated code uses a type of this name; rename the type",
+            type("struct String { y: int; }") to "user.fbs:3: String: generated code uses",
+            type("enum Int : byte { A }") to "user.fbs:3: Int: generated code uses",
+            type("table when {}") to "user.fbs:3: when: generated code uses",
+            type("table _ {}") to "user.fbs:3: _: a name needs a letter",
+            type("table Foo {}\ntable foo {}") to "foo: its name is too similar to that of a.Foo; rename one of them",
+            type("table Detail {}\ntable b {}\nnamespace a.b;\nenum E : byte { A }\nnamespace a;") to
+                "user.fbs:4: b: a namespace has the same name",
+            type("enum E : byte { names }") to "user.fbs:3: E.names: generated code has a member of this name",
+            fields("_: int;") to "user.fbs:4: SensorData._: a name needs a letter",
+            fields("_1: int;") to "user.fbs:4: SensorData._1: a name begins with a letter",
+            fields("foo_bar: int;\nfooBar: int;") to
+                "user.fbs:5: SensorData.fooBar: generated code calls both this field and foo_bar FooBar; rename",
+            fields("xs: [int];\nxs_as_byte_buffer: int;") to
+                "user.fbs:5: SensorData.xs_as_byte_buffer: generated code of xs has a member of this name",
+            fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: generated code of y has",
+            namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class' in it",
+            namespace("a.fun") to "the namespace has the keyword 'fun' in it; rename the namespace",
+            namespace("java.util") to "the namespace java.util is that of a library",
+            namespace("kotlin") to "the namespace kotlin is that of a library",
+            namespace("org.collektive.frames") to "the namespace org.collektive.frames is that of a library",
+            namespace("data") to "the namespace data is that of a library, or a name in generated code",
+            type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
+            type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier has other characters",
+        )
+        for ((schema, message) in refusals) assertContains(refusal(schema), message, message = schema)
+    }
+
+    @Test
+    fun `a file whose name cannot be that of a class is refused`() {
+        for (name in listOf("1st.fbs", "_.fbs", "sch\u00f6n.fbs", "a\nb.fbs", "a*b.fbs")) {
+            val message = assertFailsWith<GeneratorException> { Workshop.generate(user("", "x: int;"), name) }.message.orEmpty()
+            assertContains(message, "the schema's class is named after its file: begin the file's name with a letter")
+        }
+    }
+
+    @Test
+    fun `a file in another encoding is refused`() {
+        val schema = Workshop.newFolder().resolve("user.fbs")
+        Files.write(schema, "// Gr\u00f6\u00dfe\n${user("", "x: int;")}".toByteArray(Charsets.ISO_8859_1))
+        val message = assertFailsWith<GeneratorException> { Workshop.generate(schema, schema.resolveSibling("out")) }.message.orEmpty()
+        assertEquals("user.fbs:1: the file is not in UTF-8; save it with that encoding", message)
+    }
+
+    @Test
+    fun `types that contain each other too deep or in too many ways are refused`() {
+        fun chain(tables: Int) = (0 until tables).joinToString("\n") { "table T$it { next: T${it + 1}; }" } + "\ntable T$tables { x: int; }"
+        val deep = "more than 64 deep"
+        assertContains(refusal(user(chain(3000), "first: T0;")), deep)
+        assertContains(refusal(user(chain(64), "first: T0;")), deep)
+        Workshop.generate(user(chain(60), "first: T0;"))
+        val doubling = (0 until 30).joinToString("\n") { "table T$it { a: T${it + 1}; b: T${it + 1}; }" } + "\ntable T30 { x: int; }"
+        assertContains(refusal(user(doubling, "first: T0;")), "contain each other in more than 20000 ways")
+        val ring = (0 until 30).joinToString("\n") { i -> "table T$i { ${(0 until 30).joinToString(" ") { "f$it: T$it;" }} }" }
+        assertContains(refusal(user(ring, "first: T0;")), "in more than 20000 ways")
+        val wide = (0 until 60).joinToString("\n") { i -> "table T$i { ${(0 until 60).joinToString(" ") { "f$it: int;" }} }" }
+        val all = (0 until 60).joinToString(" ") { "t$it: T$it;" }
+        assertContains(refusal(user(wide, all)), "its tables have 3660 fields, more than 3000")
+        val numbers = (0 until 200).joinToString(" ") { "f$it: long;" }
+        assertContains(refusal(user("struct Big { $numbers }", "big: Big;")), "Big: it has more numbers than a call can pass, 240")
+    }
+
+    @Test
     fun `a root type inside of another type is refused`() {
         assertEquals(
-            "user.fbs: Detail.all: SensorData cannot be part of a type; use a type of its own",
+            "user.fbs:1: Detail.all: SensorData cannot be part of a type; use a type of its own",
             refusal(user("table Detail { all: [SensorData]; }", "x: Detail;")),
         )
         assertEquals(
-            "user.fbs: SensorData.last: ActuatorData cannot be part of a type; use a type of its own",
+            "user.fbs:1: SensorData.last: ActuatorData cannot be part of a type; use a type of its own",
             refusal(user("", "last: ActuatorData;")),
         )
     }
@@ -90,7 +162,7 @@ internal class RefusalTest {
 
     @Test
     fun `a global struct is refused`() {
-        assertEquals("user.fbs: GlobalData is a struct: make it a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
+        assertEquals("user.fbs:1: GlobalData: make it a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
     }
 
     @Test

@@ -77,7 +77,7 @@ internal class GeneratedCodeTest {
     fun `flatc reads what was written as results, for structs and for tables`() {
         for (schema in listOf(GeneratedSchemas.features, GeneratedSchemas.blocks)) {
             repeat(200) {
-                val results = Array<Any?>(random.nextInt(5)) { Objects.random(schema.actuatorType, random) }
+                val results = Array<Any?>(random.nextInt(5)) { Objects.randomResult(schema, random) }
                 val builder = FlatBufferBuilder(64)
                 val table = schema.actuatorWriter().writeAll(builder, results)
                 builder.finish(table)
@@ -102,7 +102,7 @@ internal class GeneratedCodeTest {
 
     @Test
     fun `the ranges of table results follow each other without gap`() {
-        val results = Array<Any?>(5) { Objects.random(GeneratedSchemas.features.actuatorType, random) }
+        val results = Array<Any?>(5) { Objects.randomResult(GeneratedSchemas.features, random) }
         val (_, ranges) = write(GeneratedSchemas.features, results)
         var end = 0
         for (i in results.indices) {
@@ -116,7 +116,7 @@ internal class GeneratedCodeTest {
         fun once() = write(
             GeneratedSchemas.features,
             Array(4) {
-                Objects.random(GeneratedSchemas.features.actuatorType, Random(it.toLong()))
+                Objects.randomResult(GeneratedSchemas.features, Random(it.toLong()))
             },
         )
         assertContentEquals(once().first, once().first)
@@ -177,7 +177,7 @@ internal class GeneratedCodeTest {
 
     /** A random result of the test schema `features`, with another value of one field. */
     private fun made(field: Pair<String, Any?>): Any {
-        val made = Objects.random(GeneratedSchemas.features.actuatorType, random)
+        val made = Objects.randomResult(GeneratedSchemas.features, random)
         val fields = made.javaClass.declaredFields.onEach { it.isAccessible = true }
         val values = fields.map { if (it.name == field.first) field.second else it.get(made) }
         return made.javaClass.constructors.single { it.parameterCount == fields.size }.newInstance(*values.toTypedArray())

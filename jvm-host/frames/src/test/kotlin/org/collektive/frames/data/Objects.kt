@@ -1,10 +1,12 @@
 package org.collektive.frames.data
 
 import com.google.flatbuffers.Table
+import com.google.flatbuffers.reflection.Schema
 import java.lang.reflect.Method
 import java.lang.reflect.Modifier
 import java.lang.reflect.ParameterizedType
 import java.lang.reflect.Type
+import java.nio.ByteBuffer
 import java.util.Random
 import java.lang.reflect.Array as ReflectArray
 
@@ -76,17 +78,28 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
 
-    /** A random object of class [type] without a fault. */
-    fun random(type: Class<*>, random: Random, nesting: Int = 0): Any =
-        if (type.name.startsWith("objects.")) randomObject(type, random, nesting) else randomResult(type, random, nesting)
+    /** A random object of flatc's class [type] without a fault. */
+    fun random(type: Class<*>, random: Random): Any = randomObject(type, random, 0)
+
+    /** A random result of programs for [schema] without a fault. */
+    fun randomResult(schema: DataSchema, random: Random): Any =
+        randomResult(Schema.getRootAsSchema(ByteBuffer.wrap(binarySchema(schema))), schema.actuatorType, random, 0)
 
     /** A result, or a part of one, by the constructor with all fields. */
-    private fun randomResult(type: Class<*>, random: Random, nesting: Int): Any {
+    private fun randomResult(schema: Schema, type: Class<*>, random: Random, nesting: Int): Any {
         val constructor = type.constructors.filter { !it.isSynthetic }.maxBy { it.parameterCount }
         val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { it.name.lowercase() }
+        val definition = checkNotNull(schema.objectsByKey(type.name) ?: schema.objectsByKey(type.name.removeSuffix("Value")))
+        val required = List(definition.fieldsLength(), definition::fields).filter {
+            it.required()
+        }.map { it.name().replace("_", "").lowercase() }
         val values = constructor.genericParameterTypes.mapIndexed { index, part ->
-            val canBeAbsent = !(part is Class<*> && part.isPrimitive) && names[index] !in REQUIRED && isTable(type)
-            if (canBeAbsent && (random.nextBoolean() || nesting >= MAX_NESTING)) null else value(part, random, nesting)
+            val canBeAbsent = !(part is Class<*> && part.isPrimitive) && names[index] !in required && !definition.isStruct
+            if (canBeAbsent && (random.nextBoolean() || nesting >= MAX_NESTING)) {
+                null
+            } else {
+                value(part, random, nesting) { randomResult(schema, it, random, nesting + 1) }
+            }
         }
         return constructor.newInstance(*values.toTypedArray())
     }
@@ -99,7 +112,7 @@ internal object Objects {
             if (part.isPrimitive && random.nextBoolean()) continue
             val absent = isTable(type) && setter.name.removePrefix("set").lowercase() !in REQUIRED && !part.isPrimitive &&
                 (random.nextBoolean() || nesting >= MAX_NESTING)
-            val value = if (absent) null else value(part, random, nesting)
+            val value = if (absent) null else value(part, random, nesting) { randomObject(it, random, nesting + 1) }
             // flatc writes no optional scalar that is 0.
             val isLost = isBoxed(part) && (value == false || (value as? Number)?.toDouble() == 0.0)
             setter.invoke(made, if (isLost) null else value)
@@ -107,10 +120,11 @@ internal object Objects {
         return made
     }
 
-    private fun value(type: Type, random: Random, nesting: Int): Any = when {
+    /** A value for a field; [part] makes structs and tables. */
+    private fun value(type: Type, random: Random, nesting: Int, part: (Class<*>) -> Any): Any = when {
         type !is Class<*> -> {
             val element = (type as ParameterizedType).actualTypeArguments.single()
-            List(if (nesting >= MAX_NESTING) 0 else random.nextInt(4)) { value(element, random, nesting) }
+            List(if (nesting >= MAX_NESTING) 0 else random.nextInt(4)) { value(element, random, nesting, part) }
         }
 
         type.isPrimitive -> scalar(type, random)
@@ -119,21 +133,19 @@ internal object Objects {
 
         type == String::class.java -> text(random)
 
-        type.isArray -> array(type.componentType, random, nesting)
+        type.isArray -> array(type.componentType, random, nesting, part)
 
-        else -> random(type, random, nesting + 1)
+        else -> part(type)
     }
 
-    /** Whether [type] stands for a table; flatc's reader knows. */
-    private fun isTable(type: Class<*>): Boolean {
-        val reader = if (type.name.startsWith("objects.")) type.name.removeSuffix("T") else "objects.${type.name.removeSuffix("Value")}"
-        return Table::class.java.isAssignableFrom(type.classLoader.loadClass(reader))
-    }
+    /** Whether flatc's class [type] stands for a table; its reader knows. */
+    private fun isTable(type: Class<*>): Boolean =
+        Table::class.java.isAssignableFrom(type.classLoader.loadClass(type.name.removeSuffix("T")))
 
-    private fun array(element: Class<*>, random: Random, nesting: Int): Any {
+    private fun array(element: Class<*>, random: Random, nesting: Int, part: (Class<*>) -> Any): Any {
         val count = if (nesting >= MAX_NESTING) 0 else random.nextInt(4)
         val made = ReflectArray.newInstance(element, count)
-        for (i in 0 until count) ReflectArray.set(made, i, value(element, random, nesting))
+        for (i in 0 until count) ReflectArray.set(made, i, value(element, random, nesting, part))
         return made
     }
 

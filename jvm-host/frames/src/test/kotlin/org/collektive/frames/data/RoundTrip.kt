@@ -10,14 +10,16 @@ import java.util.Random
 
 /**
  * The Kotlin half of `schema/test/test_roundtrip.py`: compares sensor and global data that C# wrote, and writes random actuator data
- * for C#. The files are those of the C# half.
+ * for C#. The files are those of the C# half, one for each of the schemas, which are separated by commas.
  */
 internal object RoundTrip {
     @JvmStatic
     fun main(arguments: Array<String>) {
-        val schema = Class.forName(arguments[1]).getConstructor().newInstance() as DataSchema
-        val file = File(arguments[2])
-        if (arguments[0] == "write") write(schema, file, arguments[3].toInt(), arguments[4].toLong()) else read(schema, file)
+        for (name in arguments[1].split(',')) {
+            val schema = Class.forName(name).getConstructor().newInstance() as DataSchema
+            val file = File("${arguments[2]}.$name")
+            if (arguments[0] == "write") write(schema, file, arguments[3].toInt(), arguments[4].toLong()) else read(schema, file)
+        }
     }
 
     private fun read(schema: DataSchema, file: File) {
@@ -64,7 +66,7 @@ internal object RoundTrip {
         DataOutputStream(file.outputStream().buffered()).use { output ->
             repeat(records) {
                 val count = random.nextInt(6)
-                val results = Array<Any?>(count) { Objects.random(schema.actuatorType, random) }
+                val results = Array<Any?>(count) { Objects.randomResult(schema, random) }
                 results.forEach { result -> check(writer.findFault(result) == null) { "${writer.findFault(result)}" } }
                 val builder = FlatBufferBuilder(256)
                 val offset = writer.writeAll(builder, results)

@@ -1,0 +1,134 @@
+package org.collektive.generator
+
+import com.google.flatbuffers.reflection.BaseType
+import com.google.flatbuffers.reflection.Schema
+import com.google.flatbuffers.reflection.Field as BinaryField
+import com.google.flatbuffers.reflection.Object as BinaryObject
+
+/**
+ * Refuses names with which the code of flatc and of this generator does not compile, or means something else.
+ *
+ * @property isOwn whether code is generated for the file with this path, as flatc writes it.
+ * @property refuse throws the error about a type, or about a field of a type (`a.b.Type.field`).
+ */
+internal class NameRules(
+    private val schema: Schema,
+    private val isOwn: (String) -> Boolean,
+    private val refuse: (String, String) -> Nothing,
+) {
+    private val objects = (0 until schema.objectsLength()).map(schema::objects).filter { isOwn(it.declarationFile()) }
+    private val enums = (0 until schema.enumsLength()).map(schema::enums).filter { isOwn(it.declarationFile()) }
+
+    /** Checks the types of the user's files, and the names [made] of generated types. */
+    fun check(made: List<String>) {
+        for (name in objects.map { it.name() } + enums.map { it.name() }) checkType(name)
+        checkDistinct(made)
+        for (type in objects) checkFields(type)
+        for (enum in enums) {
+            val values = (0 until enum.valuesLength()).map { enum.values(it).name() }
+            for (value in values) {
+                checkWord("${enum.name()}.$value", value)
+                if (value in ENUM_MEMBERS) refuse("${enum.name()}.$value", "generated code has a member of this name; rename the value")
+                if ("${value}_" in values && value in Words.reserved) {
+                    refuse("${enum.name()}.$value", "in generated code it is ${value}_, which is another value; rename one of them")
+                }
+            }
+        }
+    }
+
+    private fun checkType(name: String) {
+        val parts = name.split('.')
+        for (part in parts) checkWord(name, part)
+        val simple = parts.last()
+        val namespace = parts.dropLast(1)
+        if (simple in Words.reserved || simple in Words.types) refuse(name, "generated code uses a type of this name; rename the type")
+        namespace.find { it in Words.reserved }?.let { refuse(name, "the namespace has the keyword '$it' in it; rename the namespace") }
+        if (namespace.firstOrNull() in Words.roots || namespace.joinToString(".") in Words.packages) {
+            refuse(
+                name,
+                "the namespace ${namespace.joinToString(".")} is that of a library, or a name in generated code; rename the namespace",
+            )
+        }
+        if (name.length >
+            MAX_NAME
+        ) {
+            refuse(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
+        }
+    }
+
+    private fun checkWord(place: String, word: String) {
+        if (word.all { it == '_' }) refuse(place, "a name needs a letter; rename it")
+        if (word.length > MAX_WORD) refuse(place, "the name has more than $MAX_WORD characters; shorten it")
+    }
+
+    /** Types become files, also on systems that do not tell `Foo` from `foo`, and constants in upper case. */
+    private fun checkDistinct(made: List<String>) {
+        val seen = HashMap<String, String>()
+        for (name in objects.map { it.name() } + enums.map { it.name() } + made) {
+            val other = seen.put(name.replace('.', '_').uppercase(), name) ?: continue
+            val place = if (name in made) other else name
+            refuse(place, if (name == other) "$TAKEN; rename the type" else "its name is too similar to that of $other; rename one of them")
+        }
+        val namespaces = seen.values.flatMap { name -> prefixes(name) }.toSet()
+        seen.values.find { it in namespaces }?.let { refuse(it, "a namespace has the same name; rename one of them") }
+    }
+
+    private fun prefixes(name: String): List<String> = name.indices.filter { name[it] == '.' }.map { name.substring(0, it) }
+
+    private fun checkFields(type: BinaryObject) {
+        val simple = type.name().substringAfterLast('.')
+        val taken = HashMap<String, String>()
+        for (made in listOf("Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[made] = simple
+        val fields = (0 until type.fieldsLength()).map(type::fields)
+        for (field in fields) for (made in derived(field)) taken[made] = field.name()
+        val seen = HashMap<String, String>()
+        for (field in fields.sortedBy(BinaryField::id)) {
+            val place = "${type.name()}.${field.name()}"
+            val member = upperCamel(field.name())
+            checkWord(place, field.name())
+            if (member in RESERVED_MEMBERS) refuse(place, "C# or Java has a member of this name in every class; rename the field")
+            if (!member.first().isLetter()) refuse(place, "a name begins with a letter; rename the field")
+            seen.put(member, field.name())?.let {
+                refuse(place, "generated code calls both this field and $it $member; rename one of them")
+            }
+            taken[member]?.let { refuse(place, "generated code of $it has a member of this name; rename one of them") }
+        }
+    }
+
+    /** The names of the members that generated code has for a field, beside its own. */
+    private fun derived(field: BinaryField): List<String> {
+        val member = upperCamel(field.name())
+        val type = field.type().baseType()
+        val builder = listOf("Add$member", "Has$member")
+        val bytes = listOf("${member}AsByteBuffer", "${member}InByteBuffer", "Get${member}Bytes", "Get${member}Array")
+        val vector =
+            listOf(
+                "${member}Length",
+                "${member}Vector",
+                "${member}ByKey",
+                "Create${member}Vector",
+                "Create${member}VectorBlock",
+                "Start${member}Vector",
+            )
+        return when (type) {
+            BaseType.Vector, BaseType.Vector64 -> builder + bytes + vector
+            BaseType.Array -> vector
+            BaseType.String -> builder + bytes
+            BaseType.Union -> builder + listOf("${member}Type", "${member}AsString")
+            else -> builder
+        }
+    }
+
+    private companion object {
+        const val MAX_WORD = 100
+        const val MAX_NAME = 200
+        const val TAKEN = "it is a name that the generator gives"
+        val ENUM_MEMBERS = setOf("names", "value__")
+
+        /** Field names with which flatc's code does not compile. */
+        val RESERVED_MEMBERS = setOf(
+            "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
+            "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer",
+        )
+    }
+}

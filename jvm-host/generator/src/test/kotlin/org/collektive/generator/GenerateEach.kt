@@ -1,0 +1,31 @@
+package org.collektive.generator
+
+import java.nio.file.Path
+import kotlin.io.path.isDirectory
+import kotlin.io.path.listDirectoryEntries
+import kotlin.io.path.name
+
+/**
+ * A part of `schema/test/fuzz.py`: generates code of each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`. Prints a line for each:
+ * the name, `made`, `refused` or `crashed`, and the schema's class or the message, separated by tabs.
+ */
+internal object GenerateEach {
+    @JvmStatic
+    fun main(arguments: Array<String>) {
+        val (flatc, include, folder) = arguments.map(Path::of)
+        for (case in folder.resolve("cases").listDirectoryEntries().filter { it.isDirectory() }.sortedBy { it.name }) {
+            val schema = case.listDirectoryEntries("*.fbs").single()
+            val (outcome, text) = outcome { generate(Arguments(flatc, schema, include, folder.resolve("csharp"), folder.resolve("jvm"))) }
+            println("${case.name}\t$outcome\t${text.replace('\n', ' ').replace('\t', ' ')}")
+        }
+    }
+
+    private fun outcome(generate: () -> Unit): Pair<String, String> = try {
+        generate()
+        "made" to ""
+    } catch (e: GeneratorException) {
+        "refused" to e.message.orEmpty()
+    } catch (e: Throwable) {
+        "crashed" to e.stackTraceToString().take(1000)
+    }
+}

@@ -1,0 +1,245 @@
+"""Random schemas: each is refused with its line, or compiles on both sides and its data come through.
+
+As a program: `fuzz.py MINUTES`, by `./collektive test fuzz schemas`. test_fuzz.py runs a short batch and what was found before.
+"""
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+COLLEKTIVE = os.path.join(ROOT, "collektive")
+
+SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "ulong", "float", "double"]
+PLAIN = ["Alpha", "Beta", "Gamma", "Delta", "Omega", "Robot", "Wheel", "Arm", "Goal", "Area", "Point", "Track", "Zone", "Lamp"]
+FIELDS = ["speed", "angle", "home", "target", "label", "size", "mode", "path", "name", "id", "value", "time", "heading", "neighbours",
+          "battery", "load", "temperature", "camelCase", "two_words", "x", "y", "z", "w", "count"]
+# Names that mean something in a language, in a runtime or in generated code.
+HOSTILE_TYPES = ["Table", "String", "Struct", "List", "Int", "Object", "System", "Type", "Row", "Offset", "Span", "ByteBuffer", "when", "class",
+                 "_", "__", "record", "Any", "Unit", "Companion", "DataSchema", "View", "Bridge", "Draft", "Enum", "Nullable", "Schema", "UserSchema",
+                 "AlphaValue", "BetaT", "alpha", "Exception", "Integer", "Boolean", "Math", "KeyValuePair", "Collektive", "Google", "var", "dynamic",
+                 "Verifier", "FlatBufferBuilder", "SensorDataT", "SensorDataValue", "ActuatorDataVerify", "Override", "Number", "Pair", "Map",
+                 "StringBuilder", "StructLayout", "Func", "Vector3", "Deprecated", "JvmOverloads", "LongArray", "Void", "Class", "Array", "Char"]
+HOSTILE_FIELDS = ["_", "__", "_x", "x_", "_1", "a__b", "x1", "class", "when", "default", "in", "is", "fun", "val", "object", "to_string", "hash_code",
+                  "get_class", "wait", "notify", "add_x", "create_x_vector", "start_x_vector", "x_as_byte_buffer", "get_x_bytes", "get_x_array", "has_x",
+                  "x_type", "x_by_key", "make_home", "clear", "fill", "write", "row", "layout", "find_not_finite", "write_children", "component1",
+                  "copy", "equals", "bb", "o", "j", "i", "it", "builder", "data", "result", "target_", "place", "items", "depth", "struct", "table",
+                  "string", "namespace", "event", "var", "dynamic", "value", "get", "set", "this", "__init", "__assign", "__vector", "sensor_data",
+                  "actuator_data", "Speed", "SPEED", "typeof", "package", "String", "Table", "get_root_as_sensor_data", "end_sensor_data", "length",
+                  "byte_buffer", "spare1", "child1", "base", "absent", "offset", "vtable", "v_table", "field0", "x_vector", "x_length", "pack"]
+HOSTILE_NAMESPACES = ["class", "fun", "Table", "String", "_", "data", "java", "kotlin", "System", "in", "default", "Bridge", "types", "x", "Value",
+                      "SensorData", "builder", "it", "com", "org", "global", "record", "constant", "Alpha", "object", "Google", "name", "_a", "a_"]
+HOSTILE_FILES = ["1st.fbs", "_.fbs", "class.fbs", "sch\u00f6n.fbs", "a b.fbs", "table.fbs", "a-b.fbs", "a.b.fbs", "sensor_data.fbs", "-x.fbs"]
+HOSTILE_COMMENTS = ["*/ int evil; /*", "\\u002a\\u002f int evil; /*", "/ int evil;", "C:\\users\\me", "/* never closed", "a\u2028int evil;",
+                    "a\u0085int evil;", "a\u000cint evil;", "]]></summary>int evil;", "& < > \"", "@param x", "{@link", "```", "*", "\\", "{{name}}",
+                    "$x ${evil}", "@property", "\u202eevil", "#endif", "#region", "///", "é\U0001f600"]
+
+
+class RandomSchema:
+    """One schema file, of which few names and comments are hostile."""
+
+    def __init__(self, source, root):
+        self.random = source
+        self.root = root
+        self.hostile = source.choice([0, 0, 0.02, 0.05, 0.15])
+        self.taken = set()
+
+    def pick(self, plain, hostile):
+        return self.random.choice(hostile) if self.random.random() < self.hostile else self.random.choice(plain)
+
+    def type_name(self):
+        while True:
+            name = self.pick(PLAIN, HOSTILE_TYPES)
+            if name not in self.taken:
+                self.taken.add(name)
+                return name
+            if len(self.taken) > len(PLAIN) - 2:
+                return f"Type{len(self.taken)}"
+
+    def comment(self, indent=""):
+        if self.random.random() > 0.15:
+            return ""
+        lines = [self.random.choice(HOSTILE_COMMENTS) if self.random.random() < 0.5 else " In metres." for _ in range(self.random.randint(1, 3))]
+        return "".join(f"{indent}///{line}\n" for line in lines)
+
+    def default(self, scalar):
+        r = self.random
+        if scalar == "bool":
+            return r.choice(["true", "false"])
+        if scalar in ("float", "double"):
+            return r.choice(["0", "1.5", "-2e3", "nan", "inf", "-inf", "1e-30", "-0.0"])
+        bits = {"byte": 7, "ubyte": 8, "short": 15, "ushort": 16, "int": 31, "uint": 32, "long": 63, "ulong": 63}[scalar]
+        return str(r.choice([0, 1, 2 ** bits - 1] + ([] if scalar.startswith("u") else [-1, -2 ** bits])))
+
+    def fields(self, structs, tables, enums, in_table, own=None):
+        r, names, lines = self.random, set(), []
+        for _ in range(r.randint(1, 7)):
+            name = self.pick(FIELDS, HOSTILE_FIELDS)
+            plain = name.replace("_", "").lower()
+            # The rules about names that differ by `_` or capitals only have their own tests; most schemas must pass.
+            if plain in names and r.random() > self.hostile:
+                continue
+            names.add(plain)
+            lines.append(self.comment("  ") + f"  {name}: {self.type_of(structs, tables, enums, in_table)};\n")
+        return "".join(lines) or "  only: int;\n"
+
+    def type_of(self, structs, tables, enums, in_table):
+        r = self.random
+        kind = r.random()
+        if kind < 0.4 or (not in_table and not structs and not enums):
+            scalar = r.choice(SCALARS)
+            if not in_table:
+                return scalar
+            end = r.random()
+            return scalar + ("" if end < 0.5 else f" = {self.default(scalar)}" if end < 0.8 else " = null" if end < 0.95 else " (deprecated)")
+        if kind < 0.5 and enums:
+            return r.choice(enums) + (" = null" if in_table and r.random() < 0.3 else "")
+        if not in_table:
+            return r.choice(structs) if structs else "int"
+        if kind < 0.6 and structs:
+            return r.choice(structs) + r.choice(["", "", " (required)"])
+        if kind < 0.7:
+            return "string" + r.choice(["", "", " (required)"])
+        if kind < 0.8 and tables:
+            return r.choice(tables)
+        element = r.choice(SCALARS + ["string"] + structs + tables + enums)
+        return f"[{element}]" + r.choice(["", "", "", " (required)", " (deprecated)"])
+
+    def text(self):
+        r = self.random
+        namespace = self.root
+        if r.random() < 0.4:
+            namespace += "." + self.pick(["inner", "deep.er"], HOSTILE_NAMESPACES)
+        out = ['include "types.fbs";\n'] if r.random() < 0.5 else []
+        structs = ["org.collektive.schema.Vector3"] if out else []
+        tables, enums = [], []
+        out.append(f"{self.comment() if r.random() < 0.1 else ''}namespace {namespace};\n")
+        for _ in range(r.randint(0, 2)):
+            name = self.type_name()
+            values = r.sample(["A", "B", "Walk", "Run", "None"] + (["names", "class", "default", "value__", "_"] if r.random() < self.hostile else []), 3)
+            flags = " (bit_flags)" if r.random() < 0.2 else ""
+            out.append(f"{self.comment()}enum {name} : {r.choice(['ubyte', 'ushort', 'uint'] if flags else ['byte', 'ubyte', 'short', 'int', 'ulong'])}"
+                       f"{flags} {{ {', '.join(values)} }}\n")
+            # A default of 0 must be a value.
+            if not flags:
+                enums.append(name)
+        for _ in range(r.randint(0, 3)):
+            name = self.type_name()
+            attribute = r.choice(["", "", "", "", " (private)", " (force_align: 16)", " (csharp_partial)"]) if r.random() < 0.3 else ""
+            out.append(f"{self.comment()}struct {name}{attribute} {{\n{self.fields(list(structs), [], enums, False)}}}\n")
+            structs.append(name)
+        names = [self.type_name() for _ in range(r.randint(0, 4))]
+        for name in names:
+            # Tables may contain each other.
+            out.append(f"{self.comment()}table {name} {{\n{self.fields(structs, names, enums, True)}}}\n")
+        tables = names
+        if r.random() < 0.1 and tables:
+            out.append(f"union {self.type_name()} {{ {r.choice(tables)} }}\n")
+        for root in ["SensorData", "ActuatorData"] + (["GlobalData"] if r.random() < 0.4 else []):
+            if root != "GlobalData" and r.random() < 0.35:
+                out.append(f"{self.comment()}struct {root} {{\n{self.fields(structs, [], enums, False)}}}\n")
+            else:
+                out.append(f"{self.comment()}table {root} {{\n{self.fields(structs, tables, enums, True)}}}\n")
+        if r.random() < 0.1:
+            out.append(r.choice(["root_type SensorData;\n", 'file_identifier "ABCD";\nroot_type ActuatorData;\n', 'file_extension "x*/";\n']))
+        if r.random() < 0.05:
+            out.insert(r.randrange(len(out)), r.choice(["}", "table {", "\"", "/* ", "\\", "\0", "attribute \"x\";\n", ";;;\n"]))
+        return "".join(out)
+
+    def file(self):
+        return self.pick(["user.fbs", "my_swarm.fbs"], HOSTILE_FILES)
+
+
+def step(*words):
+    return subprocess.run([COLLEKTIVE, "step", *words], capture_output=True, text=True)
+
+
+def write_batch(folder, seed, count):
+    """Writes random schemas to `cases`, each in a folder that is named as its namespace."""
+    source = random.Random(seed)
+    for i in range(count):
+        # One has a hostile namespace; the others cannot have the same.
+        root = source.choice(HOSTILE_NAMESPACES) if i == 0 else f"case{i}"
+        schema = RandomSchema(source, root)
+        case = os.path.join(folder, "cases", root)
+        os.makedirs(case)
+        with open(os.path.join(case, schema.file()), "w", newline="") as file:
+            file.write(schema.text())
+
+
+def run(folder, records=20):
+    """Runs all schemas of `cases`. Returns how many were made and refused, and what went wrong: (case, text)."""
+    java, classes = os.environ["FUZZ_JAVA"], os.environ["FUZZ_GENERATOR"]
+    each = subprocess.run([java, "-cp", classes, "org.collektive.generator.GenerateEach", os.environ["FUZZ_FLATC"], os.path.join(ROOT, "schema"), folder],
+                          capture_output=True, text=True)
+    outcomes = [line.split("\t") for line in each.stdout.splitlines()]
+    findings = []
+    if len(outcomes) != len(os.listdir(os.path.join(folder, "cases"))):
+        findings.append(("all", "the generator ended early: " + each.stderr[-2000:]))
+    made = [case for case, outcome, _ in outcomes if outcome == "made"]
+    for case, outcome, text in outcomes:
+        if outcome == "crashed" or (outcome == "refused" and not re.search(r"\.fbs:\d+: ", text)):
+            findings.append((case, text))
+    if made:
+        findings += compile_and_compare(folder, made, records)
+    return len(made), sum(outcome == "refused" for _, outcome, _ in outcomes), findings
+
+
+def compile_and_compare(folder, made, records):
+    compiled = step("compile_fuzzed", folder)
+    if compiled.returncode != 0:
+        text = compiled.stdout + compiled.stderr
+        blamed = {case for case in made if re.search(rf"/(csharp|jvm)/{re.escape(case)}/", text)}
+        return [(case, "\n".join(line for line in text.splitlines() if f"/{case}/" in line)[:3000]) for case in sorted(blamed)] or [("all", text[-6000:])]
+    names = ",".join(sorted(file[:-len(".bfbs")] for file in os.listdir(os.path.join(folder, "jvm", "META-INF", "collektive"))))
+    findings = []
+    csharp = ["mono-sgen", os.path.join(folder, "RoundTrip.exe")]
+    kotlin = [os.environ["FUZZ_JAVA"], "-cp", os.path.join(folder, "classes") + ":" + os.environ["FUZZ_FRAMES"], "org.collektive.frames.data.RoundTrip"]
+    for writer, reader in [(csharp, kotlin), (kotlin, csharp)]:
+        data = os.path.join(folder, "data")
+        for command in [[*writer, "write", names, data, str(records), "1"], [*reader, "read", names, data]]:
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode != 0 or "Exception" in done.stderr:
+                findings.append(("all", " ".join(command[-5:])[:200] + "\n" + done.stdout[-500:] + done.stderr[-3000:]))
+        for name, failed in re.findall(r"^(\S+): .* passed, (\d+) failed$", done.stdout, re.MULTILINE):
+            if failed != "0":
+                findings.append((name.split(".")[0], done.stderr[-3000:]))
+        if done.returncode == 0 and len(re.findall(r" passed, 0 failed$", done.stdout, re.MULTILINE)) != len(names.split(",")):
+            findings.append(("all", "not all schemas were read: " + done.stdout[-2000:]))
+    return findings
+
+
+def batch(folder, seed, count):
+    """Runs random schemas, and those of `corpus` that once found a defect."""
+    shutil.rmtree(folder, ignore_errors=True)
+    write_batch(folder, seed, count)
+    shutil.copytree(os.path.join(HERE, "corpus"), os.path.join(folder, "cases"), dirs_exist_ok=True)
+    return run(folder)
+
+
+def main():
+    minutes, work = float(sys.argv[1]), os.path.join(ROOT, "build", "fuzz", "schemas")
+    seed = int(sys.argv[2]) if len(sys.argv) > 2 else int(time.time())
+    end, totals, found = time.time() + 60 * minutes, [0, 0], 0
+    while time.time() < end:
+        folder = os.path.join(work, "batch")
+        made, refused, findings = batch(folder, seed, 60)
+        totals = [totals[0] + made, totals[1] + refused]
+        print(f"seed {seed}: {made} made, {refused} refused, {len(findings)} findings", flush=True)
+        for case, text in findings:
+            found += 1
+            kept = os.path.join(work, "findings", f"{seed}-{case}")
+            shutil.rmtree(kept, ignore_errors=True)
+            shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), kept)
+            print(f"{kept}:\n{text}", flush=True)
+        seed += 1
+    print(f"{totals[0]} made, {totals[1]} refused, {found} findings")
+    sys.exit(found > 0)
+
+
+if __name__ == "__main__":
+    main()
