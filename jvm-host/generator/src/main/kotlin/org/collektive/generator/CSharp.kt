@@ -119,6 +119,7 @@ internal class CSharp(private val schema: UserSchema) {
         "childIds" to type.fields.filter { isChild(it.type) }.map(Field::id),
         "absences" to type.fields.mapNotNull { absence(type, it) },
         "fills" to type.fields.map { "row.Field${it.id} = ${rowValue(it, member(type, it), places.offsets.getValue(it))};" },
+        "filled" to places.offsets.isNotEmpty(),
         "places" to
             places.offsets.map { (field, offset) ->
                 mapOf("type" to rowType(field.type), "place" to "Field${field.id}", "offset" to offset)

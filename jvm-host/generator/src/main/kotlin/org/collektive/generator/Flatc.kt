@@ -4,9 +4,9 @@ import java.nio.file.Path
 
 /** Runs `flatc`, and passes on its messages, which name file and line. */
 internal class Flatc(private val executable: Path, private val includes: List<Path>) {
-    /** Writes the binary form of [schema], with comments and paths, to the folder [output]. */
+    /** Writes the binary form of [schema], with comments, attributes and paths, to the folder [output]. */
     fun fullBinarySchema(schema: Path, output: Path) {
-        run(schema, output, "--binary", "--schema", "--bfbs-comments", "--bfbs-absolute-paths")
+        run(schema, output, "--binary", "--schema", "--bfbs-comments", "--bfbs-builtins", "--bfbs-absolute-paths")
     }
 
     /** Writes the binary form of [schema] to the folder [output], with the paths of files relative to that of [schema]. */

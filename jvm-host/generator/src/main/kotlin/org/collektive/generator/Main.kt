@@ -34,6 +34,8 @@ private fun generate(arguments: Arguments, work: Path) {
     val file = arguments.schema.toAbsolutePath().normalize()
     val include = arguments.include.toAbsolutePath().normalize()
     val flatc = Flatc(arguments.flatc.toAbsolutePath(), listOf(include, file.parent))
+    // What is no text, flatc answers with its usage.
+    SchemaText.read(file)
     flatc.fullBinarySchema(file, work)
     val reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), file, include.resolve(CORE_TYPES))
     arguments.layouts?.let { folder ->

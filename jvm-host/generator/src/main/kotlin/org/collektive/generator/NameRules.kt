@@ -78,7 +78,8 @@ internal class NameRules(
     private fun checkFields(type: BinaryObject) {
         val simple = type.name().substringAfterLast('.')
         val taken = HashMap<String, String>()
-        for (made in listOf("Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[made] = simple
+        // The builder is a parameter of what makes a struct or table.
+        for (made in listOf("Builder", "Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[made] = simple
         val fields = (0 until type.fieldsLength()).map(type::fields)
         for (field in fields) for (made in derived(field)) taken[made] = field.name()
         val seen = HashMap<String, String>()
@@ -99,7 +100,7 @@ internal class NameRules(
     private fun derived(field: BinaryField): List<String> {
         val member = upperCamel(field.name())
         val type = field.type().baseType()
-        val builder = listOf("Add$member", "Has$member")
+        val builder = listOf("Add$member", "Has$member") + if (type in SCALARS) emptyList() else listOf("${member}Offset")
         val bytes = listOf("${member}AsByteBuffer", "${member}InByteBuffer", "Get${member}Bytes", "Get${member}Array")
         val vector =
             listOf(
@@ -123,6 +124,7 @@ internal class NameRules(
         const val MAX_WORD = 100
         const val MAX_NAME = 200
         const val TAKEN = "it is a name that the generator gives"
+        val SCALARS = BaseType.UType..BaseType.Double
         val ENUM_MEMBERS = setOf("names", "value__")
 
         /** Field names with which flatc's code does not compile. */

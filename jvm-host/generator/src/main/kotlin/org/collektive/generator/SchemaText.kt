@@ -4,7 +4,7 @@ import java.nio.charset.MalformedInputException
 import java.nio.file.Files
 import java.nio.file.Path
 
-/** The text of a schema file. flatc has accepted it, so only words, strings and comments are told apart. */
+/** The text of a schema file. flatc knows its grammar; here only words, strings and comments are told apart. */
 internal class SchemaText(private val text: String) {
     private val starts = HashMap<String, Int>()
     private val rewritten = StringBuilder(text.length)
@@ -85,9 +85,15 @@ internal class SchemaText(private val text: String) {
 
         private fun isWord(character: Char) = character == '_' || character in 'a'..'z' || character in 'A'..'Z' || character in '0'..'9'
 
-        /** @throws GeneratorException when the file is no text in UTF-8. */
+        /** @throws GeneratorException when [file] is no text in UTF-8. */
         fun read(file: Path): SchemaText = try {
-            SchemaText(Files.readString(file))
+            val text = Files.readString(file)
+            val zero = text.indexOf('\u0000')
+            if (zero >= 0) {
+                val line = 1 + text.substring(0, zero).count { it == '\n' }
+                throw GeneratorException("${file.fileName}:$line: the file has a NUL character; remove it, or save the file as text")
+            }
+            SchemaText(text)
         } catch (_: MalformedInputException) {
             throw GeneratorException("${file.fileName}:1: the file is not in UTF-8; save it with that encoding")
         }

@@ -93,6 +93,9 @@ internal class RefusalTest {
                 "user.fbs:5: SensorData.fooBar: generated code calls both this field and foo_bar FooBar; rename",
             fields("xs: [int];\nxs_as_byte_buffer: int;") to
                 "user.fbs:5: SensorData.xs_as_byte_buffer: generated code of xs has a member of this name",
+            fields("builder: int;") to "user.fbs:4: SensorData.builder: generated code of SensorData has a member of this name",
+            fields("xs: string;\nxs_offset: int;") to "user.fbs:5: SensorData.xs_offset: generated code of xs has a member of this name",
+            fields("a: int;\u0000") to "user.fbs:4: the file has a NUL character",
             fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: generated code of y has",
             namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class' in it",
             namespace("a.fun") to "the namespace has the keyword 'fun' in it; rename the namespace",
