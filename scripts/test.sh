@@ -5,7 +5,8 @@ PYTHON="$BUILD/python/bin/python"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES] | fuzz schemas [MINUTES [SEED]] | bare [ROOT]...
+usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES]
+                        | fuzz schemas [MINUTES [SEED]] | bare [ROOT]...
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
 bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.

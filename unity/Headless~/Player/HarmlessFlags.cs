@@ -27,7 +27,8 @@ namespace Collektive.Headless
         }.Select(form => new Regex("^(" + form + @")\z", RegexOptions.CultureInvariant | RegexOptions.Singleline)).ToArray();
 
         /// <summary>Parts of the names of switches that make the JVM write files, listen, or load code.</summary>
-        private const string WritingSwitches = "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
+        private const string WritingSwitches =
+            "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
 
         /// <summary>Ends of the names of options whose value is a path, even when it looks like a number.</summary>
         private const string NamesOfPlaces = "File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";

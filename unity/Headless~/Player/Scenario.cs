@@ -206,8 +206,8 @@ namespace Collektive.Headless
                 if (HarmlessFlags.Contains(settings.flags[i])) continue;
                 throw file.Error(
                     root[nameof(settings.flags)],
-                    "'jvm.flags[" + i + "]', " + settings.flags[i] + ", is refused: it is none of the flags that neither write files nor open ports nor load code"
-                        + advice);
+                    "'jvm.flags[" + i + "]', " + settings.flags[i]
+                        + ", is refused: it is none of the flags that neither write files nor open ports nor load code" + advice);
             }
         }
 

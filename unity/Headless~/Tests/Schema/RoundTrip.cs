@@ -8,7 +8,8 @@ namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
     /// The C# half of <c>schema/test/test_roundtrip.py</c>: writes random sensor and global data for the JVM, and compares actuator
-    /// data that the JVM wrote. A file for each of the schemas, which are separated by commas, is a row of records: sensors, globals (-1 for none), count, frame, text; see Record.
+    /// data that the JVM wrote. Several schemas are separated by commas, and each has a file: a row of records: sensors, globals (-1 for none),
+    /// count, frame, text; see Record.
     /// </summary>
     internal static class RoundTrip
     {
