@@ -9,6 +9,7 @@ dependencies {
     testImplementation(libs.kotlin.serialization)
     testImplementation(project(":stdlib"))
     testImplementation(project(":runtime"))
+    testImplementation(project(":api"))
     testImplementation(libs.serialization.json)
 }
 

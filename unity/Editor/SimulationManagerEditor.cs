@@ -1,5 +1,3 @@
-using System;
-using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
 
@@ -9,8 +7,6 @@ namespace Collektive.Unity.Editor
     [CustomEditor(typeof(SimulationManager))]
     internal sealed class SimulationManagerEditor : UnityEditor.Editor
     {
-        private const string KnownPrograms = "Collektive.Programs";
-
         private readonly Recorder recorder = new Recorder();
         private UnityEditor.Editor jvm;
         private bool isJvmShown;
@@ -22,12 +18,11 @@ namespace Collektive.Unity.Editor
         public override void OnInspectorGUI()
         {
             var manager = (SimulationManager)target;
-            var isRunning = EditorApplication.isPlaying && manager.Programs.Count > 0;
-            if (isRunning) Remember(manager);
             DrawDefaultInspector();
-            if (isRunning) EditorGUILayout.HelpBox("Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.",
-                MessageType.Info);
-            else DrawPrograms();
+            if (EditorApplication.isPlaying && manager.Programs.Count > 0)
+                EditorGUILayout.HelpBox(
+                    "Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.", MessageType.Info);
+            else DrawPrograms(manager.Settings);
             DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);
         }
@@ -51,22 +46,11 @@ namespace Collektive.Unity.Editor
             jvm.OnInspectorGUI();
         }
 
-        private void DrawPrograms()
+        private void DrawPrograms(SimulationSettings settings)
         {
-            var names = SessionState.GetString(KnownPrograms, "");
-            if (names.Length == 0)
-            {
-                EditorGUILayout.HelpBox("Programs can be picked here once their jar was loaded by a first Play.", MessageType.None);
-                return;
-            }
-            var program = serializedObject.FindProperty("settings").FindPropertyRelative("program");
-            EditorGUILayout.LabelField("Programs");
-            foreach (var name in names.Split('\n'))
-            {
-                if (!GUILayout.Toggle(program.stringValue == name, name, EditorStyles.radioButton) || program.stringValue == name) continue;
-                program.stringValue = name;
-                serializedObject.ApplyModifiedProperties();
-            }
+            serializedObject.Update();
+            ProgramPicker.Draw(serializedObject.FindProperty("settings").FindPropertyRelative("program"), ProgramIndex.Of(settings), "(none)");
+            serializedObject.ApplyModifiedProperties();
         }
 
         private void DrawDashboard(SimulationManager manager)
@@ -87,14 +71,6 @@ namespace Collektive.Unity.Editor
         {
             manager.Paused = true;
             manager.Step();
-        }
-
-        private static void Remember(SimulationManager manager)
-        {
-            var names = new List<string>();
-            foreach (var program in manager.Programs) names.Add(program.Name);
-            names.Sort(StringComparer.Ordinal);
-            SessionState.SetString(KnownPrograms, string.Join("\n", names));
         }
     }
 }

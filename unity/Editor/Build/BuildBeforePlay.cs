@@ -1,5 +1,4 @@
 using System.Collections.Generic;
-using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
 
@@ -33,15 +32,9 @@ namespace Collektive.Unity.Editor
         private static List<string> Jars(SimulationSettings settings)
         {
             if (settings.jars.Count > 0) return settings.jars;
-            try
-            {
-                return settings.JarsFor(Schemas.Find(settings.schema));
-            }
-            catch (BridgeException)
-            {
-                // Play says what is wrong with the schema.
-                return settings.jars;
-            }
+            // Play says what is wrong with the schema.
+            var schema = Schemas.TryFind(settings.schema);
+            return schema != null ? settings.JarsFor(schema) : settings.jars;
         }
     }
 }

@@ -32,6 +32,8 @@ namespace UnityEditor
         public CustomEditor(Type inspectedType) => this.inspectedType = inspectedType;
     }
 
+    public sealed class CanEditMultipleObjects : Attribute { }
+
     [AttributeUsage(AttributeTargets.Method)]
     public class InitializeOnLoadMethodAttribute : Attribute { }
 

@@ -5,6 +5,7 @@ namespace UnityEditor
     public class Editor : ScriptableObject
     {
         public Object target { get; set; }
+        public Object[] targets => new[] { target };
         public SerializedObject serializedObject { get; private set; }
 
         /// The editor that has [CustomEditor] for the target's type.

@@ -80,6 +80,12 @@ namespace UnityEditor
 
         public static string TextField(GUIContent label, string text, params GUILayoutOption[] options) => TextField(label.text, text);
 
+        public static int Popup(string label, int selectedIndex, string[] displayedOptions, params GUILayoutOption[] options)
+        {
+            Gui.Draw("popup", label, string.Join(" | ", displayedOptions) + ": " + displayedOptions[selectedIndex]);
+            return Gui.Take(label, selectedIndex);
+        }
+
         public static bool Toggle(GUIContent label, bool value, params GUILayoutOption[] options)
         {
             Gui.Draw("toggle", label.text, value ? "on" : "off");

@@ -1,3 +1,5 @@
+using System;
+using System.Collections;
 using System.Reflection;
 using Object = UnityEngine.Object;
 
@@ -7,45 +9,64 @@ namespace UnityEditor
     {
         public SerializedObject(Object obj) => targetObject = obj;
         public Object targetObject { get; }
-        public SerializedProperty FindProperty(string propertyPath) => SerializedProperty.Of(targetObject, propertyPath);
+        public SerializedProperty FindProperty(string propertyPath) => SerializedProperty.Of(() => targetObject, _ => { }, propertyPath);
         public void Update() { }
         public bool ApplyModifiedProperties() => true;
     }
 
-    /// A field of an object; what is written to it arrives at once.
+    /// A field of an object or an element of a list; what is written to it arrives at once.
     public class SerializedProperty
     {
-        readonly object owner;
-        readonly FieldInfo field;
+        readonly Func<object> get;
+        readonly Action<object> set;
 
-        SerializedProperty(object owner, FieldInfo field)
+        SerializedProperty(string name, Func<object> get, Action<object> set)
         {
-            this.owner = owner;
-            this.field = field;
+            this.name = name;
+            this.get = get;
+            this.set = set;
         }
 
-        public string name => field.Name;
+        public string name { get; }
+        public bool hasMultipleDifferentValues => false;
+        public int arraySize => List.Count;
 
         public string stringValue
         {
-            get => (string)field.GetValue(owner);
-            set => field.SetValue(owner, value);
+            get => (string)Value ?? "";
+            set => Value = value;
         }
-
-        public SerializedProperty FindPropertyRelative(string relativePropertyPath) => Of(field.GetValue(owner), relativePropertyPath);
 
         internal object Value
         {
-            get => field.GetValue(owner);
-            set => field.SetValue(owner, value);
+            get => get();
+            set => set(value);
         }
 
-        internal static SerializedProperty Of(object owner, string name)
+        IList List => (IList)get();
+
+        public SerializedProperty FindPropertyRelative(string relativePropertyPath) => Of(get, set, relativePropertyPath);
+        public SerializedProperty GetArrayElementAtIndex(int index) => new SerializedProperty("data", () => List[index], value => List[index] = value);
+
+        /// The new element is a copy of the one before it.
+        public void InsertArrayElementAtIndex(int index) =>
+            List.Insert(index, List.Count > 0 ? List[Math.Max(0, index - 1)] : Activator.CreateInstance(List.GetType().GetGenericArguments()[0]));
+
+        public void DeleteArrayElementAtIndex(int index) => List.RemoveAt(index);
+
+        /// A field of what `owner` gives; `changed` gets the owner after a change, which must be stored again if it is a struct.
+        internal static SerializedProperty Of(Func<object> owner, Action<object> changed, string name)
         {
-            for (var type = owner.GetType(); type != null; type = type.BaseType)
+            for (var type = owner().GetType(); type != null; type = type.BaseType)
             {
                 var field = type.GetField(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly);
-                if (field != null) return new SerializedProperty(owner, field);
+                if (field == null) continue;
+                return new SerializedProperty(name, () => field.GetValue(owner()), value =>
+                {
+                    var it = owner();
+                    field.SetValue(it, value);
+                    changed(it);
+                });
             }
             return null;
         }

@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.IO.Compression;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
@@ -66,6 +67,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
             Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.True, string.Join("\n", Log));
             Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.False);
+            Assert.That(IndexOf("Library/Collektive/swarm.jar"), Is.EqualTo("program\tcount\tswarm.SensorData\n"));
             var version = File.ReadAllText("Library/Collektive/swarm.jar.version");
             File.WriteAllText("Library/Collektive/swarm.jar.version", "0.0.1");
             Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.True, "another version of the package generates other code");
@@ -84,6 +86,13 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Assert.That(Logged("neighbours"), Is.StringStarting("Error: Assets/Swarm/Programs/Count.kt(10,"));
             Logged("Library/Collektive/swarm.jar is older than its sources");
             Assert.That(File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar"), Is.EqualTo(first), "the old jar stays");
+        }
+
+        /// <summary>What the compiler plugin wrote into a jar of the programs in Count.kt.</summary>
+        private static string IndexOf(string jar)
+        {
+            using (var archive = new ZipArchive(File.OpenRead(jar)))
+            using (var reader = new StreamReader(archive.GetEntry("META-INF/collektive/programs/swarm.CountKt").Open())) return reader.ReadToEnd();
         }
 
         [Test]

@@ -18,7 +18,6 @@ namespace Collektive.Headless.Tests.Editor
         public void EnterPlayMode()
         {
             Gui.Clear();
-            SessionState.EraseString("Collektive.Programs");
             EditorApplication.isPlaying = true;
         }
 
@@ -236,34 +235,6 @@ namespace Collektive.Headless.Tests.Editor
             MakeThree();
             UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI();
             Assert.That(Gui.Lines, Has.Some.EqualTo("label Messages: 3 sent, 0 dropped, 3 delayed, 0 expired"));
-        }
-
-        [Test]
-        public void After_a_play_the_programs_of_the_jar_can_be_picked()
-        {
-            EditorApplication.isPlaying = false;
-            var inspector = UnityEditor.Editor.CreateEditor(Manager);
-            inspector.OnInspectorGUI();
-            Assert.That(Gui.Lines, Has.Some.Contains("once their jar was loaded"));
-            EditorApplication.isPlaying = true;
-            MakeThree();
-            inspector.OnInspectorGUI();
-            Object.DestroyImmediate(Manager.gameObject);
-
-            EditorApplication.isPlaying = false;
-            var next = MakeManager("double");
-            inspector = UnityEditor.Editor.CreateEditor(next);
-            Gui.Clear();
-            inspector.OnInspectorGUI();
-            Assert.That(Gui.Lines, Has.Some.EqualTo("toggle double: on"));
-            var other = "";
-            foreach (var line in Gui.Lines)
-            {
-                if (line.EndsWith(": off")) other = line.Substring("toggle ".Length, line.Length - "toggle : off".Length);
-            }
-            Gui.Act(other, true);
-            inspector.OnInspectorGUI();
-            Assert.That(next.Settings.program, Is.EqualTo(other));
         }
 
         [Test]

@@ -11,24 +11,34 @@ namespace Collektive.Unity
         /// <exception cref="BridgeException">There is none, or more than one to choose from.</exception>
         internal static DataSchema Find(string name)
         {
+            var found = FindAll();
+            var schema = Choose(found, name);
+            if (schema != null) return schema;
+            var names = found.Count == 0 ? "none" : string.Join(", ", found.ConvertAll(schema => schema.Name));
+            var wish = string.IsNullOrEmpty(name) ? "no schema is named" : "schema '" + name + "' does not exist";
+            throw new BridgeException(
+                BridgeError.Schema,
+                wish + "; there is: " + names + ". Name one in the Simulation Manager, or generate its code (./collektive generate)");
+        }
+
+        /// <summary>The same as <see cref="Find"/>, or null instead of an exception.</summary>
+        internal static DataSchema TryFind(string name) => Choose(FindAll(), name);
+
+        private static DataSchema Choose(List<DataSchema> all, string name) =>
+            string.IsNullOrEmpty(name) ? all.Count == 1 ? all[0] : null : all.Find(schema => schema.Name == name);
+
+        private static List<DataSchema> FindAll()
+        {
             var found = new List<DataSchema>();
             foreach (var assembly in LoadedAssemblies())
             {
                 if (assembly.IsDynamic || !References(assembly)) continue;
                 foreach (var type in assembly.GetExportedTypes())
                 {
-                    if (type.IsAbstract || !typeof(DataSchema).IsAssignableFrom(type)) continue;
-                    var schema = (DataSchema)Activator.CreateInstance(type);
-                    if (schema.Name == name) return schema;
-                    found.Add(schema);
+                    if (!type.IsAbstract && typeof(DataSchema).IsAssignableFrom(type)) found.Add((DataSchema)Activator.CreateInstance(type));
                 }
             }
-            if (string.IsNullOrEmpty(name) && found.Count == 1) return found[0];
-            var names = found.Count == 0 ? "none" : string.Join(", ", found.ConvertAll(schema => schema.Name));
-            var wish = string.IsNullOrEmpty(name) ? "no schema is named" : "schema '" + name + "' does not exist";
-            throw new BridgeException(
-                BridgeError.Schema,
-                wish + "; there is: " + names + ". Name one in the Simulation Manager, or generate its code (./collektive generate)");
+            return found;
         }
 
         /// <summary>Where CoreCLR runs Unity's scripts, the domain also knows assemblies of code that was unloaded.</summary>

@@ -4,10 +4,12 @@ package org.collektive.compiler
 
 import org.collektive.compiler.alignment.AlignmentExtension
 import org.collektive.compiler.checks.AggregateChecks
+import org.collektive.compiler.programs.ProgramIndex
 import org.jetbrains.kotlin.backend.common.extensions.IrGenerationExtension
 import org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar
 import org.jetbrains.kotlin.compiler.plugin.ExperimentalCompilerApi
 import org.jetbrains.kotlin.config.CompilerConfiguration
+import org.jetbrains.kotlin.config.JVMConfigurationKeys
 import org.jetbrains.kotlin.fir.extensions.FirExtensionRegistrarAdapter
 
 /** The plugin's entry point: the compiler finds it as a service. */
@@ -20,5 +22,7 @@ public class CollektivePlugin : CompilerPluginRegistrar() {
         if (!configuration.get(CollektiveOptions.ENABLED, true)) return
         FirExtensionRegistrarAdapter.registerExtension(AggregateChecks())
         IrGenerationExtension.registerExtension(AlignmentExtension())
+        // A compiler that writes a jar itself has no folder: such a jar has no index.
+        configuration.get(JVMConfigurationKeys.OUTPUT_DIRECTORY)?.let { IrGenerationExtension.registerExtension(ProgramIndex(it)) }
     }
 }

@@ -5,6 +5,7 @@ package org.collektive.compiler
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
 import kotlinx.serialization.KSerializer
+import org.collektive.api.Program
 import org.jetbrains.kotlin.cli.common.ExitCode
 import org.jetbrains.kotlin.cli.common.arguments.K2JVMCompilerArguments
 import org.jetbrains.kotlin.cli.common.messages.CompilerMessageSeverity
@@ -47,6 +48,9 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
         }
     }
 
+    /** The text of the file [path] among the compiled classes; `null` if there is none. */
+    fun output(path: String): String? = classes.resolve(path).toFile().takeIf(File::exists)?.readText()
+
     companion object {
         const val FILE = "Program"
 
@@ -66,7 +70,13 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
                 freeArgs = listOf(file.path)
                 destination = folder.resolve("classes").toString()
                 classpath =
-                    listOf(Aggregate::class, Point2D::class, KSerializer::class, Unit::class).joinToString(File.pathSeparator) {
+                    listOf(
+                        Aggregate::class,
+                        Point2D::class,
+                        Program::class,
+                        KSerializer::class,
+                        Unit::class,
+                    ).joinToString(File.pathSeparator) {
                         placeOf(it.java)
                     }
                 noStdlib = true
