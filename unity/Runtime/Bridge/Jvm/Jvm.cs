@@ -28,7 +28,7 @@ namespace Collektive.Bridge
 
         /// <summary>Home, version and options of the JVM, one a line; empty when none was started.</summary>
         public static string Description =>
-            State == JvmState.None ? "" : Utf8.Copied((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
+            State == JvmState.None ? "" : Shim.Text((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
         /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
         public static ulong StepCalls
@@ -94,7 +94,7 @@ namespace Collektive.Bridge
             }
             finally
             {
-                foreach (var memory in strings) Marshal.FreeHGlobal(memory);
+                foreach (var memory in strings) Marshal.FreeCoTaskMem(memory);
             }
         }
 
@@ -107,9 +107,9 @@ namespace Collektive.Bridge
 
         private static byte* Text(List<IntPtr> strings, string text)
         {
-            var memory = Utf8.Allocate(text);
-            strings.Add((IntPtr)memory);
-            return memory;
+            var memory = Marshal.StringToCoTaskMemUTF8(text);
+            strings.Add(memory);
+            return (byte*)memory;
         }
     }
 }

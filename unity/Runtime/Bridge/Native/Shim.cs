@@ -12,6 +12,8 @@ namespace Collektive.Bridge
         /// <summary>Major version of the header that this file was written from.</summary>
         internal const uint Major = 0;
 
+        internal delegate int Copy(IntPtr buffer, int capacity);
+
         [StructLayout(LayoutKind.Sequential)]
         internal struct JvmConfig
         {
@@ -62,10 +64,27 @@ namespace Collektive.Bridge
             if (code < 0) throw new BridgeException((BridgeError)code, LastError(code));
         }
 
+        /// <summary>The whole text of a function that copies UTF-8 to a buffer and returns the length that it needs. It allocates.</summary>
+        internal static string Text(Copy copy)
+        {
+            var length = copy(IntPtr.Zero, 0);
+            if (length <= 0) return "";
+            var memory = Marshal.AllocHGlobal(length + 1);
+            try
+            {
+                copy(memory, length + 1);
+                return Marshal.PtrToStringUTF8(memory);
+            }
+            finally
+            {
+                Marshal.FreeHGlobal(memory);
+            }
+        }
+
         private static string LastError(int code)
         {
-            var text = Utf8.Copied((buffer, capacity) => clk_last_error((byte*)buffer, capacity));
-            return text.Length > 0 ? text : Utf8.Decode(clk_error_text(code));
+            var text = Text((buffer, capacity) => clk_last_error((byte*)buffer, capacity));
+            return text.Length > 0 ? text : Marshal.PtrToStringUTF8((IntPtr)clk_error_text(code));
         }
     }
 }
