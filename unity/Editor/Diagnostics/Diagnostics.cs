@@ -75,7 +75,7 @@ namespace Collektive.Unity.Editor
             return data == null ? new List<KeyValuePair<string, string>>() : DataText.Of(data);
         }
 
-        /// <summary>Errors by program or component and node, the most frequent first.</summary>
+        /// <summary>Errors by program, component or handler and node, the most frequent first.</summary>
         internal List<NodeErrors> Errors()
         {
             var errors = new List<NodeErrors>(Manager.Errors);

@@ -141,7 +141,7 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < errors.Count && i < MaxErrors; i++)
             {
                 var error = errors[i];
-                EditorGUILayout.LabelField(error.Source + ", node " + error.Node, error.Count + " times, last at tick " + error.LastTick);
+                EditorGUILayout.LabelField(error.Source + (error.Node == NodeErrors.NoNode ? "" : ", node " + error.Node), error.Count + " times, last at tick " + error.LastTick);
                 EditorGUILayout.HelpBox(error.LastMessage, MessageType.Error);
             }
         }

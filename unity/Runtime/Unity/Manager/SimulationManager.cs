@@ -33,22 +33,30 @@ namespace Collektive.Unity
         private bool paused;
 
         private readonly SceneGlobals globals = new SceneGlobals();
+        private readonly TickHandlers handlers = new TickHandlers();
         private Simulation simulation;
         private SimulationMode modeBefore;
         private double accumulated;
         private bool stepping;
 
         /// <summary>
-        /// Asked after each tick: whether the simulation has reached its end. It is paused then, with everything as it is; to go on, set
-        /// <see cref="Paused"/> to false.
+        /// Asked after each tick whether the simulation has reached its end. If so, it is paused; to go on, set <see cref="Paused"/> to false. An
+        /// exception counts as an error, and the simulation goes on.
         /// </summary>
         public Func<SimulationManager, bool> StopCondition { get; set; }
 
         /// <summary>Whether the simulation has reached its end: its time, or its stop condition.</summary>
         public bool Finished { get; private set; }
 
-        /// <summary>Called after each tick, when physics have advanced.</summary>
-        public event Action<SimulationManager> Ticked;
+        /// <summary>
+        /// Called after each tick, when physics have advanced. An exception in a handler counts as an error, and the simulation goes on. A handler
+        /// that fails 10 times in a row is removed.
+        /// </summary>
+        public event Action<SimulationManager> Ticked
+        {
+            add => handlers.Add(value);
+            remove => handlers.Remove(value);
+        }
 
         /// <summary>Called for each line of the JVM's log, after it was written to Unity's.</summary>
         public event Action<HostLogLevel, string> Logged;
@@ -90,7 +98,7 @@ namespace Collektive.Unity
         /// <summary>Directed links.</summary>
         public int LinkCount => Simulation.PresentLinks.Count;
 
-        /// <summary>Errors of rounds, sensors, actuators and rules so far.</summary>
+        /// <summary>Errors of rounds, sensors, actuators, rules and handlers of <see cref="Ticked"/> so far.</summary>
         public long ErrorCount => Simulation.Errors.Count;
 
         /// <summary>The same errors, by where they come from.</summary>
@@ -130,15 +138,7 @@ namespace Collektive.Unity
         public bool HasLink(int from, int to) => Simulation.PresentLinks.Contains(from, to);
 
         /// <summary>Copies all directed links to <paramref name="target"/>, emptied first.</summary>
-        public void CopyLinks(List<LinkRecord> target)
-        {
-            target.Clear();
-            var links = Simulation.PresentLinks;
-            for (var i = 0; i < links.Capacity; i++)
-            {
-                if (links.TryGet(i, out var link)) target.Add(link);
-            }
-        }
+        public void CopyLinks(List<LinkRecord> target) => Simulation.PresentLinks.CopyTo(target);
 
         /// <summary>The node of that id, or null.</summary>
         public Node Find(int id) => Simulation.Find(id);
@@ -176,7 +176,7 @@ namespace Collektive.Unity
                 using (TickMarkers.Tick.Auto())
                 {
                     if (!Simulation.TryTick()) return;
-                    Ticked?.Invoke(this);
+                    handlers.Run(this);
                     if (Simulation.IsOpen && !Finished && IsAtEnd()) Finish();
                 }
             }
@@ -237,7 +237,7 @@ namespace Collektive.Unity
         }
 
         private bool IsAtEnd() =>
-            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * Almost || StopCondition != null && StopCondition(this);
+            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * Almost || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
 
         private void Finish()
         {

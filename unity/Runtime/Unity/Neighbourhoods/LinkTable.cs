@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Runtime.CompilerServices;
 using Collektive.Bridge;
 
@@ -36,9 +37,6 @@ namespace Collektive.Unity
             Array.Fill(buckets, None);
         }
 
-        /// <summary>Entries ever used; the argument of <see cref="TryGet"/> is below it.</summary>
-        internal int Capacity => 2 * used;
-
         /// <summary>All pairs, unused ones among them, for views to look at: that copies nothing. Valid until a link is made.</summary>
         internal Span<LinkPair> Pairs => new Span<LinkPair>(pairs, 0, used);
 
@@ -51,12 +49,16 @@ namespace Collektive.Unity
         /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
         internal int Drops { get; private set; }
 
-        /// <summary>A link that exists, by entry; false for a free entry. Its values are those of the last <see cref="Settle"/>.</summary>
-        internal bool TryGet(int entry, out LinkRecord link)
+        /// <summary>Copies all links to a list, emptied first, with the values of the last <see cref="Settle"/>.</summary>
+        internal void CopyTo(List<LinkRecord> target)
         {
-            ref var pair = ref pairs[entry / 2];
-            link = entry % 2 == 0 ? Record(pair.Low, pair.High, pair.Up) : Record(pair.High, pair.Low, pair.Down);
-            return (entry % 2 == 0 ? pair.Up : pair.Down).Holders > 0;
+            target.Clear();
+            for (var i = 0; i < used; i++)
+            {
+                ref var pair = ref pairs[i];
+                if (pair.Up.Holders > 0) target.Add(Record(pair.Low, pair.High, pair.Up));
+                if (pair.Down.Holders > 0) target.Add(Record(pair.High, pair.Low, pair.Down));
+            }
         }
 
         /// <summary>Whether a link exists.</summary>

@@ -9,7 +9,7 @@ namespace Collektive.Unity
     /// </summary>
     public abstract class NodePart : MonoBehaviour
     {
-        private const int MaxFailuresInRow = 10;
+        internal const int MaxFailuresInRow = 10;
 
         private int failuresInRow;
 

@@ -35,6 +35,14 @@ namespace Collektive.Unity
             part.Failed();
         }
 
+        /// <summary>A handler of <see cref="SimulationManager.Ticked"/> or a stop condition threw an exception.</summary>
+        /// <param name="source">The handler's class and method.</param>
+        internal void AddHandler(string source, ulong tick, Exception error, UnityEngine.Object context)
+        {
+            Add(source, NodeErrors.NoNode, tick, error.Message);
+            Debug.LogException(new InvalidOperationException(source + " failed after tick " + tick + ": " + error.Message, error), context);
+        }
+
         /// <summary>Logs how often errors of rounds have come that were not logged each time.</summary>
         internal void TellCounts() => rounds.TellCounts();
 
@@ -51,19 +59,22 @@ namespace Collektive.Unity
         }
     }
 
-    /// <summary>The errors of one program, sensor, actuator or rule on one node.</summary>
+    /// <summary>The errors of one program, sensor, actuator or rule on one node, or of one handler of <see cref="SimulationManager.Ticked"/>.</summary>
     public sealed class NodeErrors
     {
+        /// <summary>The <see cref="Node"/> of errors that belong to no node.</summary>
+        internal const int NoNode = -1;
+
         internal NodeErrors(string source, int node)
         {
             Source = source;
             Node = node;
         }
 
-        /// <summary>The program's name, or the component's type.</summary>
+        /// <summary>The program's name, the component's type, or the handler's class and method.</summary>
         public string Source { get; }
 
-        /// <summary>The node's id.</summary>
+        /// <summary>The node's id; -1 for a handler, which belongs to no node.</summary>
         public int Node { get; }
 
         /// <summary>How many there were.</summary>

@@ -1,0 +1,71 @@
+using System;
+using Collektive.Unity;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>An exception in what users have called after a tick costs neither the tick nor the simulation.</summary>
+    public sealed class TickHandlersTests : SimulationFixture
+    {
+        [Test]
+        public void A_handler_that_throws_is_an_error_with_its_name_and_the_others_go_on()
+        {
+            var calls = 0;
+            MakeNode(1);
+            Manager.Ticked += ThrowOnPurpose;
+            Manager.Ticked += _ => calls++;
+            Play(1);
+            Assert.That(Errors, Is.EqualTo(new[] { "InvalidOperationException: TickHandlersTests.ThrowOnPurpose failed after tick 1: broken on purpose" }));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(1));
+            Assert.That((Manager.Errors[0].Source, Manager.Errors[0].Node, Manager.Errors[0].LastTick),
+                Is.EqualTo(("TickHandlersTests.ThrowOnPurpose", -1, 1UL)));
+            Assert.That((Manager.Tick, calls, Manager.Failure), Is.EqualTo((1UL, 1, "")));
+        }
+
+        [Test]
+        public void A_handler_that_throws_again_and_again_is_removed()
+        {
+            MakeNode(1);
+            Manager.Ticked += manager =>
+            {
+                if (manager.Tick != 2) throw new InvalidOperationException("broken on purpose");
+            };
+            Play(11);
+            Assert.That(Errors, Has.None.Contains("in a row"), "tick 2 was good");
+            Play(5);
+            Assert.That(Errors[Errors.Count - 1], Is.EqualTo(
+                "TickHandlersTests.A_handler_that_throws_again_and_again_is_removed (lambda) failed 10 times in a row and is not called any more: "
+                + "correct it, then add it to Ticked again"));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(11));
+            Assert.That(Manager.Tick, Is.EqualTo(16));
+        }
+
+        [Test]
+        public void A_handler_may_leave_from_within_its_call()
+        {
+            var calls = 0;
+            MakeNode(1);
+            void Once(SimulationManager manager)
+            {
+                calls++;
+                manager.Ticked -= Once;
+            }
+            Manager.Ticked += Once;
+            Play(3);
+            Assert.That(calls, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void A_stop_condition_that_throws_is_an_error_and_stops_nothing()
+        {
+            MakeNode(1);
+            Manager.StopCondition = manager => throw new InvalidOperationException("broken on purpose");
+            Play(2);
+            Assert.That(Manager.ErrorCount, Is.EqualTo(2));
+            Assert.That(Errors[0], Is.StringContaining("TickHandlersTests.A_stop_condition_that_throws_is_an_error_and_stops_nothing (lambda) failed after tick 1"));
+            Assert.That(Manager.Finished, Is.False);
+        }
+
+        private void ThrowOnPurpose(SimulationManager manager) => throw new InvalidOperationException("broken on purpose");
+    }
+}

@@ -1,0 +1,87 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Users' handlers of <see cref="SimulationManager.Ticked"/>: one that throws an exception stops neither the others nor the simulation.</summary>
+    internal sealed class TickHandlers
+    {
+        private readonly Dictionary<Action<SimulationManager>, int> failuresInRow = new Dictionary<Action<SimulationManager>, int>();
+        private Action<SimulationManager> all;
+
+        // Replaced, not changed, when a handler comes or leaves: that may happen while they run.
+        private Delegate[] each = Array.Empty<Delegate>();
+
+        internal void Add(Action<SimulationManager> handler) => Set(all + handler);
+
+        internal void Remove(Action<SimulationManager> handler) => Set(all - handler);
+
+        /// <summary>Calls the handlers in the order in which they were added.</summary>
+        internal void Run(SimulationManager manager)
+        {
+            var now = each;
+            for (var i = 0; i < now.Length; i++)
+            {
+                var handler = (Action<SimulationManager>)now[i];
+                try
+                {
+                    handler(manager);
+                    if (failuresInRow.Count > 0) failuresInRow.Remove(handler);
+                }
+                catch (Exception error)
+                {
+                    Failed(handler, manager, error);
+                }
+            }
+        }
+
+        /// <summary>What a stop condition says; false when it throws an exception.</summary>
+        internal static bool IsTrue(Func<SimulationManager, bool> condition, SimulationManager manager)
+        {
+            try
+            {
+                return condition(manager);
+            }
+            catch (Exception error)
+            {
+                Report(condition, manager, error);
+                return false;
+            }
+        }
+
+        private void Failed(Action<SimulationManager> handler, SimulationManager manager, Exception error)
+        {
+            Report(handler, manager, error);
+            failuresInRow.TryGetValue(handler, out var failures);
+            failuresInRow[handler] = ++failures;
+            if (failures < NodePart.MaxFailuresInRow) return;
+            failuresInRow.Remove(handler);
+            Remove(handler);
+            Debug.LogError(NameOf(handler) + " failed " + failures + " times in a row and is not called any more: correct it, then add it to Ticked again",
+                Context(handler, manager));
+        }
+
+        private static void Report(Delegate handler, SimulationManager manager, Exception error) =>
+            manager.Simulation.Errors.AddHandler(NameOf(handler), manager.Simulation.TickInProgress, error, Context(handler, manager));
+
+        /// <summary>What a click on the message selects.</summary>
+        private static UnityEngine.Object Context(Delegate handler, SimulationManager manager) => handler.Target as UnityEngine.Object ?? manager;
+
+        /// <summary>Class and method, for a lambda those around it: the compiler puts their names into angle brackets, or nests classes.</summary>
+        private static string NameOf(Delegate handler)
+        {
+            var type = handler.Method.DeclaringType;
+            while (type?.DeclaringType != null && type.Name[0] == '<') type = type.DeclaringType;
+            var method = handler.Method.Name;
+            if (method[0] == '<') method = method.Substring(1, method.IndexOf('>') - 1) + " (lambda)";
+            return type?.Name + "." + method;
+        }
+
+        private void Set(Action<SimulationManager> handlers)
+        {
+            all = handlers;
+            each = handlers?.GetInvocationList() ?? Array.Empty<Delegate>();
+        }
+    }
+}
