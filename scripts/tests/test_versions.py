@@ -35,6 +35,10 @@ def test_each_assembly_has_the_products_version(path):
     assert f'AssemblyVersion("{VERSION}.0")' in text(path)
 
 
+def test_generator():
+    assert f'VERSION: String = "{VERSION}"' in text("jvm-host/generator/src/main/kotlin/org/collektive/generator/Version.kt")
+
+
 def test_the_manifest_for_git_urls_has_the_products_version():
     assert json.loads(text("unity/package.json"))["version"] == VERSION
 

@@ -14,6 +14,9 @@ namespace Collektive.Bridge
         /// <summary>Name of the schema's file without <c>.fbs</c>, after which the jar of its programs is named.</summary>
         public abstract string File { get; }
 
+        /// <summary>Version of the package whose generator made the class; empty for code of versions that did not say.</summary>
+        public virtual string GeneratorVersion => "";
+
         /// <summary>
         /// Fingerprints of <c>SensorData</c>, <c>ActuatorData</c> and, where defined, <c>GlobalData</c>, nested types included.
         /// </summary>

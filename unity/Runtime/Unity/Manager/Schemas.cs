@@ -27,7 +27,8 @@ namespace Collektive.Unity
         private static DataSchema Choose(List<DataSchema> all, string name) =>
             string.IsNullOrEmpty(name) ? all.Count == 1 ? all[0] : null : all.Find(schema => schema.Name == name);
 
-        private static List<DataSchema> FindAll()
+        /// <summary>All schemas, in no order.</summary>
+        internal static List<DataSchema> FindAll()
         {
             var found = new List<DataSchema>();
             foreach (var assembly in LoadedAssemblies())

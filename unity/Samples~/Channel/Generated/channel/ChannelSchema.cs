@@ -47,6 +47,9 @@ namespace channel
         public override string File => "channel";
 
         /// <inheritdoc/>
+        public override string GeneratorVersion => "0.1.0";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

@@ -42,6 +42,9 @@ namespace crowd
         public override string File => "crowd";
 
         /// <inheritdoc/>
+        public override string GeneratorVersion => "0.1.0";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

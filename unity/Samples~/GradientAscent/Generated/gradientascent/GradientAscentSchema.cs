@@ -40,6 +40,9 @@ namespace gradientascent
         public override string File => "gradient_ascent";
 
         /// <inheritdoc/>
+        public override string GeneratorVersion => "0.1.0";
+
+        /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
 
         /// <inheritdoc/>

@@ -20,6 +20,7 @@ internal class CSharp(private val schema: UserSchema) {
     fun schema(): Map<String, Any?> = mapOf(
         "file" to schema.file,
         "stem" to schema.file.removeSuffix(".fbs"),
+        "version" to VERSION,
         "namespace" to schema.name.namespace,
         "name" to schema.name.simple,
         "types" to schema.roots.map {

@@ -52,6 +52,12 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `generated C# has the version of the package`() {
+        val output = Workshop.generate("namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }", "swarm.fbs")
+        assertContains(texts(output).getValue("csharp/a/SwarmSchema.cs"), "string GeneratorVersion => \"$VERSION\";")
+    }
+
+    @Test
     fun `all schemas generated into one folder are listed as services, and removed ones are not`() {
         val work = Workshop.newFolder()
         fun generate(namespace: String, output: String) {
