@@ -5,5 +5,8 @@ namespace UnityEngine.Headless
     {
         /// Rays cast since the process began.
         public static long Rays { get; internal set; }
+
+        /// Batches of queries since the process began.
+        public static long Batches { get; internal set; }
     }
 }

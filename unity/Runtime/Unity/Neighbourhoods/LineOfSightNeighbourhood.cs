@@ -1,3 +1,5 @@
+using System;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -27,6 +29,12 @@ namespace Collektive.Unity
         [Min(0)]
         [Tooltip("What each collider in the way adds to the link's attenuation, which is 0 when the way is clear.")]
         private float attenuation = 1;
+
+        // The nodes that were near when the lines of the tick were cast.
+        private readonly GrowingArray<(NearNode Near, int Line)> seen = new GrowingArray<(NearNode Near, int Line)>();
+
+        [NonSerialized]
+        private ulong tick;
 
         /// <summary>The radius in metres, 0 or greater.</summary>
         public float Radius
@@ -59,40 +67,49 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            var near = neighbours.FindWithin(radius);
+            var sight = Node.Simulation.SightLines;
+            sight.Rules.Add(this);
+            if (tick != sight.Tick)
+            {
+                // The rule came in this tick.
+                AddAlone(neighbours, sight);
+                return;
+            }
+            for (var i = 0; i < seen.Count; i++)
+            {
+                ref var node = ref seen.Items[i];
+                Add(neighbours, node.Near, sight.ObstaclesOf(node.Line));
+            }
+        }
+
+        internal override void Enqueue()
+        {
+            var simulation = Node.Simulation;
+            tick = simulation.SightLines.Tick;
+            seen.Clear();
+            var near = simulation.Grid.Find(Node.Position, radius);
             for (var i = 0; i < near.Length; i++)
             {
                 if (near[i].Id == Node.Id) continue;
-                var obstacles = CountObstacles(neighbours.NodeOf(near[i]), near[i].Distance);
-                if (!blocking || obstacles == 0) neighbours.Add(near[i], obstacles * attenuation);
+                ref var node = ref seen.Add();
+                node.Near = near[i];
+                node.Line = simulation.SightLines.Ask(Node, simulation.Grid.NodeAt(near[i]), layers, near[i].Distance);
             }
         }
 
-        private int CountObstacles(Node other, float distance)
+        private void AddAlone(NeighbourCollector neighbours, SightLines sight)
         {
-            ref var obstacles = ref Node.Simulation.SightLines.Between(Node.Id, other.Id, layers);
-            // Always the same way round: a ray does not see a collider that it begins in.
-            if (obstacles == SightLines.Unknown) obstacles = Node.Id < other.Id ? Cast(Node, other, distance) : Cast(other, Node, distance);
-            return obstacles;
+            var near = neighbours.FindWithin(radius);
+            for (var i = 0; i < near.Length; i++)
+            {
+                if (near[i].Id != Node.Id)
+                    Add(neighbours, near[i], sight.CountObstacles(Node, neighbours.NodeOf(near[i]), layers, near[i].Distance));
+            }
         }
 
-        private int Cast(Node from, Node to, float distance)
+        private void Add(NeighbourCollector neighbours, in NearNode near, int obstacles)
         {
-            ref var inTheWay = ref Node.Simulation.QueryMemory.InTheWay;
-            int found;
-            // A full array may have left some out.
-            while ((found = Physics.RaycastNonAlloc(from.Position, to.Position - from.Position, inTheWay, distance, layers,
-                QueryTriggerInteraction.Ignore)) == inTheWay.Length)
-            {
-                inTheWay = new RaycastHit[2 * inTheWay.Length];
-            }
-            var obstacles = 0;
-            for (var i = 0; i < found; i++)
-            {
-                var hit = inTheWay[i].collider.transform;
-                if (!hit.IsChildOf(from.Body) && !hit.IsChildOf(to.Body)) obstacles++;
-            }
-            return obstacles;
+            if (!blocking || obstacles == 0) neighbours.Add(near, obstacles * attenuation);
         }
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);

@@ -1,45 +1,166 @@
 using System;
+using Collektive.Bridge;
+using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What is known of the lines between pairs of nodes in one tick: how many obstacles of some layers are on each.</summary>
-    internal sealed class SightLines
+    /// <summary>
+    /// What is known of the lines between pairs of nodes in one tick: how many obstacles of some layers are on each. Lines are cast in batches before the
+    /// rules are called, and one by one where a batch does not do.
+    /// </summary>
+    internal sealed class SightLines : IDisposable
     {
         /// <summary>Nobody has looked yet.</summary>
-        internal const int Unknown = -1;
+        private const int Unknown = -1;
+
+        /// <summary>More rays would need more memory, and be no faster.</summary>
+        private const int MostRays = 4096;
+
+        private static ulong ticks;
+
+        private readonly RayBatch rays = new RayBatch(16);
+        private readonly Pair[] asked = new Pair[MostRays];
+
+        // By the number of the line.
+        private readonly GrowingArray<int> obstacles = new GrowingArray<int>();
 
         // A hash table with open addressing; lines of earlier ticks count as free places.
         private Line[] lines = new Line[256];
-        private int count;
-        private int tick = 1;
+        private RaycastHit[] inTheWay = new RaycastHit[16];
+
+        internal SightLines(Simulation simulation) => Rules = new BatchedParts(simulation);
 
         private struct Line
         {
+            internal ulong Tick;
             internal int Low;
             internal int High;
             internal int Layers;
-            internal int Tick;
-            internal int Obstacles;
+            internal int Number;
         }
 
-        /// <summary>Forgets what was known: a tick begins.</summary>
-        internal void Clear()
+        private readonly struct Pair
         {
-            tick++;
-            count = 0;
-        }
+            internal readonly Node From;
+            internal readonly Node To;
+            internal readonly int Layers;
+            internal readonly float Distance;
 
-        /// <summary>The obstacles between two nodes, for the caller to fill in when they are <see cref="Unknown"/>; valid until the next call.</summary>
-        internal ref int Between(int a, int b, int layers)
-        {
-            if (2 * count >= lines.Length) Grow();
-            ref var line = ref Find(Math.Min(a, b), Math.Max(a, b), layers);
-            if (line.Tick != tick)
+            /// <summary>Always the same way round: a ray does not see a collider that it begins in.</summary>
+            internal Pair(Node a, Node b, int layers, float distance)
             {
-                count++;
-                line = new Line { Low = Math.Min(a, b), High = Math.Max(a, b), Layers = layers, Tick = tick, Obstacles = Unknown };
+                From = a.Id < b.Id ? a : b;
+                To = a.Id < b.Id ? b : a;
+                Layers = layers;
+                Distance = distance;
             }
-            return ref line.Obstacles;
+
+            internal Vector3 Way => To.Position - From.Position;
+
+            internal bool IsForeign(Collider collider)
+            {
+                var hit = collider.transform;
+                return !hit.IsChildOf(From.Body) && !hit.IsChildOf(To.Body);
+            }
+        }
+
+        /// <summary>The rules that look along lines.</summary>
+        internal BatchedParts Rules { get; }
+
+        /// <summary>The tick that the lines are of, 1 or greater; no other tick of the process has the number.</summary>
+        internal ulong Tick { get; private set; }
+
+        /// <summary>Forgets what was known, and looks along the lines of all rules: a tick begins.</summary>
+        internal void Begin()
+        {
+            Tick = ++ticks;
+            obstacles.Clear();
+            Rules.DropGone();
+            for (var i = 0; i < Rules.Count; i++) Rules[i].Enqueue();
+            Cast();
+        }
+
+        /// <summary>Adds the line between two nodes to the batch, unless it is there; in <see cref="NodePart.Enqueue"/>.</summary>
+        /// <returns>The line's number in this tick.</returns>
+        internal int Ask(Node a, Node b, int layers, float distance)
+        {
+            if (rays.Count == MostRays) Cast();
+            var number = NumberOf(a.Id, b.Id, layers, out var isNew);
+            if (!isNew) return number;
+            var pair = new Pair(a, b, layers, distance);
+            asked[rays.Count] = pair;
+            rays.Add(new RaycastCommand(pair.From.Position, pair.Way, new QueryParameters(layers, false, QueryTriggerInteraction.Ignore), distance));
+            return number;
+        }
+
+        /// <summary>Colliders on a line that neither of the two nodes owns.</summary>
+        internal int ObstaclesOf(int line) => obstacles.Items[line];
+
+        /// <summary>The same without a batch; <paramref name="distance"/> is that of the nodes.</summary>
+        internal int CountObstacles(Node a, Node b, int layers, float distance)
+        {
+            var line = NumberOf(a.Id, b.Id, layers, out _);
+            if (obstacles.Items[line] == Unknown) obstacles.Items[line] = CastAlone(new Pair(a, b, layers, distance));
+            return obstacles.Items[line];
+        }
+
+        /// <inheritdoc/>
+        public void Dispose() => rays.Dispose();
+
+        /// <summary>Casts the rays of the last lines.</summary>
+        private void Cast()
+        {
+            rays.Run();
+            var first = obstacles.Count - rays.Count;
+            for (var i = 0; i < rays.Count; i++)
+            {
+                obstacles.Items[first + i] = Count(i, asked[i]);
+                asked[i] = default;
+            }
+            rays.Clear();
+        }
+
+        /// <summary>The obstacles that the batch found, or all of them if it could not keep all.</summary>
+        private int Count(int ray, in Pair pair)
+        {
+            var count = 0;
+            for (var place = 0; place < rays.MaxHits; place++)
+            {
+                var collider = rays.HitOf(ray, place).collider;
+                if (collider is null) return count;
+                if (pair.IsForeign(collider)) count++;
+            }
+            rays.KeepMore();
+            return CastAlone(pair);
+        }
+
+        private int CastAlone(in Pair pair)
+        {
+            int hits;
+            // A full array may have left some out.
+            while ((hits = Physics.RaycastNonAlloc(
+                pair.From.Position, pair.Way, inTheWay, pair.Distance, pair.Layers, QueryTriggerInteraction.Ignore)) == inTheWay.Length)
+            {
+                inTheWay = new RaycastHit[2 * inTheWay.Length];
+            }
+            var count = 0;
+            for (var i = 0; i < hits; i++)
+            {
+                if (pair.IsForeign(inTheWay[i].collider)) count++;
+            }
+            return count;
+        }
+
+        /// <summary>The number of the line between two nodes in this tick; a new one has <see cref="Unknown"/> obstacles.</summary>
+        private int NumberOf(int a, int b, int layers, out bool isNew)
+        {
+            if (2 * obstacles.Count >= lines.Length) Grow();
+            ref var line = ref Find(Math.Min(a, b), Math.Max(a, b), layers);
+            isNew = line.Tick != Tick;
+            if (!isNew) return line.Number;
+            line = new Line { Tick = Tick, Low = Math.Min(a, b), High = Math.Max(a, b), Layers = layers, Number = obstacles.Count };
+            obstacles.Add(Unknown);
+            return line.Number;
         }
 
         private ref Line Find(int low, int high, int layers)
@@ -49,7 +170,7 @@ namespace Collektive.Unity
             for (; ; place = place + 1 & all.Length - 1)
             {
                 ref var line = ref all[place];
-                if (line.Tick != tick || line.Low == low && line.High == high && line.Layers == layers) return ref line;
+                if (line.Tick != Tick || line.Low == low && line.High == high && line.Layers == layers) return ref line;
             }
         }
 
@@ -65,7 +186,7 @@ namespace Collektive.Unity
             lines = new Line[2 * old.Length];
             foreach (var line in old)
             {
-                if (line.Tick == tick) Find(line.Low, line.High, line.Layers) = line;
+                if (line.Tick == Tick) Find(line.Low, line.High, line.Layers) = line;
             }
         }
     }

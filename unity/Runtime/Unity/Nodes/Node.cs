@@ -175,6 +175,9 @@ namespace Collektive.Unity
             return problem;
         }
 
+        /// <summary>What <see cref="TakeDue"/> would say.</summary>
+        internal bool IsDue(double now) => asleepUntil <= now && (timer == null || timer.IsDue(now));
+
         /// <summary>Whether the node runs in the tick at <paramref name="now"/>; asked once per tick.</summary>
         internal bool TakeDue(double now) => asleepUntil <= now && (timer == null || timer.TakeDue(now));
 

@@ -24,10 +24,13 @@ namespace Collektive.Unity
             next = Next();
         }
 
+        /// <summary>What <see cref="TakeDue"/> would say.</summary>
+        internal bool IsDue(double now) => next <= now;
+
         /// <summary>Whether a round came due since the last call that said so; times must not go back.</summary>
         internal bool TakeDue(double now)
         {
-            if (next > now) return false;
+            if (!IsDue(now)) return false;
             while (next <= now) next = Next();
             return true;
         }

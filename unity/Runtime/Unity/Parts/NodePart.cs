@@ -19,6 +19,9 @@ namespace Collektive.Unity
         /// <summary>Whether the part is in the node's list.</summary>
         internal bool IsAttached { get; private set; }
 
+        /// <summary>Where the part is listed if it asks physics in batches.</summary>
+        internal BatchedParts BatchedIn { get; set; }
+
         /// <summary>Joins the node.</summary>
         protected virtual void OnEnable()
         {
@@ -62,6 +65,11 @@ namespace Collektive.Unity
         /// <param name="simulation">The simulation that its node is in.</param>
         /// <param name="index">The place of the node's data among those of the tick.</param>
         internal abstract void Run(Simulation simulation, int index);
+
+        /// <summary>Adds the part's queries to the batches of its simulation; called before <see cref="Run"/> if the part is listed in <see cref="BatchedIn"/>.</summary>
+        internal virtual void Enqueue()
+        {
+        }
 
         /// <summary>Ends a simulation whose schema is another than the one that this sensor or actuator is made for.</summary>
         internal void FailForData(Simulation simulation, string kind, Type has, Type wants)

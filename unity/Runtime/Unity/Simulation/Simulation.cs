@@ -23,7 +23,7 @@ namespace Collektive.Unity
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; the tick is for those that were there when it began, and stay.
         private readonly List<Node> present = new List<Node>();
-        private readonly GrowingArray<DueNode> due = new GrowingArray<DueNode>();
+        private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
         private bool isTicking;
 
@@ -37,13 +37,9 @@ namespace Collektive.Unity
             this.globals = globals;
             ScriptLinks = new ScriptLinks(this);
             Neighbours = new NeighbourCollector(this);
+            SightLines = new SightLines(this);
+            Queries = new SensorQueries(this);
             Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
-        }
-
-        private struct DueNode
-        {
-            internal Node Node;
-            internal int Id;
         }
 
         internal SimulationSettings Settings { get; }
@@ -109,12 +105,13 @@ namespace Collektive.Unity
         internal NodeGrid Grid { get; } = new NodeGrid();
 
         /// <summary>What rules saw between nodes in this tick.</summary>
-        internal SightLines SightLines { get; } = new SightLines();
+        internal SightLines SightLines { get; }
 
         /// <summary>What rules add neighbours to.</summary>
         internal NeighbourCollector Neighbours { get; }
 
-        internal QueryMemory QueryMemory { get; } = new QueryMemory();
+        /// <summary>What sensors ask of physics.</summary>
+        internal SensorQueries Queries { get; }
 
         /// <summary>Where sensors write; in a tick.</summary>
         internal SensorBuffer Sensed => session.Request.Sensors;
@@ -213,6 +210,8 @@ namespace Collektive.Unity
                 Debug.LogError("the session did not close: " + error.Message, Manager);
             }
             session = null;
+            SightLines.Dispose();
+            Queries.Dispose();
         }
 
         /// <summary>A tick in its order. Users' code may end the simulation in any phase; the phases behind it are left out.</summary>
@@ -265,7 +264,7 @@ namespace Collektive.Unity
             present.Clear();
             present.AddRange(Nodes);
             Grid.Build(present, Grid.MeanRadius);
-            SightLines.Clear();
+            SightLines.Begin();
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
                 var node = present[i];
@@ -283,6 +282,7 @@ namespace Collektive.Unity
             request.ClearDue();
             request.Sensors.EnsureCapacity(present.Count);
             var now = session.Time + Tolerance * Settings.deltaTime;
+            Queries.Ask(now);
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
                 var node = present[i];
@@ -300,7 +300,7 @@ namespace Collektive.Unity
                     return;
                 }
                 request.AddDue(node.Id);
-                due.Add(new DueNode { Node = node, Id = node.Id });
+                due.Add((node, node.Id));
             }
         }
 
@@ -330,7 +330,7 @@ namespace Collektive.Unity
                 {
                     while (due.Items[place].Id != answer.Node(i)) place++;
                 }
-                var (node, id) = (due.Items[place].Node, due.Items[place].Id);
+                var (node, id) = due.Items[place];
                 // Not so when an actuator made the node leave, even if it came back.
                 if (node.Id != id || !roster.IsKnown[id]) continue;
                 node.Answered(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);

@@ -19,6 +19,13 @@ namespace Collektive.Unity
         [Tooltip("Layers to perceive.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
+        // The last batch that the sensor is in, and the number of its query there.
+        [NonSerialized]
+        private ulong batch;
+
+        [NonSerialized]
+        private int query;
+
         /// <summary>Metres from the node's centre, 0 or greater.</summary>
         public float Reach
         {
@@ -38,30 +45,52 @@ namespace Collektive.Unity
         {
             var body = Node.Body;
             var centre = Node.Position;
-            var memory = Node.Simulation.QueryMemory;
-            var count = Overlap(centre, memory);
+            var queries = Node.Simulation.Queries;
+            queries.Sensors.Add(this);
+            var count = batch == queries.Batch ? TakeHits(queries) : Overlap(centre, queries);
             var found = 0;
             for (var i = 0; i < count; i++)
             {
-                var collider = memory.Near[i];
+                var collider = queries.Near[i];
                 if (collider.transform.IsChildOf(body)) continue;
-                Insert(new Obstacle(collider, collider.PointClosestTo(centre) - centre), memory.Obstacles, found++);
+                Insert(new Obstacle(collider, collider.PointClosestTo(centre) - centre), queries.Obstacles, found++);
             }
-            Write(ref data, new Span<Obstacle>(memory.Obstacles, 0, found));
+            Write(ref data, new Span<Obstacle>(queries.Obstacles, 0, found));
+        }
+
+        internal sealed override void Enqueue()
+        {
+            batch = Node.Simulation.Queries.Batch;
+            var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
+            query = Node.Simulation.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
         }
 
         /// <summary>Writes what there is, the nearest first. The obstacles are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Obstacle> obstacles);
 
-        private int Overlap(Vector3 centre, QueryMemory memory)
+        /// <summary>The colliders that the batch found, or all of them if it could not keep all.</summary>
+        private int TakeHits(SensorQueries queries)
+        {
+            var spheres = queries.Spheres;
+            for (var count = 0; count < spheres.MaxHits; count++)
+            {
+                var collider = spheres.HitOf(query, count).collider;
+                if (collider == null) return count;
+                if (count == queries.Near.Length) queries.Grow();
+                queries.Near[count] = collider;
+            }
+            spheres.KeepMore();
+            return Overlap(Node.Position, queries);
+        }
+
+        private int Overlap(Vector3 centre, SensorQueries queries)
         {
             for (; ; )
             {
-                var count = Physics.OverlapSphereNonAlloc(centre, reach, memory.Near, layers, QueryTriggerInteraction.Ignore);
-                if (count < memory.Near.Length) return count;
+                var count = Physics.OverlapSphereNonAlloc(centre, reach, queries.Near, layers, QueryTriggerInteraction.Ignore);
+                if (count < queries.Near.Length) return count;
                 // A full array may have left some out.
-                memory.Near = new Collider[2 * count];
-                memory.Obstacles = new Obstacle[2 * count];
+                queries.Grow();
             }
         }
 

@@ -36,7 +36,15 @@ namespace Collektive.Unity
 
         private RayHit[] hits = Array.Empty<RayHit>();
         private Vector3[] directions = Array.Empty<Vector3>();
+        private Vector3[] aims = Array.Empty<Vector3>();
         private float angleOfDirections;
+
+        // The last batch that the sensor is in, and the number of its first ray there.
+        [NonSerialized]
+        private ulong batch;
+
+        [NonSerialized]
+        private int query;
 
         /// <summary>How many rays, 1 or more.</summary>
         public int Rays
@@ -66,23 +74,51 @@ namespace Collektive.Unity
             set => layers = value;
         }
 
+        /// <summary>By the hits: when scripts are compiled during play, Unity keeps the directions alone.</summary>
+        private bool MustSpread => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
+
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            // By the hits: when scripts are compiled during play, Unity keeps the directions alone.
-            if (hits.Length != rays || angleOfDirections != angle) Spread();
+            var queries = Node.Simulation.Queries;
+            queries.Sensors.Add(this);
+            // Not when another sensor has changed the fan since.
+            var isBatched = batch == queries.Batch && !MustSpread;
+            if (!isBatched) Aim();
             var centre = Node.Position;
-            var turn = Node.Body.rotation;
-            for (var i = 0; i < directions.Length; i++) hits[i] = Cast(centre, turn * directions[i]);
+            for (var i = 0; i < aims.Length; i++)
+            {
+                if (isBatched) hits[i] = Pass(centre, aims[i], queries.Rays.HitOf(query + i, 0));
+                else hits[i] = Cast(centre, aims[i], 0);
+            }
             Write(ref data, hits);
+        }
+
+        internal sealed override void Enqueue()
+        {
+            Aim();
+            batch = Node.Simulation.Queries.Batch;
+            var fans = Node.Simulation.Queries.Rays;
+            query = fans.Count;
+            var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
+            for (var i = 0; i < aims.Length; i++) fans.Add(new RaycastCommand(Node.Position, aims[i], parameters, range));
         }
 
         /// <summary>Writes what the rays met, from left to right, or clockwise seen from above. The hits are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<RayHit> hits);
 
+        /// <summary>Turns the fan as the node is turned now.</summary>
+        private void Aim()
+        {
+            if (MustSpread) Spread();
+            var turn = Node.Body.rotation;
+            for (var i = 0; i < aims.Length; i++) aims[i] = turn * directions[i];
+        }
+
         private void Spread()
         {
             hits = new RayHit[Math.Max(rays, 0)];
+            aims = new Vector3[hits.Length];
             directions = new Vector3[hits.Length];
             angleOfDirections = angle;
             for (var i = 0; i < directions.Length; i++) directions[i] = Quaternion.AngleAxis(AngleOf(i), Vector3.up) * Vector3.forward;
@@ -94,14 +130,23 @@ namespace Collektive.Unity
             return rays == 1 ? 0 : angle * ((float)ray / (rays - 1) - 0.5f);
         }
 
-        private RayHit Cast(Vector3 centre, Vector3 direction)
+        /// <summary>What a ray met whose nearest hit is known: a hit of the node's own collider is passed through.</summary>
+        private RayHit Pass(Vector3 centre, Vector3 direction, in RaycastHit nearest)
         {
-            var passed = 0f;
-            while (Physics.Raycast(centre + passed * direction, direction, out var hit, range - passed, layers, QueryTriggerInteraction.Ignore))
+            var collider = nearest.collider;
+            if (collider == null) return new RayHit(direction, range, null);
+            return collider.transform.IsChildOf(Node.Body)
+                ? Cast(centre, direction, nearest.distance + Gap) : new RayHit(direction, nearest.distance, collider);
+        }
+
+        /// <summary>What a ray meets that begins <paramref name="passed"/> metres from the centre.</summary>
+        private RayHit Cast(Vector3 centre, Vector3 direction, float passed)
+        {
+            while ((passed == 0 || passed < range)
+                && Physics.Raycast(centre + passed * direction, direction, out var hit, range - passed, layers, QueryTriggerInteraction.Ignore))
             {
                 if (!hit.collider.transform.IsChildOf(Node.Body)) return new RayHit(direction, passed + hit.distance, hit.collider);
                 passed += hit.distance + Gap;
-                if (passed >= range) break;
             }
             return new RayHit(direction, range, null);
         }

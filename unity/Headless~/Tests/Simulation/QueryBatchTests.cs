@@ -1,0 +1,197 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>Ready sensors and the line of sight ask physics in batches, and get what each would get alone.</summary>
+    public sealed class QueryBatchTests : SimulationFixture
+    {
+        private readonly List<Node> nodes = new List<Node>();
+        private int arrays;
+
+        [SetUp]
+        public void CountArrays() => arrays = NativeArrays.Count;
+
+        [Test]
+        public void Rays_and_spheres_of_all_nodes_are_one_batch_each()
+        {
+            MakeSwarm(30);
+            Play(1);
+            var before = QueryLog.Batches;
+            Manager.Step();
+            Assert.That(QueryLog.Batches - before, Is.EqualTo(3), "rays, spheres, lines of sight");
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void What_a_batch_finds_is_what_a_sensor_finds_alone()
+        {
+            MakeSwarm(30);
+            for (var tick = 0; tick < 5; tick++)
+            {
+                Play(1);
+                foreach (var node in nodes) AssertAsAlone(node);
+                for (var i = 0; i < nodes.Count; i += 2) nodes[i].transform.Rotate(0, 10, 0);
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void More_colliders_than_a_batch_keeps_are_all_found()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<SensorTests.Obstacles>();
+            sensor.Reach = 5;
+            for (var i = 0; i < 100; i++) MakeBall(new Vector3(1 + i * 0.03f, 0, 0));
+            for (var tick = 0; tick < 5; tick++)
+            {
+                Play(1);
+                Assert.That(sensor.Values.Count, Is.EqualTo(100), "tick " + tick);
+            }
+        }
+
+        [Test]
+        public void More_walls_than_a_batch_keeps_are_all_counted()
+        {
+            var left = MakeNode(0).Node;
+            var right = MakeNode(0).Node;
+            right.transform.position = new Vector3(50, 0, 0);
+            var rule = left.gameObject.AddComponent<LineOfSightNeighbourhood>();
+            rule.Radius = 60;
+            rule.Blocking = false;
+            for (var i = 0; i < 70; i++) MakeBall(new Vector3(5 + i * 0.5f, 0, 0));
+            var links = new List<LinkRecord>();
+            for (var tick = 0; tick < 5; tick++)
+            {
+                Play(1);
+                Manager.CopyLinks(links);
+                Assert.That(links.ConvertAll(link => link.Attenuation), Is.EqualTo(new[] { 70f, 70f }), "tick " + tick);
+            }
+        }
+
+        [Test]
+        public void A_fan_that_another_sensor_changes_is_cast_anew()
+        {
+            var node = MakeNode(0).Node;
+            node.gameObject.AddComponent<Changing>();
+            var fan = node.gameObject.AddComponent<SensorTests.Rays>();
+            for (var tick = 1; tick <= 4; tick++)
+            {
+                Play(1);
+                Assert.That(fan.Values.Count, Is.EqualTo(tick));
+            }
+        }
+
+        [Test]
+        public void Sensors_that_come_and_go_are_asked_as_long_as_they_are_there()
+        {
+            MakeSwarm(4);
+            Play(2);
+            Object.DestroyImmediate(nodes[1].gameObject);
+            nodes[2].GetComponent<SensorTests.Rays>().enabled = false;
+            nodes[3].Sleep(0.12);
+            nodes.RemoveAt(1);
+            var added = MakeSensing(new Vector3(2, 0, 2));
+            Play(1);
+            AssertAsAlone(nodes[0]);
+            AssertAsAlone(added);
+            nodes[1].GetComponent<SensorTests.Rays>().enabled = true;
+            Play(4);
+            foreach (var node in nodes) AssertAsAlone(node);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void The_next_simulation_asks_for_the_same_sensors()
+        {
+            MakeSwarm(4);
+            Play(3);
+            Manager.enabled = false;
+            Manager.enabled = true;
+            Play(3);
+            foreach (var node in nodes) AssertAsAlone(node);
+            var before = QueryLog.Batches;
+            Manager.Step();
+            Assert.That(QueryLog.Batches - before, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Native_memory_is_freed_with_the_simulation()
+        {
+            MakeSwarm(4);
+            Play(3);
+            Assert.That(NativeArrays.Count, Is.GreaterThan(arrays));
+            Manager.enabled = false;
+            Assert.That(NativeArrays.Count, Is.EqualTo(arrays));
+        }
+
+        private void MakeSwarm(int count)
+        {
+            nodes.Clear();
+            var random = new RandomStream(3, 0, RandomPurpose.Scene);
+            for (var i = 0; i < count; i++) nodes.Add(MakeSensing(new Vector3(random.Range(0f, 8f), 0, random.Range(0f, 8f))));
+            for (var i = 0; i < count; i++) MakeBall(new Vector3(random.Range(0f, 8f), 0, random.Range(0f, 8f)));
+        }
+
+        private Node MakeSensing(Vector3 place)
+        {
+            var node = MakeNode(0).Node;
+            node.transform.position = place;
+            node.gameObject.AddComponent<SphereCollider>().radius = 0.3f;
+            // A wing of its own, which rays have to pass.
+            var wing = new GameObject("Wing");
+            wing.transform.SetParent(node.transform, false);
+            wing.transform.localPosition = new Vector3(1, 0, 0);
+            wing.AddComponent<BoxCollider>().size = new Vector3(0.1f, 1, 1);
+            node.gameObject.AddComponent<SensorTests.Rays>().Range = 3;
+            node.gameObject.AddComponent<SensorTests.Obstacles>().Reach = 1.5f;
+            var sight = node.gameObject.AddComponent<LineOfSightNeighbourhood>();
+            sight.Radius = 3;
+            sight.Blocking = false;
+            return node;
+        }
+
+        private static void MakeBall(Vector3 place)
+        {
+            var ball = new GameObject("Ball");
+            ball.transform.position = place;
+            ball.AddComponent<SphereCollider>().radius = 0.1f;
+        }
+
+        /// <summary>Compares what a node's sensors wrote with physics asked now: nothing has moved since.</summary>
+        private static void AssertAsAlone(Node node)
+        {
+            var rays = node.GetComponent<SensorTests.Rays>();
+            if (rays.enabled)
+            {
+                foreach (var ray in rays.Values)
+                {
+                    var nearest = 3f;
+                    foreach (var hit in All(node.Position, ray.Direction, 3))
+                    {
+                        if (!hit.collider.transform.IsChildOf(node.transform)) nearest = Mathf.Min(nearest, hit.distance);
+                    }
+                    Assert.That(ray.Distance, Is.EqualTo(nearest).Within(1e-4f));
+                }
+            }
+            var near = new HashSet<Collider>(Physics.OverlapSphere(node.Position, 1.5f, Physics.DefaultRaycastLayers, QueryTriggerInteraction.Ignore));
+            near.RemoveWhere(collider => collider.transform.IsChildOf(node.transform));
+            Assert.That(node.GetComponent<SensorTests.Obstacles>().Values.ConvertAll(obstacle => obstacle.Collider), Is.EquivalentTo(near));
+        }
+
+        private static List<RaycastHit> All(Vector3 origin, Vector3 direction, float distance)
+        {
+            var hits = new RaycastHit[64];
+            var count = Physics.RaycastNonAlloc(origin, direction, hits, distance, Physics.DefaultRaycastLayers, QueryTriggerInteraction.Ignore);
+            return new List<RaycastHit>(hits).GetRange(0, count);
+        }
+
+        public sealed class Changing : Sensor<probe.SensorData>
+        {
+            protected override void Sense(ref probe.SensorData data) => GetComponent<SensorTests.Rays>().Rays = (int)SimulationManager.Current.Tick + 1;
+        }
+    }
+}

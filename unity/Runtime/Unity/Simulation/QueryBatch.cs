@@ -1,0 +1,101 @@
+using System;
+using Unity.Collections;
+using Unity.Jobs;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Queries of physics that are asked together: Unity divides them among its worker threads, and this thread waits for the answers. Allocates nothing
+    /// once its capacity is reached.
+    /// </summary>
+    internal abstract class QueryBatch<TCommand, THit> : IDisposable
+        where TCommand : struct
+        where THit : struct
+    {
+        private const int MinPerJob = 32;
+
+        /// <summary>Memory grows with it for all queries; the few with more hits are asked again alone.</summary>
+        private const int MostHits = 64;
+
+        private NativeArray<TCommand> commands;
+        private NativeArray<THit> hits;
+        private int wantedHits;
+
+        /// <param name="maxHits">The most hits of a query that are kept, 1 or more; with 1, the nearest.</param>
+        protected QueryBatch(int maxHits) => MaxHits = wantedHits = maxHits;
+
+        internal int MaxHits { get; private set; }
+
+        internal int Count { get; private set; }
+
+        internal void Clear() => Count = 0;
+
+        /// <returns>The number of the query in the batch.</returns>
+        internal int Add(in TCommand command)
+        {
+            if (Count == commands.Length) Grow(ref commands, Count, Math.Max(64, 2 * Count));
+            commands[Count] = command;
+            return Count++;
+        }
+
+        internal void Run()
+        {
+            if (Count == 0) return;
+            MaxHits = wantedHits;
+            if (Count * MaxHits > hits.Length) Grow(ref hits, 0, commands.Length * MaxHits);
+            Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits).Complete();
+        }
+
+        /// <summary>A hit of a query; <paramref name="place"/> is below <see cref="MaxHits"/>. Hits have no order; one without a collider is the end.</summary>
+        internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
+
+        /// <summary>A query had more hits than were kept: later batches keep more.</summary>
+        internal void KeepMore() => wantedHits = Math.Min(MostHits, 2 * MaxHits);
+
+        /// <inheritdoc/>
+        public void Dispose()
+        {
+            Count = 0;
+            Free(ref commands);
+            Free(ref hits);
+        }
+
+        protected abstract JobHandle Schedule(NativeArray<TCommand> commands, NativeArray<THit> hits, int minPerJob, int maxHits);
+
+        /// <summary>Makes an array longer, and keeps its first <paramref name="used"/> items.</summary>
+        private static void Grow<T>(ref NativeArray<T> array, int used, int length) where T : struct
+        {
+            var longer = new NativeArray<T>(length, Allocator.Persistent);
+            for (var i = 0; i < used; i++) longer[i] = array[i];
+            Free(ref array);
+            array = longer;
+        }
+
+        private static void Free<T>(ref NativeArray<T> array) where T : struct
+        {
+            if (array.IsCreated) array.Dispose();
+            array = default;
+        }
+    }
+
+    internal sealed class RayBatch : QueryBatch<RaycastCommand, RaycastHit>
+    {
+        internal RayBatch(int maxHits) : base(maxHits)
+        {
+        }
+
+        protected override JobHandle Schedule(NativeArray<RaycastCommand> commands, NativeArray<RaycastHit> hits, int minPerJob, int maxHits) =>
+            RaycastCommand.ScheduleBatch(commands, hits, minPerJob, maxHits);
+    }
+
+    internal sealed class SphereBatch : QueryBatch<OverlapSphereCommand, ColliderHit>
+    {
+        internal SphereBatch(int maxHits) : base(maxHits)
+        {
+        }
+
+        protected override JobHandle Schedule(NativeArray<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int minPerJob, int maxHits) =>
+            OverlapSphereCommand.ScheduleBatch(commands, hits, minPerJob, maxHits);
+    }
+}

@@ -1,0 +1,61 @@
+using System;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// What the ready sensors ask of physics: at the beginning of their phase in one batch of rays and one of spheres, and one by one where a batch does
+    /// not do. It is the simulation's, so that no collider outlives it here.
+    /// </summary>
+    internal sealed class SensorQueries : IDisposable
+    {
+        /// <summary>Where physics write what they find for one query at a time; who finds it full makes it longer.</summary>
+        internal Collider[] Near = new Collider[32];
+
+        /// <summary>As long as <see cref="Near"/>.</summary>
+        internal Obstacle[] Obstacles = new Obstacle[32];
+
+        private static ulong batches;
+
+        internal SensorQueries(Simulation simulation) => Sensors = new BatchedParts(simulation);
+
+        /// <summary>The nearest hit of each ray.</summary>
+        internal RayBatch Rays { get; } = new RayBatch(1);
+
+        internal SphereBatch Spheres { get; } = new SphereBatch(32);
+
+        internal BatchedParts Sensors { get; }
+
+        /// <summary>The number of the batch of this tick, 1 or greater; no other batch of the process has it.</summary>
+        internal ulong Batch { get; private set; }
+
+        /// <summary>Asks for all sensors whose nodes are due.</summary>
+        internal void Ask(double now)
+        {
+            Batch = ++batches;
+            Rays.Clear();
+            Spheres.Clear();
+            Sensors.DropGone();
+            for (var i = 0; i < Sensors.Count; i++)
+            {
+                if (Sensors[i].Node.IsDue(now)) Sensors[i].Enqueue();
+            }
+            Rays.Run();
+            Spheres.Run();
+        }
+
+        /// <summary>Makes <see cref="Near"/> twice as long; what is in it stays.</summary>
+        internal void Grow()
+        {
+            Array.Resize(ref Near, 2 * Near.Length);
+            Obstacles = new Obstacle[Near.Length];
+        }
+
+        /// <inheritdoc/>
+        public void Dispose()
+        {
+            Rays.Dispose();
+            Spheres.Dispose();
+        }
+    }
+}
