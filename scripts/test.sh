@@ -178,7 +178,28 @@ build_csharp_tests() {
   assembly Collektive.WithoutLibrary.exe "$ROOT/unity/Headless~/WithoutLibrary" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" \
     "-r:$CSHARP/Collektive.Headless.Tests.dll" -target:exe
   once stub-bridge "$(fingerprint "$ROOT/unity/Runtime/Bridge" "$CSHARP/Collektive.FlatBuffers.dll")" build_stub_bridge "$CSHARP/stubs"
+  once documentation "$(fingerprint "$ROOT/unity/Runtime" "$CSHARP/Collektive.Unity.dll")" check_documentation
   library "$NUNIT"
+}
+
+# check_documentation: each public member of the package has XML documentation; flatc's code has none.
+check_documentation() {
+  local missing
+  missing=$({ undocumented Bridge "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll"
+    undocumented Unity "${PACKAGE_REFERENCES[@]:0:3}"; } | grep -v /Generated/ || true)
+  [ -z "$missing" ] || fail "$missing"
+}
+
+# undocumented NAME OPTION...: the compiler's messages about public members of an assembly of Runtime without documentation.
+undocumented() {
+  local name=$1 made
+  shift
+  made=$(mktemp -d)
+  sources "$ROOT/unity/Runtime/$name" | sed 's/.*/"&"/' >"$made/sources.rsp"
+  # Under its own name, which may see internal members of the other.
+  csc "$made/Collektive.$name.dll" -warnaserror- "-doc:$made/made.xml" "$@" "@$made/sources.rsp" >"$made/log" 2>&1 || cat "$made/log"
+  grep CS1591 "$made/log" || true
+  rm -rf "$made"
 }
 
 # build_stub_bridge FOLDER: the bridge as Unity compiles it for a player on a platform without the native library.

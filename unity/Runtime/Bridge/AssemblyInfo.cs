@@ -9,4 +9,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("Collektive.Unity")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Tests")]
+[assembly: InternalsVisibleTo("Collektive.WithoutLibrary")]
 [assembly: InternalsVisibleTo("RoundTrip")]

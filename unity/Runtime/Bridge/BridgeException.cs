@@ -43,7 +43,7 @@ namespace Collektive.Bridge
     public sealed class BridgeException : Exception
     {
         /// <summary>Makes an exception of the given kind.</summary>
-        public BridgeException(BridgeError error, string message) : base(message)
+        internal BridgeException(BridgeError error, string message) : base(message)
         {
             Error = error;
         }

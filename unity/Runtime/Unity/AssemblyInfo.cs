@@ -5,4 +5,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
 [assembly: InternalsVisibleTo("Collektive.Player")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
+[assembly: InternalsVisibleTo("Collektive.Unity.Editor.Tests")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Tests")]

@@ -27,11 +27,11 @@ namespace Collektive.Bridge
         public static JvmState State => ShimLibrary.Problem == null ? (JvmState)Shim.clk_jvm_state() : JvmState.None;
 
         /// <summary>Home, version and options of the JVM, one a line; empty when none was started.</summary>
-        public static string Description =>
+        internal static string Description =>
             State == JvmState.None ? "" : Shim.Text((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
         /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
-        public static ulong StepCalls
+        internal static ulong StepCalls
         {
             get
             {
@@ -46,7 +46,7 @@ namespace Collektive.Bridge
         /// Why this process can have no JVM: the native library is missing, made for another platform, or of another version. The text names the
         /// platform and says what to do. Null when the library is as it should be.
         /// </summary>
-        public static string FindProblem() => ShimLibrary.Problem;
+        internal static string FindProblem() => ShimLibrary.Problem;
 
         /// <summary>Starts the JVM, or does nothing when it runs with the same words.</summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
@@ -100,7 +100,7 @@ namespace Collektive.Bridge
 
         /// <summary>Destroys the JVM, if one was started; for the end of the process only, since none can follow it.</summary>
         /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
-        public static void Stop(int limitMs)
+        internal static void Stop(int limitMs)
         {
             if (ShimLibrary.Problem == null) Shim.Check(Shim.clk_jvm_stop(limitMs));
         }

@@ -1,20 +1,20 @@
 namespace Collektive.Bridge
 {
     /// <summary>Something that is wrong with JVM settings, for the user who set them.</summary>
-    public readonly struct JvmProblem
+    internal readonly struct JvmProblem
     {
         /// <summary>Makes a problem of the setting <paramref name="key"/>.</summary>
-        public JvmProblem(string key, string message)
+        internal JvmProblem(string key, string message)
         {
             Key = key;
             Message = message;
         }
 
         /// <summary>The field of <see cref="JvmSettings"/> to show it at.</summary>
-        public string Key { get; }
+        internal string Key { get; }
 
         /// <summary>What is wrong, and what to do.</summary>
-        public string Message { get; }
+        internal string Message { get; }
 
         /// <inheritdoc/>
         public override string ToString() => Key + ": " + Message;

@@ -7,7 +7,7 @@ namespace Collektive.Bridge
     /// What an inspector shows beside JVM settings: for each what is in effect and what is wrong with it, and whether a restart is due.
     /// Made anew when the settings change; the check of the options takes some 50 to 200 ms.
     /// </summary>
-    public sealed class JvmReport
+    internal sealed class JvmReport
     {
         private readonly Dictionary<string, string> problems = new Dictionary<string, string>();
         private readonly JvmStatus status;
@@ -18,10 +18,10 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Whether the JVM would start with these settings.</summary>
-        public bool IsGood => problems.Count == 0;
+        internal bool IsGood => problems.Count == 0;
 
         /// <summary>Something to say about all of the settings, in one or two sentences; may be empty.</summary>
-        public string Notice { get; private set; } = "";
+        internal string Notice { get; private set; } = "";
 
         /// <summary>Looks at <paramref name="settings"/>; nothing is started.</summary>
         /// <param name="settings">What the user wants.</param>
@@ -36,10 +36,10 @@ namespace Collektive.Bridge
         }
 
         /// <summary>What is wrong with a setting, and what to do; empty when nothing is.</summary>
-        public string Problem(JvmSetting setting) => problems.TryGetValue(setting.Key, out var problem) ? problem : "";
+        internal string Problem(JvmSetting setting) => problems.TryGetValue(setting.Key, out var problem) ? problem : "";
 
         /// <summary>What is in effect in the JVM that runs; empty when none does.</summary>
-        public string Effective(JvmSetting setting) => status == null ? "" : setting.Effective(status);
+        internal string Effective(JvmSetting setting) => status == null ? "" : setting.Effective(status);
 
         private void Try(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {

@@ -6,7 +6,7 @@ using System.Reflection;
 namespace Collektive.Bridge
 {
     /// <summary>One field of <see cref="JvmSettings"/>, as inspectors, scenario files and error texts know it.</summary>
-    public sealed class JvmSetting
+    internal sealed class JvmSetting
     {
         private readonly FieldInfo field;
         private readonly Func<JvmStatus, string> effective;
@@ -28,7 +28,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>All settings, in the order to show them in.</summary>
-        public static IReadOnlyList<JvmSetting> All { get; } = new[]
+        internal static IReadOnlyList<JvmSetting> All { get; } = new[]
         {
             new JvmSetting(
                 nameof(JvmSettings.location), "Location",
@@ -83,33 +83,33 @@ namespace Collektive.Bridge
         };
 
         /// <summary>Name of the field and key in scenario files.</summary>
-        public string Key { get; }
+        internal string Key { get; }
 
         /// <summary>What inspectors call it.</summary>
-        public string Label { get; }
+        internal string Label { get; }
 
         /// <summary>What it does.</summary>
-        public string Tooltip { get; }
+        internal string Tooltip { get; }
 
         /// <summary>Unit of a number; may be empty.</summary>
-        public string Unit { get; }
+        internal string Unit { get; }
 
         /// <summary>Smallest number, beside <see cref="Otherwise"/>.</summary>
-        public int Minimum { get; }
+        internal int Minimum { get; }
 
         /// <summary>Largest number; 0 for what is no number.</summary>
-        public int Maximum { get; }
+        internal int Maximum { get; }
 
         /// <summary>The number that leaves it to the JVM.</summary>
-        public int Otherwise { get; }
+        internal int Otherwise { get; }
 
         /// <summary>Type of the field.</summary>
-        public Type Type => field.FieldType;
+        internal Type Type => field.FieldType;
 
         private string[] Marks { get; }
 
         /// <summary>The setting of that name; null when there is none.</summary>
-        public static JvmSetting Find(string key)
+        internal static JvmSetting Find(string key)
         {
             foreach (var setting in All)
             {
@@ -119,13 +119,13 @@ namespace Collektive.Bridge
         }
 
         /// <summary>The field's value.</summary>
-        public object Get(JvmSettings settings) => field.GetValue(settings);
+        internal object Get(JvmSettings settings) => field.GetValue(settings);
 
         /// <summary>Gives the field a value of <see cref="Type"/>.</summary>
-        public void Set(JvmSettings settings, object value) => field.SetValue(settings, value);
+        internal void Set(JvmSettings settings, object value) => field.SetValue(settings, value);
 
         /// <summary>What is in effect in the JVM that runs.</summary>
-        public string Effective(JvmStatus status) => effective(status);
+        internal string Effective(JvmStatus status) => effective(status);
 
         /// <summary>What is wrong with the field taken by itself; null when nothing is.</summary>
         internal string FindProblem(JvmSettings settings)

@@ -93,7 +93,7 @@ namespace Collektive.Bridge
         public List<string> flags = new List<string>();
 
         /// <summary>All that is wrong without asking a JVM; empty when nothing is.</summary>
-        public List<JvmProblem> FindProblems()
+        internal List<JvmProblem> FindProblems()
         {
             var problems = new List<JvmProblem>();
             foreach (var setting in JvmSetting.All)
@@ -145,7 +145,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 when its <c>release</c> file tells none.</summary>
-        public static int JavaVersion(string javaHome)
+        internal static int JavaVersion(string javaHome)
         {
             const string key = "JAVA_VERSION=\"";
             var release = Path.Combine(javaHome, "release");

@@ -9,23 +9,23 @@ namespace Collektive.Bridge
     public abstract class ActuatorBuffer
     {
         /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
-        public abstract Type DataType { get; }
+        internal abstract Type DataType { get; }
 
         /// <summary>
         /// Points this reader at the table <c>Actuators</c> at <paramref name="position"/> (bytes from the start) of
         /// <paramref name="frame"/>. Valid until the session's next call.
         /// </summary>
         /// <exception cref="BridgeException">The table does not fit the frame: <see cref="BridgeError.Frame"/>.</exception>
-        public abstract void Attach(ByteBuffer frame, int position);
+        internal abstract void Attach(ByteBuffer frame, int position);
 
         /// <summary>Elements in the attached table.</summary>
-        public abstract int Count { get; }
+        internal abstract int Count { get; }
 
         /// <summary>The element at an index below <see cref="Count"/>, boxed: for tools that know no schema.</summary>
-        public abstract object Get(int index);
+        internal abstract object Get(int index);
 
         /// <summary>As <see cref="Get"/>, of the table that was attached before.</summary>
-        public abstract object GetFormer(int index);
+        internal abstract object GetFormer(int index);
 
         /// <summary>
         /// Copies an element of the table that was attached before to memory of its own. Reuses that of <paramref name="kept"/> unless it is null.
@@ -36,7 +36,7 @@ namespace Collektive.Bridge
         /// To be called before the attached frame's memory is written again, as a session does: the next <see cref="Attach"/> makes its elements the
         /// former ones.
         /// </summary>
-        public abstract void Retain();
+        internal abstract void Retain();
     }
 
     /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
@@ -46,27 +46,27 @@ namespace Collektive.Bridge
         private int formerCount;
 
         /// <inheritdoc/>
-        public sealed override Type DataType => typeof(T);
+        internal sealed override Type DataType => typeof(T);
 
         /// <inheritdoc/>
-        public sealed override int Count => count;
+        internal sealed override int Count => count;
 
         /// <inheritdoc/>
-        public sealed override object Get(int index) => this[index];
+        internal sealed override object Get(int index) => this[index];
 
         /// <inheritdoc/>
-        public sealed override object GetFormer(int index) => Former(index);
+        internal sealed override object GetFormer(int index) => Former(index);
 
         /// <summary>The element at an index below <see cref="ActuatorBuffer.Count"/>.</summary>
-        public abstract T this[int index] { get; }
+        internal abstract T this[int index] { get; }
 
         /// <summary>
         /// An element of the table that was attached before, at an index below its count. Valid as long as those of the attached one.
         /// </summary>
-        public abstract T Former(int index);
+        internal abstract T Former(int index);
 
         /// <inheritdoc/>
-        public sealed override void Attach(ByteBuffer frame, int position)
+        internal sealed override void Attach(ByteBuffer frame, int position)
         {
             var first = FrameTable.FindData(frame, position, ElementSize, out var elements);
             Show(frame, first, elements);

@@ -26,6 +26,10 @@ namespace Collektive.Bridge
         private VTablePlace[] vtables = new VTablePlace[8];
         private int vtableCount;
 
+        internal DraftWriter()
+        {
+        }
+
         /// <summary>Index of the element that is being written; -1 for global data.</summary>
         internal int Element { private get; set; }
 

@@ -7,26 +7,26 @@ namespace Collektive.Bridge
     public abstract class GlobalBuffer
     {
         /// <summary>The type of the staged data.</summary>
-        public abstract Type DataType { get; }
+        internal abstract Type DataType { get; }
 
         /// <summary>Gives all fields the defaults of the schema.</summary>
-        public abstract void Clear();
+        internal abstract void Clear();
 
         /// <summary>Like <see cref="SensorBuffer.FindNotFinite"/>.</summary>
-        public abstract string FindNotFinite();
+        internal abstract string FindNotFinite();
 
         /// <summary>Writes the data; the offset of the table <c>GlobalData</c>.</summary>
         /// <exception cref="BridgeException">A required field was not set: <see cref="BridgeError.Argument"/>.</exception>
-        public abstract int Write(FlatBufferBuilder builder);
+        internal abstract int Write(FlatBufferBuilder builder);
     }
 
     /// <summary>A <see cref="GlobalBuffer"/> with typed data.</summary>
     public abstract class GlobalBuffer<T> : GlobalBuffer
     {
         /// <summary>The staged data.</summary>
-        public T Data;
+        internal T Data;
 
         /// <inheritdoc/>
-        public sealed override Type DataType => typeof(T);
+        internal sealed override Type DataType => typeof(T);
     }
 }

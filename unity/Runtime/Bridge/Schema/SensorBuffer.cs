@@ -10,36 +10,36 @@ namespace Collektive.Bridge
     public abstract class SensorBuffer
     {
         /// <summary>The type of an element: what a <c>Sensor&lt;T&gt;</c> must have as its T.</summary>
-        public abstract Type DataType { get; }
+        internal abstract Type DataType { get; }
 
         /// <summary>Makes room for at least this many elements; never shrinks.</summary>
-        public abstract void EnsureCapacity(int count);
+        internal abstract void EnsureCapacity(int count);
 
         /// <summary>Gives an element the defaults of the schema.</summary>
-        public abstract void Clear(int index);
+        internal abstract void Clear(int index);
 
         /// <summary>
         /// Path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, else null. A field whose
         /// default in the schema is not finite may hold such values and is not looked at.
         /// </summary>
-        public abstract string FindNotFinite(int index);
+        internal abstract string FindNotFinite(int index);
 
         /// <summary>Writes the first <paramref name="count"/> elements; the offset of the table <c>Sensors</c>.</summary>
         /// <exception cref="BridgeException">A required field was not set: <see cref="BridgeError.Argument"/>.</exception>
-        public abstract int Write(FlatBufferBuilder builder, int count);
+        internal abstract int Write(FlatBufferBuilder builder, int count);
     }
 
     /// <summary>A <see cref="SensorBuffer"/> with typed elements.</summary>
     public abstract class SensorBuffer<T> : SensorBuffer
     {
         /// <summary>The elements; <see cref="SensorBuffer.EnsureCapacity"/> may replace the array.</summary>
-        public T[] Items = Array.Empty<T>();
+        internal T[] Items = Array.Empty<T>();
 
         /// <inheritdoc/>
-        public sealed override Type DataType => typeof(T);
+        internal sealed override Type DataType => typeof(T);
 
         /// <inheritdoc/>
-        public override void EnsureCapacity(int count)
+        internal override void EnsureCapacity(int count)
         {
             if (count > Items.Length) Array.Resize(ref Items, Math.Max(count, 2 * Items.Length));
         }

@@ -14,7 +14,7 @@ namespace Collektive.Bridge
         private T[] former = Array.Empty<T>();
 
         /// <inheritdoc/>
-        public override T this[int index]
+        internal override T this[int index]
         {
             get
             {
@@ -24,7 +24,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override T Former(int index)
+        internal override T Former(int index)
         {
             RequireFormer(index);
             return former[index];
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Nothing to do: elements are copies already.</summary>
-        public override void Retain()
+        internal override void Retain()
         {
         }
 

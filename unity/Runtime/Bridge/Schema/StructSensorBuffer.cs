@@ -14,16 +14,16 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void Clear(int index)
+        internal override void Clear(int index)
         {
             Items[index] = default;
         }
 
         /// <inheritdoc/>
-        public override string FindNotFinite(int index) => Items[index].FindNotFinite();
+        internal override string FindNotFinite(int index) => Items[index].FindNotFinite();
 
         /// <inheritdoc/>
-        public override int Write(FlatBufferBuilder builder, int count)
+        internal override int Write(FlatBufferBuilder builder, int count)
         {
             return FrameTable.Write(builder, count == 0 ? 0 : Blit.Vector(builder, Items, count, alignment));
         }

@@ -23,7 +23,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override T this[int index]
+        internal override T this[int index]
         {
             get
             {
@@ -33,7 +33,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override T Former(int index)
+        internal override T Former(int index)
         {
             RequireFormer(index);
             return Reader(former, Place(former, formerFirst, index));
@@ -48,7 +48,7 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void Retain()
+        internal override void Retain()
         {
             if (frame == null) return;
             var start = frame.Position;

@@ -14,16 +14,16 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void Clear()
+        internal override void Clear()
         {
             Data.Clear();
         }
 
         /// <inheritdoc/>
-        public override string FindNotFinite() => Data.FindNotFinite();
+        internal override string FindNotFinite() => Data.FindNotFinite();
 
         /// <inheritdoc/>
-        public override int Write(FlatBufferBuilder builder)
+        internal override int Write(FlatBufferBuilder builder)
         {
             writer.Begin(builder);
             var place = Data.Write(writer);

@@ -10,7 +10,7 @@ namespace Collektive.Bridge
         private int[] vtables = Array.Empty<int>();
 
         /// <inheritdoc/>
-        public override void EnsureCapacity(int count)
+        internal override void EnsureCapacity(int count)
         {
             var old = Items.Length;
             base.EnsureCapacity(count);
@@ -20,16 +20,16 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        public override void Clear(int index)
+        internal override void Clear(int index)
         {
             Items[index].Clear();
         }
 
         /// <inheritdoc/>
-        public override string FindNotFinite(int index) => Items[index].FindNotFinite();
+        internal override string FindNotFinite(int index) => Items[index].FindNotFinite();
 
         /// <inheritdoc/>
-        public override int Write(FlatBufferBuilder builder, int count)
+        internal override int Write(FlatBufferBuilder builder, int count)
         {
             if (count == 0) return FrameTable.Write(builder, 0);
             var drafts = Items;

@@ -29,7 +29,7 @@ namespace Collektive.Bridge
 
         /// <summary>The first thing that is wrong; null when all is right.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
-        public string FindProblem(double deltaTime)
+        internal string FindProblem(double deltaTime)
         {
             if (!(loss >= 0 && loss <= 1)) return "network loss is " + loss + ": it must be in 0..1";
             if (!IsAmount(lossPerMetre)) return "network loss per metre is " + lossPerMetre + ": it must be 0 or greater";
@@ -48,7 +48,7 @@ namespace Collektive.Bridge
     public readonly struct NetworkCounts
     {
         /// <summary>Makes the counts of a tick.</summary>
-        public NetworkCounts(int sent, int dropped, int delayed, int expired)
+        internal NetworkCounts(int sent, int dropped, int delayed, int expired)
         {
             Sent = sent;
             Dropped = dropped;

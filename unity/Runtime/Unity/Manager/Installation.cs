@@ -31,7 +31,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Root of the package's own JVM; not every package has one.</summary>
-        public static string Bundled => PathOf(Package + "/Jvm~/linux-x64");
+        internal static string Bundled => PathOf(Package + "/Jvm~/linux-x64");
 
         private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
 
@@ -51,7 +51,7 @@ namespace Collektive.Unity
         /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own
         /// files, wherever it is installed: a tarball holds its content below <c>unity</c>, a git URL with <c>?path=/unity</c> does not.
         /// </summary>
-        public static string PathOf(string file)
+        internal static string PathOf(string file)
         {
             if (!file.StartsWith(Package + "/", StringComparison.Ordinal)) return Path.GetFullPath(file);
             var content = ToPhysical(Package + "/unity");

@@ -95,7 +95,7 @@ namespace Collektive.Unity
         internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File) };
 
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
-        public string FindProblem()
+        internal string FindProblem()
         {
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
             if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;

@@ -26,7 +26,7 @@ namespace Collektive.Unity
 
         /// <summary>The first thing that is wrong; null when all is right.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
-        public string FindProblem(float deltaTime)
+        internal string FindProblem(float deltaTime)
         {
             if (!(period >= deltaTime) || float.IsInfinity(period))
                 return "period is " + period + " s: it must be finite and at least the delta time, " + deltaTime + " s";

@@ -4,7 +4,7 @@ namespace Collektive.Unity
     public readonly struct TickTimes
     {
         /// <summary>Makes a record of one tick.</summary>
-        public TickTimes(double sense, double step, double act, double physics)
+        internal TickTimes(double sense, double step, double act, double physics)
         {
             Sense = sense;
             Step = step;

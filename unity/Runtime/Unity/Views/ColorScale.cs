@@ -8,7 +8,7 @@ namespace Collektive.Unity
     public sealed class ColorScale
     {
         /// <summary>How many different colours there are.</summary>
-        public const int Steps = 16;
+        internal const int Steps = 16;
 
         /// <summary>Colour of the lowest value.</summary>
         [Tooltip("Colour of the lowest value.")]
@@ -33,10 +33,10 @@ namespace Collektive.Unity
         private bool empty;
 
         /// <summary>The colour of a step below <see cref="Steps"/>.</summary>
-        public Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
+        internal Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
 
         /// <summary>The step of a value; values beyond the ends, and ones that are no number, have the ends' steps.</summary>
-        public int StepOf(float value)
+        internal int StepOf(float value)
         {
             var place = (value - lowest) / (highest - lowest);
             return place > 0 ? (int)Math.Min(place * Steps, Steps - 1) : 0;

@@ -6,7 +6,7 @@ namespace Collektive.Unity
     public readonly struct Contact
     {
         /// <summary>Makes one.</summary>
-        public Contact(Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
+        internal Contact(Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
         {
             Collider = collider;
             Point = point;

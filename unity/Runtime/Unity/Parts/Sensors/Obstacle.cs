@@ -6,7 +6,7 @@ namespace Collektive.Unity
     public readonly struct Obstacle
     {
         /// <summary>Makes one.</summary>
-        public Obstacle(Collider collider, Vector3 vector)
+        internal Obstacle(Collider collider, Vector3 vector)
         {
             Collider = collider;
             Vector = vector;

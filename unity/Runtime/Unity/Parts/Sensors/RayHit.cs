@@ -6,7 +6,7 @@ namespace Collektive.Unity
     public readonly struct RayHit
     {
         /// <summary>Makes one.</summary>
-        public RayHit(Vector3 direction, float distance, Collider collider)
+        internal RayHit(Vector3 direction, float distance, Collider collider)
         {
             Direction = direction;
             Distance = distance;

@@ -6,7 +6,7 @@ namespace Collektive.Unity
     public readonly struct Zone
     {
         /// <summary>Makes one.</summary>
-        public Zone(Collider collider, bool entered, bool left)
+        internal Zone(Collider collider, bool entered, bool left)
         {
             Collider = collider;
             Entered = entered;
