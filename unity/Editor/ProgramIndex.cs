@@ -82,7 +82,7 @@ namespace Collektive.Unity.Editor
             }
             catch (InvalidDataException)
             {
-                // Not a jar, or half of one: Play says so.
+                // Not a complete jar: Play reports it.
                 return false;
             }
             return hasIndex;

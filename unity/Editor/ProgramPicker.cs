@@ -28,7 +28,7 @@ namespace Collektive.Unity.Editor
             }
             if (index.WithoutIndex != null)
                 EditorGUILayout.HelpBox(File.Exists(index.WithoutIndex)
-                    ? index.WithoutIndex + " has no index of programs: write the program's name yourself, or compile the jar with this version of "
+                    ? index.WithoutIndex + " has no index of programs: type the program's name, or compile the jar with this version of "
                     + "the compiler plugin"
                     : index.WithoutIndex + " does not exist yet: Tools > Collektive > Rebuild Programs makes it, and so does Play", MessageType.None);
         }

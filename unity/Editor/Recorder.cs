@@ -24,7 +24,7 @@ namespace Collektive.Unity.Editor
 
         internal void Draw()
         {
-            // Repaints draw the controls of the layout before them; and it is a question to the JVM, which takes time.
+            // A repaint must draw the controls of the layout before it; and the call into the JVM takes time.
             if (Event.current.type == EventType.Layout && EditorApplication.timeSinceStartup - asked >= Interval) Ask();
             if (status == null) return;
             EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections

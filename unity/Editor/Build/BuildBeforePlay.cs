@@ -32,7 +32,7 @@ namespace Collektive.Unity.Editor
         private static List<string> Jars(SimulationSettings settings)
         {
             if (settings.jars.Count > 0) return settings.jars;
-            // Play says what is wrong with the schema.
+            // Play reports what is wrong with the schema.
             var schema = Schemas.TryFind(settings.schema);
             return schema != null ? settings.JarsFor(schema) : settings.jars;
         }

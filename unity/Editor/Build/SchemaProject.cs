@@ -5,7 +5,7 @@ using System.IO;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// A schema of the user's, and by its place all that belongs to it: the generated C# in <c>Generated</c> beside it, the Kotlin in
+    /// A user's schema, and what belongs to it by location: the generated C# in <c>Generated</c> beside it, the Kotlin in
     /// <c>Programs</c> beside it, and the jar that is made of both, <c>Library/Collektive/NAME.jar</c>.
     /// </summary>
     internal sealed class SchemaProject

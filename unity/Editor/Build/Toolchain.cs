@@ -31,7 +31,7 @@ namespace Collektive.Unity.Editor
             if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux))
                 throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
             var shipped = Shipped("linux-x64/flatc");
-            // By content: packages are unpacked with times of any year.
+            // By content: package managers set arbitrary file times.
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
@@ -80,7 +80,7 @@ namespace Collektive.Unity.Editor
             var candidates = new List<string> { ProjectSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
             foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
             {
-                // A compiler's own bin folder; a link to it in /usr/bin says nothing about where the compiler is.
+                // The compiler's own bin folder; a link in /usr/bin does not reveal the compiler's folder.
                 var parent = Path.GetDirectoryName(folder.TrimEnd('/'));
                 if (File.Exists(Path.Combine(folder, "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt"))) candidates.Add(parent);
             }

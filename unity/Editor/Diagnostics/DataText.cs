@@ -25,7 +25,7 @@ namespace Collektive.Unity.Editor
             members.AddRange(type.GetFields(BindingFlags.Instance | BindingFlags.Public));
             foreach (var property in type.GetProperties(BindingFlags.Instance | BindingFlags.Public))
             {
-                // FlatBuffers' readers have their memory as a property.
+                // FlatBuffers' readers expose their memory as a property.
                 if (property.CanRead && property.GetIndexParameters().Length == 0 && property.Name != "ByteBuffer") members.Add(property);
             }
             return members;

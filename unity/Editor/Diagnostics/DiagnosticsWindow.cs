@@ -80,7 +80,7 @@ namespace Collektive.Unity.Editor
         private void DrawNodes()
         {
             filter = EditorGUILayout.TextField("Filter", filter);
-            // Repaints draw the controls of the layout before them.
+            // A repaint must draw the controls of the layout before it.
             if (Event.current.type == EventType.Layout && (isStale || filter != filtered)) TakeRows();
             var height = EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
             var viewHeight = selected < 0 ? position.height : position.height / 2;
@@ -141,7 +141,8 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < errors.Count && i < MaxErrors; i++)
             {
                 var error = errors[i];
-                EditorGUILayout.LabelField(error.Source + (error.Node == NodeErrors.NoNode ? "" : ", node " + error.Node), error.Count + " times, last at tick " + error.LastTick);
+                var place = error.Node == NodeErrors.NoNode ? "" : ", node " + error.Node;
+                EditorGUILayout.LabelField(error.Source + place, error.Count + " times, last at tick " + error.LastTick);
                 EditorGUILayout.HelpBox(error.LastMessage, MessageType.Error);
             }
         }

@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>Something that is wrong with JVM settings, for the user who set them.</summary>
+    /// <summary>A problem of the JVM settings, as a message for users.</summary>
     internal readonly struct JvmProblem
     {
         /// <summary>Makes a problem of the setting <paramref name="key"/>.</summary>

@@ -5,7 +5,7 @@ namespace Collektive.Bridge
 {
     /// <summary>
     /// What an inspector shows beside JVM settings: for each what is in effect and what is wrong with it, and whether a restart is due.
-    /// Made anew when the settings change; the check of the options takes some 50 to 200 ms.
+    /// Replaced when the settings change; the check of the options takes 50 to 200 ms.
     /// </summary>
     internal sealed class JvmReport
     {
@@ -24,8 +24,8 @@ namespace Collektive.Bridge
         internal string Notice { get; private set; } = "";
 
         /// <summary>Looks at <paramref name="settings"/>; nothing is started.</summary>
-        /// <param name="settings">What the user wants.</param>
-        /// <param name="toLaunch">Makes the words for the JVM; throws <see cref="BridgeException"/> when there is none to be had.</param>
+        /// <param name="settings">The settings to check.</param>
+        /// <param name="toLaunch">Makes the JVM's command line; throws <see cref="BridgeException"/> when there is no JVM.</param>
         internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);

@@ -42,20 +42,20 @@ namespace Collektive.Bridge
                 status => status.Megabytes("InitialHeapSize"), "MB", 8, 1 << 20, marks: "Xms Initial"),
             new JvmSetting(
                 nameof(JvmSettings.maximumHeapMb), "Maximum heap",
-                "Programs that want more get an OutOfMemoryError. 0: the JVM's choice, a quarter of the machine's memory.",
+                "Programs that need more get an OutOfMemoryError. 0: the JVM's choice, a quarter of the machine's memory.",
                 status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
             new JvmSetting(
                 nameof(JvmSettings.collector), "Collector",
-                "The garbage collector. Automatic is Serial: rounds leave little behind, and run fastest with it. Parallel, G1 or Z " +
-                "for programs that keep much. " +
+                "The garbage collector. Automatic is Serial: rounds keep few objects and run fastest with it. Parallel, G1 or Z " +
+                "for programs that keep many objects. " +
                 "Shenandoah is not in every JVM.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
                 nameof(JvmSettings.compiler), "Compiler",
-                "Tiered is the fastest in the long run. C1 is up to speed sooner. Interpreter is slow; it is for looking for faults.",
+                "Tiered is the fastest in the long run. C1 warms up sooner. Interpreter is slow; use it to find faults of compiled code.",
                 EffectiveCompiler, marks: "TieredStopAtLevel Xint"),
             new JvmSetting(
                 nameof(JvmSettings.compileThreshold), "Compile threshold",
-                "Percent of the usual number of calls after which code is compiled. Lower: sooner, with less knowledge of how it is used.",
+                "Percent of the usual number of calls after which code is compiled. Lower: sooner, with less profile data.",
                 EffectiveThreshold, "%", 1, 10000, 100, "CompileThreshold"),
             new JvmSetting(
                 nameof(JvmSettings.codeCacheMb), "Code cache",
@@ -70,7 +70,7 @@ namespace Collektive.Bridge
                 "Check assert statements of programs.", status => status.Has("-ea") ? "on" : "off"),
             new JvmSetting(
                 nameof(JvmSettings.debugPort), "Debug port",
-                "TCP port on which debuggers of this machine may attach (JDWP). Whoever can, can run any code here. 0: off.",
+                "TCP port on which debuggers of this machine may attach (JDWP). A debugger can run any code in this process. 0: off.",
                 EffectivePort, "", 1024, 65535, marks: "jdwp transport JDWP"),
             new JvmSetting(
                 nameof(JvmSettings.repeatableMaths), "Repeatable maths",

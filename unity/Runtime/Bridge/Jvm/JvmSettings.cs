@@ -47,7 +47,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// What a user wants of the JVM. Read once, when the JVM starts: once per process. <see cref="JvmSetting.All"/> describes each
+    /// The settings of the JVM. Read once per process, when the JVM starts. <see cref="JvmSetting.All"/> describes each
     /// field; scenario files have the same names as keys.
     /// </summary>
     [Serializable]
@@ -144,7 +144,7 @@ namespace Collektive.Bridge
             return new JvmLaunch(javaHome, hostJar, options) { Note = note };
         }
 
-        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 when its <c>release</c> file tells none.</summary>
+        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 if its <c>release</c> file names none.</summary>
         internal static int JavaVersion(string javaHome)
         {
             const string key = "JAVA_VERSION=\"";
@@ -160,7 +160,7 @@ namespace Collektive.Bridge
             return 0;
         }
 
-        // What outlives two collections is the state of nodes, and would be copied up to fifteen times: pauses of 5 ms instead of one.
+        // Objects that survive two collections are mostly nodes' state; the default would copy them up to fifteen times: pauses of 5 ms instead of 1 ms.
         private static readonly string[] OwnCollector = { "-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial), "-XX:MaxTenuringThreshold=2" };
 
         private const int FirstWithAutomaticArchive = 19;
@@ -181,7 +181,7 @@ namespace Collektive.Bridge
             }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + Path.Combine(cacheFolder, "classes-" + key.ToString("x16", CultureInfo.InvariantCulture) + ".jsa"));
-            // A line for each class that it leaves out, and errors about an archive that it then makes anew.
+            // The JVM logs a line for each class that it leaves out, and errors about an archive that it then replaces.
             options.Add("-Xlog:cds=off");
             return "";
         }

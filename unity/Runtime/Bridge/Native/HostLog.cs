@@ -17,9 +17,9 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// Log lines of the shim, the JVM and the programs, polled. Of each severity it gives at most <see cref="LinesPerSecond"/>: a
-    /// console takes no more. What is left out is counted, and the count is a line of its own. Without the native library there are none. Used from
-    /// one thread at a time.
+    /// Log lines of the shim, the JVM and the programs, polled. At most <see cref="LinesPerSecond"/> of each severity, so that
+    /// the console can follow. Lines that are left out are counted, and the count is a line of its own. Without the native library there are none. Used
+    /// from one thread at a time.
     /// </summary>
     internal sealed unsafe class HostLog
     {
@@ -55,7 +55,7 @@ namespace Collektive.Bridge
             return false;
         }
 
-        /// <summary>Begins a new second. True when lines were left out before; <paramref name="line"/> then tells how many.</summary>
+        /// <summary>Begins a new second. True if lines were left out before; <paramref name="line"/> then has their number.</summary>
         public bool TryCount(out HostLogLevel level, out string line)
         {
             secondBegan = Stopwatch.GetTimestamp();

@@ -4,8 +4,7 @@ using System.Runtime.InteropServices;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The C ABI of <c>collektive_shim</c>; its header holds the contracts. Whoever makes the first call asks <see cref="ShimLibrary"/> whether
-    /// the library is there.
+    /// The C ABI of <c>collektive_shim</c>; its header documents the contracts. Check <see cref="ShimLibrary"/> before the first call.
     /// </summary>
     internal static unsafe partial class Shim
     {

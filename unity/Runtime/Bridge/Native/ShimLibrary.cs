@@ -7,8 +7,8 @@ namespace Collektive.Bridge
     internal static class ShimLibrary
     {
         /// <summary>
-        /// What is wrong with the library, on which platform, and what to do; null when it can be used. Found out once: no process loads a library
-        /// that it was refused before.
+        /// What is wrong with the library, on which platform, and what to do; null when it can be used. Checked once: a process cannot load a library
+        /// after a failed attempt.
         /// </summary>
         internal static readonly string Problem = FindProblem();
 

@@ -2,7 +2,7 @@
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// In the library's place on platforms that never have it: players for them can be built, and say at run time that there is no simulation.
+    /// Stubs for platforms without the native library: players for them can be built, and report at run time that there is no simulation.
     /// </summary>
     internal static unsafe partial class Shim
     {

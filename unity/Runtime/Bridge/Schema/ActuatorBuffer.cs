@@ -77,7 +77,7 @@ namespace Collektive.Bridge
         /// <summary>Bytes of an element in the vector.</summary>
         private protected abstract int ElementSize { get; }
 
-        /// <summary>Takes over the elements of a vector; the first one begins at <paramref name="first"/>. Those of now become the former ones.</summary>
+        /// <summary>Reads the elements of a vector from <paramref name="first"/> on. The present elements become the former ones.</summary>
         private protected abstract void Show(ByteBuffer frame, int first, int elements);
 
         private protected void Require(int index)

@@ -5,8 +5,8 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Writes drafts and their children: strings, vectors, tables. All of it is laid out in memory of the writer's own and goes into the frame as one
-    /// block; a call of the builder for each part would cost more than the part. Places are bytes from the end of the frame to the start of what was
+    /// Writes drafts and their children: strings, vectors, tables. Everything is written to the writer's own memory first and copied to the frame as one
+    /// block: a call of the builder for each part would cost more than the part. Places are bytes from the end of the frame to the start of what was
     /// written, as the builder's are. Memory is reused every tick. Used by generated code.
     /// </summary>
     public sealed class DraftWriter

@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What happens to messages between sending and receiving; times in simulated seconds. As made it is ideal: nothing is lost, and a
+    /// What happens to messages between sending and receiving; times in simulated seconds. Default: ideal; nothing is lost, and a
     /// message can be read until the next one replaces it.
     /// </summary>
     [Serializable]

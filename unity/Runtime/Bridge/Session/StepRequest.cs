@@ -72,7 +72,7 @@ namespace Collektive.Bridge
             due.Add(id);
         }
 
-        /// <summary>Forgets who is due; changes stay.</summary>
+        /// <summary>Forgets the due nodes; changes stay.</summary>
         public void ClearDue()
         {
             due.Clear();

@@ -5,9 +5,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Fills a scene from code, so that the same scene runs in the editor and without it. Its public fields can be set in the
+    /// Builds a scene from code; the same scene runs in the editor and without it. Its public fields can be set in the
     /// inspector, in a scenario file and on the command line. The scene needs a <see cref="SimulationManager"/>.
-    /// A subclass that has its own <c>Awake</c> overrides this one and calls it.
+    /// A subclass with its own <c>Awake</c> overrides this one and calls it.
     /// </summary>
     public abstract class SceneBuilder : MonoBehaviour
     {
@@ -56,7 +56,7 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
-                // Half a scene would run and mean nothing.
+                // The results of half a scene would be wrong.
                 Debug.LogException(error, this);
                 SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message, this);
             }

@@ -42,7 +42,7 @@ namespace Collektive.Unity
             return found;
         }
 
-        /// <summary>Where CoreCLR runs Unity's scripts, the domain also knows assemblies of code that was unloaded.</summary>
+        /// <summary>On CoreCLR the domain also lists assemblies of unloaded code.</summary>
         private static IEnumerable<System.Reflection.Assembly> LoadedAssemblies() =>
 #if UNITY_6000_5_OR_NEWER
             UnityEngine.Assemblies.CurrentAssemblies.GetLoadedAssemblies();

@@ -10,7 +10,7 @@ namespace Collektive.Unity
     /// act, and advances physics. While it is paused there is no call, no physics and no time. All members are for the main thread.
     ///
     /// There is one for all loaded scenes; a second one, in an additive scene for instance, disables itself with an error. Nodes of all loaded
-    /// scenes take part: those of a scene that is loaded later join, those of one that is unloaded leave. With the manager's own scene the
+    /// scenes take part: nodes of a scene that is loaded later join, those of an unloaded scene leave. With the manager's own scene the
     /// simulation ends; nodes that outlive it wait for the next manager and start afresh with it.
     /// </summary>
     [AddComponentMenu("Collektive/Simulation Manager")]
@@ -119,8 +119,8 @@ namespace Collektive.Unity
         /// <summary>
         /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> hears <paramref name="a"/>, and unless it is
         /// <paramref name="directed"/> also the other way round. The length is the distance now. May be called from any script's
-        /// message method, <c>OnTriggerEnter</c> for instance; it takes effect at the next tick. With a node that takes no part in the
-        /// simulation nothing happens, beside one warning.
+        /// message method, <c>OnTriggerEnter</c> for instance; it takes effect at the next tick. If a node takes no part in the
+        /// simulation, nothing happens but one warning.
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 

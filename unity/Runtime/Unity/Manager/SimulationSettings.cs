@@ -55,7 +55,7 @@ namespace Collektive.Unity
         [Tooltip("Asynchronous schedule only: when nodes without a timing of their own run.")]
         public RoundTiming timing = new RoundTiming();
 
-        /// <summary>What happens to messages between sending and receiving; ideal as made.</summary>
+        /// <summary>What happens to messages between sending and receiving; default: ideal.</summary>
         [Tooltip("Probability that a message is lost, and what a link's metres and attenuation add to it; seconds of delay, of jitter, " +
             "and for which a message stays valid (0: until the next one). All 0: ideal.")]
         public NetworkModel network = new NetworkModel();
@@ -75,8 +75,8 @@ namespace Collektive.Unity
             "Empty: none. Relative paths start at the project's folder.")]
         public string record = "";
 
-        /// <summary>What the JVM is started with, once per process; null for the usual.</summary>
-        [Tooltip("What the JVM is started with: heap, collector, compiler. Takes effect when the JVM starts, once per editor session. None: the usual.")]
+        /// <summary>Settings of the JVM, which starts once per process; null for the defaults.</summary>
+        [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
         /// <summary>What of it the session's opening sends to the JVM.</summary>

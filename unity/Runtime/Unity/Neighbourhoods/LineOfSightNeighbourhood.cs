@@ -6,8 +6,8 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Neighbours are the nodes within a radius; each collider on the straight line between the two centres adds to the link's attenuation, or
-    /// prevents the link. The two nodes' own colliders and triggers are passed over; bodies of other nodes count, unless they are on a
-    /// layer that is not looked at. It costs one ray for each pair of nodes and tick, whichever of the two asks first.
+    /// prevents the link. The two nodes' own colliders and triggers do not count; bodies of other nodes do, unless their layer is
+    /// excluded. It costs one ray for each pair of nodes and tick.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule

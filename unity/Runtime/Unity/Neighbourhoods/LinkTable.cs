@@ -6,11 +6,11 @@ using Collektive.Bridge;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// All directed links of the scene, each with the number of rules that hold it, and what of them the JVM does not know yet.
-    /// A link exists while somebody holds it. No allocation once its capacity is reached.
+    /// All directed links of the scene, each with the number of its holders, and the changes that are not sent to the JVM yet.
+    /// A link exists while at least one rule or script holds it. No allocation once its capacity is reached.
     ///
-    /// In a large scene fetching links from memory is what they cost. So the two of a pair of nodes stand side by side, since most are held and released
-    /// together, and values are collected and then given to all links in one go.
+    /// In a large scene cache misses dominate. So the two links of a pair of nodes lie side by side, since most are held and released
+    /// together, and values are collected and then written to all links in one pass.
     /// </summary>
     internal sealed class LinkTable
     {
@@ -25,9 +25,9 @@ namespace Collektive.Unity
 
         private LinkPair[] pairs = new LinkPair[64];
         private int[] buckets = new int[64];
-        // Pairs with a way that is.
+        // Pairs with a changed direction.
         private readonly GrowingArray<int> dirty = new GrowingArray<int>();
-        // Values that links do not have yet, in the order in which they were given.
+        // Values that are not written to their links yet, in the order of their arrival.
         private readonly GrowingArray<Change> changes = new GrowingArray<Change>();
         private int firstFree = None;
         private int used;
@@ -161,8 +161,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Writes to the request what changed since the last call. Links of nodes that the JVM does not know (<paramref name="isKnown"/>
-        /// by id) wait for a later call.
+        /// Writes to the request what changed since the last call. Links of nodes that were not sent to the JVM (<paramref name="isKnown"/>
+        /// by id) are written by a later call.
         /// </summary>
         internal void Flush(StepRequest request, bool[] isKnown)
         {
@@ -286,7 +286,7 @@ namespace Collektive.Unity
             return index;
         }
 
-        /// <summary>A free pair's next one is kept below -1, so that free pairs can be told from chained ones.</summary>
+        /// <summary>The next free pair is stored as a number below -1, which distinguishes free pairs from chained ones.</summary>
         private static int FreeLink(int next) => -3 - next;
 
         private void Free(int index)

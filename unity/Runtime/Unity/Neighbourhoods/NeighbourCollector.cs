@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Collects the neighbours of a node from a rule, and knows which nodes are near. For use in <see cref="NeighbourhoodRule.FindNeighbours"/>
+    /// Collects the neighbours of a node from a rule, and finds near nodes. For use in <see cref="NeighbourhoodRule.FindNeighbours"/>
     /// only, where it is given. The node itself, nodes that take no part in the simulation, and nodes added before are passed over.
     /// Allocates nothing once its capacity is reached.
     /// </summary>
@@ -38,17 +38,17 @@ namespace Collektive.Unity
         internal int[] Places => places;
 
         /// <summary>Adds a node; the link's length is the distance of the two nodes, its attenuation 0.</summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public void Add(Node other)
         {
             CheckAsked();
-            // One that never was active has no position yet.
+            // A node that was never active has no position.
             if (other.Id >= 0) Add(other.Id, Vector3.Distance(node.Position, other.Position), 0);
         }
 
         /// <summary>Adds a node with the link's length in metres and attenuation (0 = clear).</summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
-        /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or no number.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or NaN.</exception>
         public void Add(Node other, float length, float attenuation)
         {
             CheckAsked();
@@ -58,8 +58,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>Adds a node that a search found; the link's length is its distance.</summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
-        /// <exception cref="ArgumentOutOfRangeException">The attenuation is negative, infinite or no number.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">The attenuation is negative, infinite or NaN.</exception>
         public void Add(in NearNode near, float attenuation = 0)
         {
             CheckAsked();
@@ -68,12 +68,12 @@ namespace Collektive.Unity
         }
 
         /// <summary>Adds all nodes within <paramref name="radius"/> metres.</summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public void AddWithin(float radius)
         {
             var found = FindWithin(radius);
             EnsureCapacity(Count + found.Length);
-            // A large scene comes by here a million times a second.
+            // In a large scene this loop runs a million times a second.
             var own = self;
             var marks = places;
             var list = all;
@@ -93,7 +93,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>The nodes within <paramref name="radius"/> metres of the node, itself among them, in no order. Valid until the next search.</summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
             CheckAsked();
@@ -104,7 +104,7 @@ namespace Collektive.Unity
         /// The nodes nearest to the node, itself among them, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until
         /// the next search. It is fastest when <paramref name="guess"/> metres hold a few more than these; 0 for no guess.
         /// </summary>
-        /// <exception cref="InvalidOperationException">No rule is asked.</exception>
+        /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindNearest(int count, float guess = 0)
         {
             CheckAsked();

@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Decides who hears a node. Before each tick <see cref="FindNeighbours"/> collects the neighbours of that moment; the rule makes
-    /// and removes the links. Several rules may stand on one node: a link exists while one of them, or a script, wants it.
+    /// Decides which nodes hear a node. Before each tick <see cref="FindNeighbours"/> collects the present neighbours; the rule makes
+    /// and removes the links. A node may have several rules: a link exists while one of them, or a script, holds it.
     /// </summary>
     public abstract class NeighbourhoodRule : NodePart
     {
@@ -18,7 +18,7 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        // What is looked at in each tick, and place for place what is needed when a link changes.
+        // Parallel arrays: `held` is read in each tick, `links` only when a link changes.
         private NeighbourCollector.Neighbour[] held = Array.Empty<NeighbourCollector.Neighbour>();
         private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
@@ -98,7 +98,7 @@ namespace Collektive.Unity
                 marks[old.Id] = 0;
                 ref var now = ref all[place];
                 var change = now.Length - old.Length;
-                // Most links of most ticks go this way: nothing to look up, nothing to send.
+                // The usual case: nothing to look up, nothing to send.
                 if (dropped || change > tolerance || -change > tolerance || now.Attenuation != old.Attenuation) Change(table, h, now, dropped);
                 h++;
             }

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Where all nodes are at this tick, in cubic cells: finding the nodes around a point costs the nodes near it, not all of them.
+    /// The positions of all nodes at this tick, in cubic cells: a search around a point costs as much as there are nodes near it.
     /// A search over more cells than there are nodes looks at all nodes instead.
     /// Built once per tick, which also gives the nodes their <see cref="Node.Position"/>; no allocation once its capacity is reached.
     /// </summary>
@@ -33,7 +33,7 @@ namespace Collektive.Unity
         private int mask;
         private float cellSize = 1;
         private double cellsPerMetre = 1;
-        // The cells that hold all nodes: a swarm on the ground has one layer of them.
+        // The range of cells that contain nodes: a swarm on the ground has one layer of cells.
         private Cell least;
         private Cell most;
         private double asked;
@@ -166,7 +166,7 @@ namespace Collektive.Unity
             var length = (long)to.X - from.X + 1;
             var rows = ((long)to.Y - from.Y + 1) * ((long)to.Z - from.Z + 1);
             if (length <= 0) return;
-            // As a double: there may be more cells than a long can count.
+            // A double: the number of cells may exceed the range of long.
             if ((double)length * rows > count || rows > MaxRows)
             {
                 Test(0, count, centre, squared, false, 0);
@@ -187,7 +187,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Takes the entries of a range that are near enough, of one row alone or of all: others may share its buckets. Most of a search is spent
-        /// in this loop; locals are what Mono is fast with.
+        /// in this loop; Mono is fastest with locals.
         /// </summary>
         private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row)
         {

@@ -5,12 +5,12 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// What is known of the lines between pairs of nodes in one tick: how many obstacles of some layers are on each. Lines are cast in batches before the
-    /// rules are called, and one by one where a batch does not do.
+    /// The lines between pairs of nodes in one tick, with the number of obstacles of some layers on each. Lines are cast in batches before the
+    /// rules are called; those of new rules, and those with more hits than a batch keeps, one by one.
     /// </summary>
     internal sealed class SightLines : IDisposable
     {
-        /// <summary>Nobody has looked yet.</summary>
+        /// <summary>Not counted yet.</summary>
         private const int Unknown = -1;
 
         /// <summary>More rays would need more memory, and be no faster.</summary>
@@ -64,13 +64,13 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>The rules that look along lines.</summary>
+        /// <summary>The rules whose lines are cast in batches.</summary>
         internal BatchedParts Rules { get; }
 
         /// <summary>The tick that the lines are of, 1 or greater; no other tick of the process has the number.</summary>
         internal ulong Tick { get; private set; }
 
-        /// <summary>Forgets what was known, and looks along the lines of all rules: a tick begins.</summary>
+        /// <summary>Begins a tick: forgets all lines, and casts those of all rules.</summary>
         internal void Begin()
         {
             Tick = ++ticks;
@@ -93,7 +93,7 @@ namespace Collektive.Unity
             return number;
         }
 
-        /// <summary>Colliders on a line that neither of the two nodes owns.</summary>
+        /// <summary>The number of colliders on a line that belong to neither of the two nodes.</summary>
         internal int ObstaclesOf(int line) => obstacles.Items[line];
 
         /// <summary>The same without a batch; <paramref name="distance"/> is that of the nodes.</summary>

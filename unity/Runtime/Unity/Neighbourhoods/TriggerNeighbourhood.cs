@@ -23,7 +23,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // A component that is disabled by itself goes on hearing of entries and exits; an inactive GameObject does not.
+            // Unity sends trigger messages to disabled components too, but not to inactive GameObjects.
             if (!gameObject.activeInHierarchy) visitors.Clear();
         }
 

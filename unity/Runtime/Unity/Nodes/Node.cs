@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A device of the simulation. It takes part from <c>OnEnable</c> to <c>OnDisable</c>; coming back it starts afresh, without
+    /// A device of the simulation. It takes part from <c>OnEnable</c> to <c>OnDisable</c>; when enabled again it starts without
     /// state or messages. Its sensors and actuators are the enabled ones on its GameObject and on children without a Node.
     /// </summary>
     [AddComponentMenu("Collektive/Node")]
@@ -17,11 +17,11 @@ namespace Collektive.Unity
         internal PartList Actuators;
         internal PartList Rules;
 
-        // A node that is disabled leaves a gap: the order decides about ids, and closing each gap at once would move all behind it.
+        // A disabled node leaves a gap: the order determines ids, and closing each gap at once would move all nodes behind it.
         private static readonly List<Node> EnabledNodes = new List<Node>();
         private static int gaps;
 
-        /// <summary>Whether it was said already that there is no manager: once is enough for a thousand nodes.</summary>
+        /// <summary>Whether the missing manager was reported already; once for all nodes.</summary>
         private static bool saidAlone;
 
         [SerializeField]
@@ -103,10 +103,10 @@ namespace Collektive.Unity
 
         /// <summary>
         /// The program's last answer, in the type that actuators get. It stays until the next one: while the node is not due, sleeps, or its rounds fail.
-        /// How old it is, <see cref="AnswerTick"/> and <see cref="AnswerTime"/> say. While a tick's actuators act, those whose turn is later
-        /// still have their answer of before. Data of a table is a view of the bridge's memory: valid until the next tick, when it can be asked for again.
+        /// <see cref="AnswerTick"/> and <see cref="AnswerTime"/> give its age. While the actuators of a tick run, nodes that come later
+        /// still have their previous answer. Data of a table is a view of the bridge's memory, valid until the next tick: then get it again.
         /// </summary>
-        /// <returns>False while the node has no answer since it joined, or when the schema's type is another.</returns>
+        /// <returns>False if the node has no answer since it joined, or if the schema has another type.</returns>
         public bool TryGetAnswer<TData>(out TData data)
         {
             data = default;
@@ -131,8 +131,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Where the node is at this tick, in metres: read from its transform once a tick, before rules and sensors are asked. What moves the node
-        /// later shows in the next tick.
+        /// Where the node is at this tick, in metres: read from its transform once a tick, before rules and sensors are called. Later
+        /// movements show in the next tick.
         /// </summary>
         public Vector3 Position { get; internal set; }
 
@@ -152,8 +152,8 @@ namespace Collektive.Unity
         internal Simulation Simulation { get; private set; }
 
         /// <summary>
-        /// Runs no round for so many simulated seconds from now; the node keeps its state, links, and what it sent. 0 wakes it. Under any
-        /// schedule. May be called from the node's own actuators.
+        /// Runs no round for the given simulated seconds from now; the node keeps its state, its links and its sent messages. 0 wakes it. Works
+        /// under any schedule. May be called from the node's own actuators.
         /// </summary>
         /// <param name="seconds">0 or greater; infinity: until it is woken.</param>
         /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
@@ -175,7 +175,7 @@ namespace Collektive.Unity
             return problem;
         }
 
-        /// <summary>What <see cref="TakeDue"/> would say.</summary>
+        /// <summary>The result that <see cref="TakeDue"/> would have, without a change.</summary>
         internal bool IsDue(double now) => asleepUntil <= now && (timer == null || timer.IsDue(now));
 
         /// <summary>Whether the node runs in the tick at <paramref name="now"/>; asked once per tick.</summary>

@@ -2,7 +2,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity
 {
-    /// <summary>Tells for one node when its rounds are due. Round k has the k-th number of the stream, whoever asks when.</summary>
+    /// <summary>Decides when the rounds of one node are due. Round k uses the k-th number of the stream, however often it is polled.</summary>
     internal sealed class RoundTimer
     {
         private readonly double origin;
@@ -24,10 +24,10 @@ namespace Collektive.Unity
             next = Next();
         }
 
-        /// <summary>What <see cref="TakeDue"/> would say.</summary>
+        /// <summary>The result that <see cref="TakeDue"/> would have, without a change.</summary>
         internal bool IsDue(double now) => next <= now;
 
-        /// <summary>Whether a round came due since the last call that said so; times must not go back.</summary>
+        /// <summary>Whether a round came due since the last call that returned true; times must not decrease.</summary>
         internal bool TakeDue(double now)
         {
             if (!IsDue(now)) return false;

@@ -16,11 +16,11 @@ namespace Collektive.Unity
         public float period = 0.1f;
 
         /// <summary>Seconds from joining to the first round; negative: drawn for each node, below the period.</summary>
-        [Tooltip("Simulated seconds from joining to the first round. Negative: drawn for each node, below the period.")]
+        [Tooltip("Simulated seconds from joining to the first round. Negative: random for each node, less than the period.")]
         public float phase = -1;
 
         /// <summary>Seconds by which each round may come later, evenly spread; 0 or greater and less than the period.</summary>
-        [Tooltip("Simulated seconds by which each round may come later, evenly spread; less than the period.")]
+        [Tooltip("Largest random delay of a round in simulated seconds, uniformly distributed; less than the period.")]
         [Min(0)]
         public float jitter;
 

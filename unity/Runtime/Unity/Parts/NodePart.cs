@@ -5,7 +5,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent.
-    /// A subclass that has its own <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base overrides it and calls it.
+    /// A subclass with its own <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base overrides it and calls the base method.
     /// </summary>
     public abstract class NodePart : MonoBehaviour
     {
@@ -19,7 +19,7 @@ namespace Collektive.Unity
         /// <summary>Whether the part is in the node's list.</summary>
         internal bool IsAttached { get; private set; }
 
-        /// <summary>Where the part is listed if it asks physics in batches.</summary>
+        /// <summary>The list of batched parts that the part is in; null if it is in none.</summary>
         internal BatchedParts BatchedIn { get; set; }
 
         /// <summary>Joins the node.</summary>
@@ -66,7 +66,7 @@ namespace Collektive.Unity
         /// <param name="index">The place of the node's data among those of the tick.</param>
         internal abstract void Run(Simulation simulation, int index);
 
-        /// <summary>Adds the part's queries to the batches of its simulation; called before <see cref="Run"/> if the part is listed in <see cref="BatchedIn"/>.</summary>
+        /// <summary>Adds the part's physics queries to the batches of the tick; called before <see cref="Run"/> if <see cref="BatchedIn"/> is set.</summary>
         internal virtual void Enqueue()
         {
         }

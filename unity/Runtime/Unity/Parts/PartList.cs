@@ -4,7 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// A node's parts of one kind, in the order in which they were enabled. A field of the node rather than an object of its own: in a large
-    /// scene a tick spends more on fetching objects from memory than on what it does with them.
+    /// scene cache misses dominate a tick.
     /// </summary>
     internal struct PartList
     {
@@ -31,9 +31,9 @@ namespace Collektive.Unity
             parts[Count] = null;
         }
 
-        /// <summary>Has the parts do their work in a tick; those that an earlier one disables, destroys or adds are left out.</summary>
-        /// <param name="node">Whose parts they are.</param>
-        /// <returns>Whether all did it without an exception.</returns>
+        /// <summary>Calls the parts in a tick; parts that an earlier one disables, destroys or adds are left out.</summary>
+        /// <param name="node">The parts' node.</param>
+        /// <returns>Whether no part threw an exception.</returns>
         internal bool Run(Simulation simulation, Node node, int index)
         {
             var i = 0;
@@ -56,7 +56,7 @@ namespace Collektive.Unity
             return !failed;
         }
 
-        /// <summary>Whether a part is where it was before its call: it may have been disabled or destroyed, or have come back at the end.</summary>
+        /// <summary>Whether a part is where it was before its call: the call may have disabled, destroyed or re-enabled it.</summary>
         private bool Has(int place, NodePart part) => place < Count && ReferenceEquals(parts[place], part);
     }
 }

@@ -5,7 +5,7 @@ namespace Collektive.Unity
     /// <summary>What messages about touching colliders leave open.</summary>
     internal static class Touching
     {
-        /// <summary>Whether it was said already that bounds count: once is enough.</summary>
+        /// <summary>Whether the use of bounds was reported already; once for all colliders.</summary>
         private static bool saidBounds;
 
         /// <summary>Whether a collider takes no part any more: Unity reports no exit when it is destroyed or disabled while it touches.</summary>
@@ -13,8 +13,8 @@ namespace Collektive.Unity
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
-        /// The point of a collider that is closest to another one. Unity knows it of boxes, spheres, capsules and convex meshes, and logs an error at each
-        /// question about others: of these it is the closest point of their bounds.
+        /// The point of a collider that is closest to another one. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error for each
+        /// call with another collider: for these it is the closest point of their bounds.
         /// </summary>
         internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
         {
@@ -33,7 +33,7 @@ namespace Collektive.Unity
         private static void ResetStatics() => saidBounds = false;
 
         /// <summary>
-        /// Whether a vector comes before another: the shorter one, of equally long ones by x, z, y. Unity gives what it finds in no defined
+        /// Whether a vector comes before another: the shorter one first, equally long ones by x, z, y. Unity returns hits in no defined
         /// order; sums of floats repeat only in a defined one.
         /// </summary>
         internal static bool IsBefore(Vector3 a, Vector3 b)

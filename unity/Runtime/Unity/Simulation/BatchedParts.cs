@@ -3,8 +3,8 @@ using System.Collections.Generic;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Rules or sensors whose queries of physics are asked together, before they are called. A part adds itself at its first call, for which it asks
-    /// alone; it is dropped when it or its node has left.
+    /// Rules or sensors whose physics queries run in one batch, before the parts are called. A part adds itself at its first call, whose queries
+    /// run alone; it is dropped when it or its node has left.
     /// </summary>
     internal sealed class BatchedParts
     {

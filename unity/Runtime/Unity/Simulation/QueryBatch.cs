@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Queries of physics that are asked together: Unity divides them among its worker threads, and this thread waits for the answers. Allocates nothing
+    /// Physics queries that run together: Unity divides them among its worker threads, and the calling thread waits for the results. Allocates nothing
     /// once its capacity is reached.
     /// </summary>
     internal abstract class QueryBatch<TCommand, THit> : IDisposable

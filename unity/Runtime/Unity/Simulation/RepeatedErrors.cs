@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Errors of rounds for the console: each is logged when it first comes, whatever its node, then counted. The same program, exception
-    /// and place in the code make the same error.
+    /// Errors of rounds for the console: each is logged at its first occurrence, then counted. Errors with the same program, exception
+    /// and place in the code are the same error, whatever the node.
     /// </summary>
     internal sealed class RepeatedErrors
     {
@@ -40,7 +40,7 @@ namespace Collektive.Unity
             kinds.Clear();
         }
 
-        /// <summary>Without the words of the message, which may hold numbers, where the stack tells enough.</summary>
+        /// <summary>Without the text of the message, which may contain numbers, if there is a stack to identify the error.</summary>
         private static string Key(string program, string message)
         {
             var stack = message.IndexOf('\n');

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The nodes of a simulation, and who came and left since the last tick.</summary>
+    /// <summary>The nodes of a simulation, and those that joined and left since the last tick.</summary>
     internal sealed class Roster
     {
         /// <summary>Ids index arrays.</summary>
@@ -28,7 +28,7 @@ namespace Collektive.Unity
         /// <summary>All ids are below it.</summary>
         internal int IdCapacity => isKnown.Length;
 
-        /// <summary>By id: whether the JVM knows the node.</summary>
+        /// <summary>By id: whether the node was sent to the JVM.</summary>
         internal bool[] IsKnown => isKnown;
 
         /// <summary>The node of that id, or null.</summary>
@@ -80,7 +80,7 @@ namespace Collektive.Unity
             anyGone = false;
         }
 
-        /// <summary>Writes to the request who left and who came since the last call.</summary>
+        /// <summary>Writes to the request the nodes that left and joined since the last call.</summary>
         internal void Flush(StepRequest request)
         {
             for (var i = 0; i < leaving.Count; i++) request.RemoveNode(leaving.Items[i]);

@@ -7,7 +7,7 @@ namespace Collektive.Unity
     internal sealed class ScriptLinks
     {
         private readonly Simulation simulation;
-        // Ids of nodes whose absence was told of.
+        // Ids of absent nodes that were warned of.
         private readonly HashSet<int> missed = new HashSet<int>();
 
         internal ScriptLinks(Simulation simulation)
@@ -38,7 +38,7 @@ namespace Collektive.Unity
             var missing = simulation.Find(a) == null ? a : b;
             if (simulation.Find(missing) == null)
             {
-                // Nodes leave while scripts still have their ids, or touch their colliders: no reason to stop.
+                // Nodes may leave while scripts still have their ids or touch their colliders.
                 if (missed.Add(missing))
                 {
                     Debug.LogWarning("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + missing

@@ -4,12 +4,12 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// What the ready sensors ask of physics: at the beginning of their phase in one batch of rays and one of spheres, and one by one where a batch does
-    /// not do. It is the simulation's, so that no collider outlives it here.
+    /// The physics queries of the ready sensors: one batch of rays and one of spheres at the beginning of the sensors' phase, and single queries where a batch
+    /// is not enough. It belongs to the simulation and keeps no collider after its end.
     /// </summary>
     internal sealed class SensorQueries : IDisposable
     {
-        /// <summary>Where physics write what they find for one query at a time; who finds it full makes it longer.</summary>
+        /// <summary>The colliders of one query at a time. If a query fills it, <see cref="Grow"/> it and query again.</summary>
         internal Collider[] Near = new Collider[32];
 
         /// <summary>As long as <see cref="Near"/>.</summary>
@@ -29,7 +29,7 @@ namespace Collektive.Unity
         /// <summary>The number of the batch of this tick, 1 or greater; no other batch of the process has it.</summary>
         internal ulong Batch { get; private set; }
 
-        /// <summary>Asks for all sensors whose nodes are due.</summary>
+        /// <summary>Runs the batches of all sensors whose nodes are due.</summary>
         internal void Ask(double now)
         {
             Batch = ++batches;

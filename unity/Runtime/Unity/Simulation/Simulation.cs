@@ -8,8 +8,8 @@ using Debug = UnityEngine.Debug;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// One simulation from its first node to its end: nodes, links, ticks and errors. It needs no scene: who has it opens it, calls
-    /// <see cref="TryTick"/>, and ends it. All members are for the main thread.
+    /// One simulation from its first node to its end: nodes, links, ticks and errors. It needs no scene: the owner calls <see cref="TryOpen"/>,
+    /// <see cref="TryTick"/> for each tick, and <see cref="End"/>. All members are for the main thread.
     /// </summary>
     internal sealed class Simulation
     {
@@ -21,7 +21,7 @@ namespace Collektive.Unity
 
         private readonly Roster roster = new Roster();
         private readonly SceneGlobals globals;
-        // Users' code may make nodes join and leave in a tick; the tick is for those that were there when it began, and stay.
+        // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
         private readonly List<Node> present = new List<Node>();
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
@@ -110,7 +110,7 @@ namespace Collektive.Unity
         /// <summary>What rules add neighbours to.</summary>
         internal NeighbourCollector Neighbours { get; }
 
-        /// <summary>What sensors ask of physics.</summary>
+        /// <summary>The physics queries of sensors.</summary>
         internal SensorQueries Queries { get; }
 
         /// <summary>Where sensors write; in a tick.</summary>
@@ -135,7 +135,7 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
-                // The next frame would meet it again, and so on without a tick.
+                // Otherwise each later frame would throw it again.
                 Debug.LogException(error, Manager);
                 Fail("it could not be started: " + error.Message);
             }
@@ -143,7 +143,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Does one tick.</summary>
-        /// <returns>Whether it was a whole one; otherwise the simulation has ended.</returns>
+        /// <returns>Whether the tick was completed; otherwise the simulation has ended.</returns>
         internal bool TryTick()
         {
             isTicking = true;
@@ -244,7 +244,7 @@ namespace Collektive.Unity
             Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
         }
 
-        /// <summary>Writes to the request what changed since the last tick: global data, and who left and came.</summary>
+        /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
         private void FlushChanges()
         {
             roster.DropLinksOfGone(Links);
@@ -331,7 +331,7 @@ namespace Collektive.Unity
                     while (due.Items[place].Id != answer.Node(i)) place++;
                 }
                 var (node, id) = due.Items[place];
-                // Not so when an actuator made the node leave, even if it came back.
+                // An earlier actuator may have made the node leave, or leave and come back.
                 if (node.Id != id || !roster.IsKnown[id]) continue;
                 node.Answered(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);

@@ -4,13 +4,13 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Users' handlers of <see cref="SimulationManager.Ticked"/>: one that throws an exception stops neither the others nor the simulation.</summary>
+    /// <summary>Users' handlers of <see cref="SimulationManager.Ticked"/>. An exception in one stops neither the others nor the simulation.</summary>
     internal sealed class TickHandlers
     {
         private readonly Dictionary<Action<SimulationManager>, int> failuresInRow = new Dictionary<Action<SimulationManager>, int>();
         private Action<SimulationManager> all;
 
-        // Replaced, not changed, when a handler comes or leaves: that may happen while they run.
+        // Immutable; replaced when a handler is added or removed, which may happen during a run.
         private Delegate[] each = Array.Empty<Delegate>();
 
         internal void Add(Action<SimulationManager> handler) => Set(all + handler);

@@ -6,9 +6,9 @@ using UnityEngine.Rendering;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Draws all links at once from two buffers, the nodes' places and the pairs of nodes that are linked, without a GameObject or a matrix for any of
-    /// them. Each directed link is drawn from its sender half of the way to its receiver: two nodes that hear each other are joined by a whole
-    /// line. What is drawn is that of the last tick.
+    /// Draws all links of the last tick at once from two buffers, the nodes' positions and the pairs of linked nodes, without a GameObject or a matrix
+    /// per link. Each directed link is drawn from its sender half of the way to its receiver: two nodes that hear each other are joined by a whole
+    /// line.
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]
@@ -31,7 +31,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Most links that are drawn; while there are more, none is. 100,000 cost 2 ms of a tick.")]
+        [Tooltip("The most links to draw; if there are more, none is drawn. 100,000 cost 2 ms of a tick.")]
         private int limit = 100000;
 
         [SerializeField]
@@ -39,7 +39,7 @@ namespace Collektive.Unity
         private LinkColoring coloring;
 
         [SerializeField]
-        [Tooltip("Colours of numbers; by direction: the high one where two nodes hear each other, the low one where only one does.")]
+        [Tooltip("Colours of the values. By direction: the high colour if two nodes hear each other, the low one if only one hears the other.")]
         private ColorScale scale = new ColorScale();
 
         private GraphicsBuffer placesBuffer;

@@ -3,8 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Pushes the node's body by the program's answer. A force or an acceleration acts over the simulated time since the node's last answer, all at
-    /// once at the beginning of the physics steps that follow; an impulse or a velocity change is applied as it is.
+    /// Pushes the node's body by the program's answer. A force or an acceleration acts for the simulated time since the node's last answer, as one
+    /// impulse at the beginning of the following physics steps; an impulse or a velocity change is applied unchanged.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
@@ -34,7 +34,7 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var push = Finite(Read(data));
-            // A tick may have several physics steps, and Unity's forces end with the first.
+            // A tick may have several physics steps, and Unity applies forces in the first one only.
             if (mode == ForceMode.Force) body.AddForce(Node.AnswerInterval * push, ForceMode.Impulse);
             else if (mode == ForceMode.Acceleration) body.AddForce(Node.AnswerInterval * push, ForceMode.VelocityChange);
             else body.AddForce(push, mode);

@@ -3,9 +3,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Moves the node towards the program's target, as fast as it may. A node with a Rigidbody is driven by its velocity, and falling is left to
-    /// gravity if it has any; a kinematic body and a node without one are put from place to place. A subclass of one line says which
-    /// field of the schema's data the target is.
+    /// Moves the node towards the program's target, at most at its maximum speed. A Rigidbody is driven by its velocity; its fall is left to
+    /// gravity if the body uses it. A kinematic body and a node without a body are moved by position. A subclass of one line selects
+    /// the field of the schema's data that is the target.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class MoveActuator<TData> : Actuator<TData>
@@ -17,7 +17,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Seconds in which the node would reach its target if it were fast enough: it slows down as it comes near.")]
+        [Tooltip("Seconds to the target at unlimited speed: the node slows down as it comes near.")]
         private float reachTime = 0.5f;
 
         private Rigidbody body;

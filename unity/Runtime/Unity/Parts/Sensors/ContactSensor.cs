@@ -5,14 +5,14 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives which colliders touch the node's body, or touched it since its last round, where, and how hard. It stands on the GameObject
-    /// that Unity tells of collisions: the one with the Rigidbody. Of bodies that sleep the last known place is kept.
+    /// Perceives which colliders touch the node's body, or touched it since its last round, where, and how hard. Put it on the GameObject
+    /// with the Rigidbody, which gets Unity's collision messages. For sleeping bodies the last known point is kept.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ContactSensor<TData> : Sensor<TData>
     {
         private readonly GrowingArray<Contact> contacts = new GrowingArray<Contact>();
-        // Place for place with the contacts: whether it ended since the last round.
+        // Parallel to the contacts: whether each ended since the last round.
         private readonly GrowingArray<bool> ended = new GrowingArray<bool>();
 
         /// <inheritdoc/>
@@ -26,7 +26,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // A component that is disabled by itself goes on hearing of contacts; an inactive GameObject does not.
+            // Unity sends collision messages to disabled components too, but not to inactive GameObjects.
             if (gameObject.activeInHierarchy) return;
             contacts.Clear();
             ended.Clear();

@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Something that can be sensed from afar, a light, a sound or a smell: its intensity falls evenly with the distance, down to 0. A subclass
-    /// may have another law.
+    /// Something that can be sensed from afar, a light, a sound or a smell: its intensity falls linearly with the distance, down to 0. A subclass
+    /// may override that.
     /// </summary>
     [AddComponentMenu("Collektive/Intensity Source")]
     public class IntensitySource : MonoBehaviour

@@ -5,7 +5,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Perceives the colliders within reach of the node's centre, other nodes' bodies included, its own and triggers not, with the closest point of
-    /// each. Unity knows the closest point of boxes, spheres, capsules and convex meshes; of others it is that of their bounds.
+    /// each. The closest point is exact for boxes, spheres, capsules and convex meshes; for other colliders it is that of their bounds.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ObstacleSensor<TData> : Sensor<TData>

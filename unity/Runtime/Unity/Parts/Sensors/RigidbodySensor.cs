@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Perceives the node's own body: its mass, velocities, rotation and whatever else a Rigidbody tells.</summary>
+    /// <summary>Perceives the node's own Rigidbody: its mass, velocities, rotation and other properties.</summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
     public abstract class RigidbodySensor<TData> : Sensor<TData>

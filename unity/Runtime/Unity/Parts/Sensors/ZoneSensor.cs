@@ -6,7 +6,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Perceives the trigger zones that the node is in, entered or left since its last round: trigger colliders that belong to no node. As
-    /// everywhere in Unity, the node or the zone needs a Rigidbody, and the sensor stands on the GameObject with the node's collider or body.
+    /// everywhere in Unity, the node or the zone needs a Rigidbody, and the sensor must be on the GameObject with the node's collider or body.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ZoneSensor<TData> : Sensor<TData>
@@ -37,7 +37,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // A component that is disabled by itself goes on hearing of zones; an inactive GameObject does not.
+            // Unity sends trigger messages to disabled components too, but not to inactive GameObjects.
             if (!gameObject.activeInHierarchy) visits.Clear();
         }
 
