@@ -175,7 +175,8 @@ namespace Collektive.Headless
             var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
             if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
-            Console.Error.WriteLine("collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");
+            Console.Error.WriteLine(
+                "collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");
             return 1;
         }
 

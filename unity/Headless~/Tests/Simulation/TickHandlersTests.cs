@@ -62,7 +62,8 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.StopCondition = manager => throw new InvalidOperationException("broken on purpose");
             Play(2);
             Assert.That(Manager.ErrorCount, Is.EqualTo(2));
-            Assert.That(Errors[0], Is.StringContaining("TickHandlersTests.A_stop_condition_that_throws_is_an_error_and_stops_nothing (lambda) failed after tick 1"));
+            Assert.That(Errors[0], Is.StringContaining(
+                "TickHandlersTests.A_stop_condition_that_throws_is_an_error_and_stops_nothing (lambda) failed after tick 1"));
             Assert.That(Manager.Finished, Is.False);
         }
 

@@ -1,4 +1,3 @@
-using System;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -33,9 +32,6 @@ namespace Collektive.Unity
         // The nodes that were near when the lines of the tick were cast.
         private readonly GrowingArray<(NearNode Near, int Line)> seen = new GrowingArray<(NearNode Near, int Line)>();
 
-        [NonSerialized]
-        private ulong tick;
-
         /// <summary>The radius in metres, 0 or greater.</summary>
         public float Radius
         {
@@ -68,8 +64,7 @@ namespace Collektive.Unity
         protected override void FindNeighbours(NeighbourCollector neighbours)
         {
             var sight = Node.Simulation.SightLines;
-            sight.Rules.Add(this);
-            if (tick != sight.Tick)
+            if (!sight.Rules.Has(this))
             {
                 // The rule came in this tick.
                 AddAlone(neighbours, sight);
@@ -85,7 +80,6 @@ namespace Collektive.Unity
         internal override void Enqueue()
         {
             var simulation = Node.Simulation;
-            tick = simulation.SightLines.Tick;
             seen.Clear();
             var near = simulation.Grid.Find(Node.Position, radius);
             for (var i = 0; i < near.Length; i++)

@@ -16,8 +16,6 @@ namespace Collektive.Unity
         /// <summary>More rays would need more memory, and be no faster.</summary>
         private const int MostRays = 4096;
 
-        private static ulong ticks;
-
         private readonly RayBatch rays = new RayBatch(16);
         private readonly Pair[] asked = new Pair[MostRays];
 
@@ -32,7 +30,7 @@ namespace Collektive.Unity
 
         private struct Line
         {
-            internal ulong Tick;
+            internal ulong Batch;
             internal int Low;
             internal int High;
             internal int Layers;
@@ -67,16 +65,12 @@ namespace Collektive.Unity
         /// <summary>The rules whose lines are cast in batches.</summary>
         internal BatchedParts Rules { get; }
 
-        /// <summary>The tick that the lines are of, 1 or greater; no other tick of the process has the number.</summary>
-        internal ulong Tick { get; private set; }
-
         /// <summary>Begins a tick: forgets all lines, and casts those of all rules.</summary>
         internal void Begin()
         {
-            Tick = ++ticks;
             obstacles.Clear();
-            Rules.DropGone();
-            for (var i = 0; i < Rules.Count; i++) Rules[i].Enqueue();
+            Rules.Begin();
+            for (var i = 0; i < Rules.Count; i++) Rules.Enqueue(Rules[i]);
             Cast();
         }
 
@@ -156,9 +150,9 @@ namespace Collektive.Unity
         {
             if (2 * obstacles.Count >= lines.Length) Grow();
             ref var line = ref Find(Math.Min(a, b), Math.Max(a, b), layers);
-            isNew = line.Tick != Tick;
+            isNew = line.Batch != Rules.Batch;
             if (!isNew) return line.Number;
-            line = new Line { Tick = Tick, Low = Math.Min(a, b), High = Math.Max(a, b), Layers = layers, Number = obstacles.Count };
+            line = new Line { Batch = Rules.Batch, Low = Math.Min(a, b), High = Math.Max(a, b), Layers = layers, Number = obstacles.Count };
             obstacles.Add(Unknown);
             return line.Number;
         }
@@ -170,7 +164,7 @@ namespace Collektive.Unity
             for (; ; place = place + 1 & all.Length - 1)
             {
                 ref var line = ref all[place];
-                if (line.Tick != Tick || line.Low == low && line.High == high && line.Layers == layers) return ref line;
+                if (line.Batch != Rules.Batch || line.Low == low && line.High == high && line.Layers == layers) return ref line;
             }
         }
 
@@ -186,7 +180,7 @@ namespace Collektive.Unity
             lines = new Line[2 * old.Length];
             foreach (var line in old)
             {
-                if (line.Tick == Tick) Find(line.Low, line.High, line.Layers) = line;
+                if (line.Batch == Rules.Batch) Find(line.Low, line.High, line.Layers) = line;
             }
         }
     }

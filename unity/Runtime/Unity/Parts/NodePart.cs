@@ -22,6 +22,9 @@ namespace Collektive.Unity
         /// <summary>The list of batched parts that the part is in; null if it is in none.</summary>
         internal BatchedParts BatchedIn { get; set; }
 
+        /// <summary>The last batch that has the part's queries; 0 for none.</summary>
+        internal ulong BatchedAt { get; set; }
+
         /// <summary>Joins the node.</summary>
         protected virtual void OnEnable()
         {

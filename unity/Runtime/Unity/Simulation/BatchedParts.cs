@@ -17,21 +17,35 @@ namespace Collektive.Unity
 
         internal NodePart this[int place] => parts[place];
 
-        internal void Add(NodePart part)
+        /// <summary>The number of the batch of this tick, 1 or greater.</summary>
+        internal ulong Batch { get; private set; }
+
+        /// <summary>Whether a part's queries are in the batch of this tick; if not, they are from the next tick on.</summary>
+        internal bool Has(NodePart part)
         {
-            if (ReferenceEquals(part.BatchedIn, this)) return;
+            if (ReferenceEquals(part.BatchedIn, this)) return part.BatchedAt == Batch;
             part.BatchedIn = this;
+            part.BatchedAt = 0;
             parts.Add(part);
+            return false;
         }
 
-        /// <summary>Drops parts that take no part in the simulation any more; the order of the rest changes.</summary>
-        internal void DropGone()
+        /// <summary>Adds a part's queries to the batch.</summary>
+        internal void Enqueue(NodePart part)
         {
+            part.BatchedAt = Batch;
+            part.Enqueue();
+        }
+
+        /// <summary>Begins a batch, and drops parts that take no part in the simulation any more; the order of the rest changes.</summary>
+        internal void Begin()
+        {
+            Batch++;
             for (var i = parts.Count - 1; i >= 0; i--)
             {
                 var part = parts[i];
                 if (part.IsAttached && ReferenceEquals(part.Node.Simulation, simulation)) continue;
-                part.BatchedIn = null;
+                if (ReferenceEquals(part.BatchedIn, this)) part.BatchedIn = null;
                 parts[i] = parts[parts.Count - 1];
                 parts.RemoveAt(parts.Count - 1);
             }

@@ -15,8 +15,6 @@ namespace Collektive.Unity
         /// <summary>As long as <see cref="Near"/>.</summary>
         internal Obstacle[] Obstacles = new Obstacle[32];
 
-        private static ulong batches;
-
         internal SensorQueries(Simulation simulation) => Sensors = new BatchedParts(simulation);
 
         /// <summary>The nearest hit of each ray.</summary>
@@ -26,19 +24,15 @@ namespace Collektive.Unity
 
         internal BatchedParts Sensors { get; }
 
-        /// <summary>The number of the batch of this tick, 1 or greater; no other batch of the process has it.</summary>
-        internal ulong Batch { get; private set; }
-
         /// <summary>Runs the batches of all sensors whose nodes are due.</summary>
         internal void Ask(double now)
         {
-            Batch = ++batches;
             Rays.Clear();
             Spheres.Clear();
-            Sensors.DropGone();
+            Sensors.Begin();
             for (var i = 0; i < Sensors.Count; i++)
             {
-                if (Sensors[i].Node.IsDue(now)) Sensors[i].Enqueue();
+                if (Sensors[i].Node.IsDue(now)) Sensors.Enqueue(Sensors[i]);
             }
             Rays.Run();
             Spheres.Run();

@@ -19,11 +19,7 @@ namespace Collektive.Unity
         [Tooltip("Layers to perceive.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
-        // The last batch that the sensor is in, and the number of its query there.
-        [NonSerialized]
-        private ulong batch;
-
-        [NonSerialized]
+        // The number of the query in the batch.
         private int query;
 
         /// <summary>Metres from the node's centre, 0 or greater.</summary>
@@ -46,8 +42,7 @@ namespace Collektive.Unity
             var body = Node.Body;
             var centre = Node.Position;
             var queries = Node.Simulation.Queries;
-            queries.Sensors.Add(this);
-            var count = batch == queries.Batch ? TakeHits(queries) : Overlap(centre, queries);
+            var count = queries.Sensors.Has(this) ? TakeHits(queries) : Overlap(centre, queries);
             var found = 0;
             for (var i = 0; i < count; i++)
             {
@@ -60,7 +55,6 @@ namespace Collektive.Unity
 
         internal sealed override void Enqueue()
         {
-            batch = Node.Simulation.Queries.Batch;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
             query = Node.Simulation.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
         }

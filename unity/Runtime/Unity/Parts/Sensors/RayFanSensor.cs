@@ -39,11 +39,7 @@ namespace Collektive.Unity
         private Vector3[] aims = Array.Empty<Vector3>();
         private float angleOfDirections;
 
-        // The last batch that the sensor is in, and the number of its first ray there.
-        [NonSerialized]
-        private ulong batch;
-
-        [NonSerialized]
+        // The number of the first ray in the batch.
         private int query;
 
         /// <summary>How many rays, 1 or more.</summary>
@@ -81,9 +77,8 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var queries = Node.Simulation.Queries;
-            queries.Sensors.Add(this);
             // Not when another sensor has changed the fan since.
-            var isBatched = batch == queries.Batch && !MustSpread;
+            var isBatched = queries.Sensors.Has(this) && !MustSpread;
             if (!isBatched) Aim();
             var centre = Node.Position;
             for (var i = 0; i < aims.Length; i++)
@@ -97,7 +92,6 @@ namespace Collektive.Unity
         internal sealed override void Enqueue()
         {
             Aim();
-            batch = Node.Simulation.Queries.Batch;
             var fans = Node.Simulation.Queries.Rays;
             query = fans.Count;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
