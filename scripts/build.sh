@@ -79,7 +79,10 @@ copy_library() {
 build_csharp() {
   setup_roslyn
   setup_flatbuffers
+  setup_physics
   library "$NEWTONSOFT"
+  # Mono looks for native libraries beside the assembly that calls them.
+  library "$BUILD/physics/libcollektive_physics.so"
   local unity="$ROOT/unity"
   assembly Collektive.FlatBuffers.dll "$FLATBUFFERS/net/FlatBuffers" -- "${GENERATED_CODE_SYMBOLS[@]}" -warnaserror- \
     -nowarn:1570,1572,1573,1587,1591,0618 -debug-

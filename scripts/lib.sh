@@ -4,6 +4,7 @@
 BUILD="$ROOT/build"
 FLATC="$BUILD/flatc"
 FLATBUFFERS="$BUILD/flatbuffers"
+PHYSX="$BUILD/physx"
 CSHARP="$BUILD/csharp"
 export COLLEKTIVE_STARTED=${COLLEKTIVE_STARTED:-$(date +%s)}
 

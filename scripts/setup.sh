@@ -25,7 +25,6 @@ mono-sgen        6.8    mono-devel
 mono-boehm       6.8    mono-runtime-boehm"
 # Libraries without a command: file and Debian package.
 SYSTEM_FILES="
-/usr/lib/x86_64-linux-gnu/libode.so  libode-dev
 $MONO_POSIX  libmono-posix4.0-cil"
 
 # version_of COMMAND: prints the version that it tells, or nothing.
@@ -148,26 +147,62 @@ setup_flatbuffers() {
 }
 
 fetch_flatbuffers() {
-  local work="$BUILD/flatbuffers-fetch" made="$BUILD/flatbuffers.part" cargo crate
-  rm -rf "$work" "$made"
-  mkdir -p "$work" "$made"
-  cp "$ROOT"/tools/flatbuffers/* "$work/"
-  cargo=$(tool cargo)
-  (cd "$work" && "$cargo" fetch --locked)
-  crate=$(cd "$work" && "$cargo" metadata --offline --format-version 1 |
-    python3 -c 'import json,os,sys; print([os.path.dirname(p["manifest_path"]) for p in json.load(sys.stdin)["packages"] if p["name"] == "flatc-fork"][0])')
+  local made="$BUILD/flatbuffers.part" crate
+  rm -rf "$made"
+  crate=$(fetch_crate flatbuffers flatc-fork)
+  mkdir -p "$made"
   cp -R "$crate"/flatbuffers/. "$made/"
   chmod -R u+w "$made"
   # Mono 6.8 cannot bind the indexer of ReadOnlySpan in code that was compiled for netstandard2.1; that of Span it can.
   sed -i 's/_buffer\.ReadOnlySpan\[index\]/_buffer.Span[index]/' "$made/net/FlatBuffers/ByteBuffer.cs"
-  rm -rf "$work" "$FLATBUFFERS"
+  rm -rf "$FLATBUFFERS"
   mv "$made" "$FLATBUFFERS"
+}
+
+# fetch_crate TOOL CRATE: fetches what the manifest of tools/TOOL pins, prints where the crate's files are.
+fetch_crate() {
+  local work="$BUILD/$1-fetch" cargo
+  rm -rf "$work"
+  mkdir -p "$work"
+  cp "$ROOT/tools/$1"/* "$work/"
+  cargo=$(tool cargo)
+  (cd "$work" && "$cargo" fetch --locked >&2 && "$cargo" metadata --offline --format-version 1) |
+    python3 -c 'import json,os,sys; print([os.path.dirname(p["manifest_path"]) for p in json.load(sys.stdin)["packages"] if p["name"] == sys.argv[1]][0])' "$2"
+  rm -rf "$work"
 }
 
 # CMake builds the shim and flatc in one tree; flatc alone is enough for code generation.
 setup_flatc() {
   setup_flatbuffers
   once flatc "$(cat "$BUILD/stamp/flatbuffers") $(declare -f cmake_configure | sha256sum)" build_flatc
+}
+
+# The physics of the headless player: PhysX's sources and the library that is built from them.
+setup_physics() {
+  once physx "$(fingerprint "$ROOT/tools/physx") $(declare -f fetch_physx | sha256sum)" fetch_physx
+  once physics "$(cat "$BUILD/stamp/physx") $(fingerprint "$ROOT/unity/Headless~/NativePhysics") $(declare -f build_physics | sha256sum)" build_physics
+}
+
+fetch_physx() {
+  local made="$BUILD/physx.part" crate
+  rm -rf "$made"
+  crate=$(fetch_crate physx physx-sys)
+  mkdir -p "$made/physx/physx"
+  cp -R "$crate"/sources "$crate"/LICENSE* "$made/"
+  cp -R "$crate"/physx/LICENSE.md "$made/physx/"
+  cp -R "$crate"/physx/physx/{include,source} "$made/physx/physx/"
+  chmod -R u+w "$made"
+  # 5.1 forgets to stop a body along its frozen axes before it solves: it sets a field that it overwrites below.
+  sed -i -E 's/data\.linearVelocity\.([xyz]) = 0\.f;/lin.\1 = 0.f;/' "$made/physx/physx/source/lowleveldynamics/src/DyRigidBodyToSolverBody.cpp"
+  rm -rf "$PHYSX"
+  mv "$made" "$PHYSX"
+}
+
+build_physics() {
+  local sources="$ROOT/unity/Headless~/NativePhysics"
+  clean_cmake "$sources" "$BUILD/physics"
+  cmake -S "$sources" -B "$BUILD/physics" -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=\"$ROOT\"=." -DCOLLEKTIVE_PHYSX="$PHYSX"
+  cmake --build "$BUILD/physics" -j 2
 }
 
 build_flatc() {

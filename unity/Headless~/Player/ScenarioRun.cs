@@ -51,6 +51,7 @@ namespace Collektive.Headless
             Directory.CreateDirectory(options.Out);
             Installation.HostJar = options.HostJar;
             Installation.JavaHome = options.JavaHome;
+            Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             var manager = MakeManager();
             var scene = MakeScene(manager);

@@ -158,7 +158,7 @@ namespace Collektive.Headless.Tests.Engine
                 Assert.That(found, Is.EqualTo(!float.IsInfinity(expected)));
                 if (!found) continue;
                 hits++;
-                Assert.That(hit.distance, Is.EqualTo(expected));
+                Assert.That(hit.distance, Is.EqualTo(expected).Within(1e-3f));
             }
             Assert.That(hits, Is.GreaterThan(100));
 

@@ -133,6 +133,22 @@ namespace Collektive.Headless.Tests.Engine
             foreach (var body in bodies) Assert.That(body.transform.position.y, Is.InRange(0.2f, 3f));
         }
 
+        [Test]
+        public void Positions_do_not_depend_on_the_number_of_threads()
+        {
+            var hashes = new List<ulong>();
+            foreach (var threads in new[] { 1, 2, 4, 7 })
+            {
+                Loop.Reset();
+                Loop.PhysicsThreads = threads;
+                Loop.Start(1);
+                Physics.simulationMode = SimulationMode.Script;
+                hashes.Add(PositionsAfter(100));
+            }
+            Loop.PhysicsThreads = 1;
+            Assert.That(hashes, Is.All.EqualTo(hashes[0]));
+        }
+
         static double ProcessorMillis(Action action)
         {
             var before = Process.GetCurrentProcess().TotalProcessorTime;

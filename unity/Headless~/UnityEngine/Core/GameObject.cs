@@ -49,6 +49,7 @@ namespace UnityEngine
             {
                 if (value < 0 || value > 31) throw new ArgumentOutOfRangeException(nameof(layer), value, "A layer is 0 to 31.");
                 ownLayer = value;
+                RefreshColliders();
             }
         }
 
@@ -103,7 +104,20 @@ namespace UnityEngine
         {
             component.owner = this;
             components.Add(component);
-            if (component is MonoBehaviour script) hears |= script.messages.Touches;
+            if (!(component is MonoBehaviour script) || (hears | script.messages.Touches) == hears) return;
+            hears |= script.messages.Touches;
+            RefreshColliders();
+        }
+
+        /// Physics has to know the layer of colliders and what scripts listen to.
+        void RefreshColliders()
+        {
+            if (physicsParts == null) return;
+            foreach (var part in physicsParts)
+            {
+                if (part is Rigidbody body) body.RefreshColliders();
+                else ((Collider)part).Refresh();
+            }
         }
 
         internal void AddPhysics(Component part)

@@ -18,18 +18,20 @@ namespace UnityEngine.Headless
         /// What `Application.isEditor` says: whether the process goes on after `Quit`, as the editor does when play mode is left.
         public static bool IsEditor { get; set; }
 
+        /// How many threads step physics in a world made later; results do not depend on it.
+        public static int PhysicsThreads { get => PhysicsWorld.Threads; set => PhysicsWorld.Threads = value; }
+
         /// Set by `Application.Quit`: the caller leaves its frame loop and calls `Quit`.
         public static bool QuitRequested { get; private set; }
         public static int ExitCode { get; private set; }
 
-        /// Enters play mode: seeds `Random` and physics, runs the [RuntimeInitializeOnLoadMethod]s of all loaded assemblies, and calls `buildScene`
+        /// Enters play mode: seeds `Random`, runs the [RuntimeInitializeOnLoadMethod]s of all loaded assemblies, and calls `buildScene`
         /// where Unity loads the first scene. Objects made before belong to the scene too.
         public static void Start(int seed, Action buildScene = null)
         {
             if (started) throw new InvalidOperationException("The player runs already: call Loop.Quit or Loop.Reset first.");
             started = true;
             Random.InitState(seed);
-            PhysicsWorld.Seed = seed;
             var methods = InitializeMethods();
             foreach (var type in BeforeScene) Initialize(methods, type);
             buildScene?.Invoke();

@@ -2,9 +2,6 @@ namespace UnityEngine
 {
     public class BoxCollider : Collider
     {
-        // Thinner boxes fall through the solver; this is far below anything that a scene means.
-        const float LeastHalf = 0.005f;
-
         Vector3 ownCenter;
         Vector3 ownSize = Vector3.one;
 
@@ -28,14 +25,14 @@ namespace UnityEngine
             }
         }
 
-        internal override Shape ScaledShape(Vector3 scale) => new Shape
+        internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
-            Center = Vector3.Scale(ownCenter, scale),
-            Rotation = Quaternion.identity,
-            Half = new Vector3(Half(ownSize.x * scale.x), Half(ownSize.y * scale.y), Half(ownSize.z * scale.z)),
-        };
-
-        static float Half(float size) => Mathf.Max(LeastHalf, Mathf.Abs(size) * 0.5f);
+            var half = Vector3.Scale(ownSize, scale) * 0.5f;
+            shape.Geometry.Kind = Physx.Kind.Box;
+            shape.Geometry.Half = new Vector3(Mathf.Abs(half.x), Mathf.Abs(half.y), Mathf.Abs(half.z));
+            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Quaternion.identity);
+            return true;
+        }
 
         internal override void CopyFrom(Component original)
         {

@@ -1,9 +1,11 @@
+using System;
+
 namespace UnityEngine
 {
     public class CapsuleCollider : Collider
     {
-        // Turn the shape's z axis to x, y or z.
-        static readonly Quaternion[] Turns = { Quaternion.Euler(0f, 90f, 0f), Quaternion.Euler(-90f, 0f, 0f), Quaternion.identity };
+        // Turn PhysX's capsule, which lies along x, to x, y or z.
+        static readonly Quaternion[] Turns = { Quaternion.identity, Quaternion.Euler(0f, 0f, 90f), Quaternion.Euler(0f, -90f, 0f) };
 
         Vector3 ownCenter;
         float ownRadius = 0.5f;
@@ -47,21 +49,23 @@ namespace UnityEngine
             get => ownDirection;
             set
             {
+                if (value < 0 || value > 2) throw new ArgumentOutOfRangeException(nameof(direction), value, "A capsule's direction is 0, 1 or 2: along x, y or z.");
                 ownDirection = value;
                 ShapeChanged();
             }
         }
 
-        internal override Shape ScaledShape(Vector3 scale)
+        internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
-            var radius = ownRadius * Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));
-            return new Shape
-            {
-                Center = Vector3.Scale(ownCenter, scale),
-                Rotation = Turns[ownDirection],
-                Half = new Vector3(0f, 0f, Mathf.Max(0f, ownHeight * Mathf.Abs(scale[ownDirection]) * 0.5f - radius)),
-                Radius = radius,
-            };
+            var wide = Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));
+            var scaledRadius = Mathf.Abs(ownRadius) * wide;
+            var halfLength = Mathf.Max(0f, Mathf.Abs(ownHeight * scale[ownDirection]) * 0.5f - scaledRadius);
+            // PhysX knows no capsule without a length.
+            shape.Geometry.Kind = halfLength > 0f ? Physx.Kind.Capsule : Physx.Kind.Sphere;
+            shape.Geometry.Radius = scaledRadius;
+            shape.Geometry.Half = new Vector3(halfLength, 0f, 0f);
+            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Turns[ownDirection]);
+            return true;
         }
 
         internal override void CopyFrom(Component original)

@@ -5,6 +5,8 @@ namespace UnityEngine
     /// Queries and contacts see the shape at the pose that physics last took over, not at the transform's.
     public class Collider : Component
     {
+        const float Tolerance = 1e-6f;
+
         bool ownEnabled = true;
         bool ownIsTrigger;
         PhysicsMaterial assignedMaterial;
@@ -14,12 +16,13 @@ namespace UnityEngine
         /// Counts registrations: what was known of an earlier one no longer holds.
         internal int Registration { get; private set; }
         internal Rigidbody Body { get; private set; }
-        internal Shape World;
-        internal Vector3 Min, Max;
-        internal IntPtr Geom;
+        /// PhysX's handle, or none: not registered, or without a shape.
+        internal int Handle { get; private set; } = Physx.None;
 
-        Shape local; // relative to the body, or to the world without one
-        bool geomStale = true;
+        int place = Physx.None; // the static actor of a collider without a body
+        Physx.Shape known; // as PhysX has it
+        Vector3 position, scale; // of this object in the actor's frame
+        Quaternion rotation;
 
         public bool enabled
         {
@@ -41,13 +44,23 @@ namespace UnityEngine
             set
             {
                 ownIsTrigger = value;
-                if (!(Body is null)) Body.MassStale = true;
+                Refresh();
             }
         }
 
         public Rigidbody attachedRigidbody => Registered ? Body : null;
 
-        public Bounds bounds => Registered ? new Bounds((Min + Max) * 0.5f, Max - Min) : default;
+        public unsafe Bounds bounds
+        {
+            get
+            {
+                if (Handle == Physx.None) return default;
+                Vector3 least, most;
+                PhysicsWorld.Flush();
+                Physx.physics_shape_bounds(PhysicsWorld.Handle, Handle, &least, &most);
+                return new Bounds((least + most) * 0.5f, most - least);
+            }
+        }
 
         public PhysicsMaterial sharedMaterial
         {
@@ -56,6 +69,7 @@ namespace UnityEngine
             {
                 assignedMaterial = value;
                 ownsMaterial = false;
+                Refresh();
             }
         }
 
@@ -66,11 +80,7 @@ namespace UnityEngine
             {
                 if (ownsMaterial) return assignedMaterial;
                 var source = EffectiveMaterial;
-                assignedMaterial = new PhysicsMaterial(source.name + " (Instance)")
-                {
-                    bounciness = source.bounciness, dynamicFriction = source.dynamicFriction, staticFriction = source.staticFriction,
-                    frictionCombine = source.frictionCombine, bounceCombine = source.bounceCombine,
-                };
+                assignedMaterial = new PhysicsMaterial(source.name + " (Instance)") { Values = source.Values };
                 ownsMaterial = true;
                 return assignedMaterial;
             }
@@ -78,31 +88,31 @@ namespace UnityEngine
             {
                 assignedMaterial = value;
                 ownsMaterial = value;
+                Refresh();
             }
         }
 
-        internal PhysicsMaterial EffectiveMaterial => assignedMaterial ? assignedMaterial : PhysicsMaterial.Default;
-        internal bool IsStatic => Body is null;
-        internal Shape Local => local;
+        PhysicsMaterial EffectiveMaterial => assignedMaterial ? assignedMaterial : PhysicsMaterial.Default;
 
         /// Whether physics knows the shape's closest points.
         internal virtual bool HasClosestPoint => true;
 
-        public Vector3 ClosestPoint(Vector3 position)
-        {
-            if (HasClosestPoint) return Registered ? World.ClosestPoint(position) : position;
-            Debug.LogError("Physics.ClosestPoint can only be used with a BoxCollider, SphereCollider, CapsuleCollider and a convex MeshCollider.", this);
-            return position;
-        }
+        public Vector3 ClosestPoint(Vector3 position) => Queries.ClosestPoint(this, position);
         public Vector3 ClosestPointOnBounds(Vector3 position) => bounds.ClosestPoint(position);
 
-        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) =>
-            Queries.Hits(this, ray.origin, ray.direction, maxDistance, out hitInfo);
+        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
 
-        /// The shape in the transform's frame, scaled.
-        internal virtual Shape ScaledShape(Vector3 scale) => throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
+        /// Geometry and its pose in this object's frame, scaled. False: there is no shape.
+        internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
+            throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
-        internal Shape ShapeAt(Vector3 position, Quaternion rotation) => ScaledShape(transform.lossyScale).Within(position, rotation);
+        /// Where the geometry is with this object at that pose.
+        internal Physx.Pose GeometryAt(Vector3 position, Quaternion rotation)
+        {
+            var shape = new Physx.Shape();
+            Describe(transform.lossyScale, ref shape);
+            return new Physx.Pose(position + rotation * shape.Pose.Position, (rotation * shape.Pose.Rotation).normalized);
+        }
 
         internal override void Activate()
         {
@@ -120,7 +130,6 @@ namespace UnityEngine
             Registration++;
             owner.AddPhysics(this);
             Attach();
-            PhysicsWorld.Add(this);
         }
 
         void Unregister()
@@ -128,7 +137,6 @@ namespace UnityEngine
             Registered = false;
             owner.RemovePhysics(this);
             Detach();
-            PhysicsWorld.Remove(this);
         }
 
         /// Joins the nearest active body at or above its object.
@@ -139,11 +147,7 @@ namespace UnityEngine
             {
                 Detach();
                 Body = nearest;
-                if (!(Body is null))
-                {
-                    Body.Colliders.Add(this);
-                    Body.MassStale = true;
-                }
+                Body?.Colliders.Add(this);
             }
             TakePose();
         }
@@ -157,83 +161,110 @@ namespace UnityEngine
 
         void Detach()
         {
-            DropGeom();
+            DropShape();
+            if (place != Physx.None) Physx.physics_actor_destroy(PhysicsWorld.Handle, place);
+            place = Physx.None;
             if (Body is null) return;
             Body.Colliders.Remove(this);
-            Body.MassStale = true;
             Body = null;
         }
 
         /// Takes the transform's pose and scale over.
-        internal void TakePose()
+        internal unsafe void TakePose()
         {
             var transform = owner.TransformUnchecked;
-            var shape = ScaledShape(transform.lossyScale);
-            if (Body is null) shape = shape.Within(transform.position, transform.rotation);
+            scale = transform.lossyScale;
+            position = Vector3.zero;
+            rotation = Quaternion.identity;
+            if (Body is null)
+            {
+                var pose = new Physx.Pose(transform.position, transform.rotation);
+                if (place == Physx.None) place = Physx.physics_actor_create(PhysicsWorld.Handle, 0, &pose);
+                else PhysicsWorld.Order(place, Physx.Order.Pose, pose.Position, pose.Rotation);
+            }
             else if (!ReferenceEquals(Body.owner, owner))
             {
                 var unturn = Quaternion.Inverse(Body.owner.TransformUnchecked.rotation);
-                shape = shape.Within(unturn * (transform.position - Body.owner.TransformUnchecked.position), unturn * transform.rotation);
+                position = unturn * (transform.position - Body.owner.TransformUnchecked.position);
+                rotation = (unturn * transform.rotation).normalized;
             }
-            var same = local.Center.Equals(shape.Center) && local.Rotation.Equals(shape.Rotation) && local.Half.Equals(shape.Half)
-                && local.Radius == shape.Radius;
-            local = shape;
-            if (!same)
-            {
-                geomStale = true;
-                if (!(Body is null)) Body.MassStale = true;
-            }
-            FollowBody();
+            Refresh();
         }
 
-        /// A property of the shape changed: seen at once, at the pose known to physics.
+        /// A property of the shape changed: seen at once.
         internal void ShapeChanged()
         {
             if (Registered) TakePose();
         }
 
-        internal void FollowBody()
+        /// Brings PhysX's shape in line with everything but the transform.
+        internal unsafe void Refresh()
         {
-            World = Body is null ? local : local.Within(Body.PosePosition, Body.PoseRotation);
-            var reach = World.Reach;
-            Min = World.Center - reach;
-            Max = World.Center + reach;
-            PhysicsWorld.GridStale = true;
-        }
-
-        internal void GeomMoved() => geomStale = true;
-
-        /// Brings the ODE geometry in line before a step.
-        internal unsafe void RefreshGeom()
-        {
-            if (!geomStale) return;
-            DropGeom();
-            var half = local.Half;
-            Geom = local.IsSphere ? Ode.dCreateSphere(IntPtr.Zero, local.Radius)
-                : local.IsCapsule ? Ode.dCreateCapsule(IntPtr.Zero, local.Radius, 2f * half.z)
-                : Ode.dCreateBox(IntPtr.Zero, 2f * half.x, 2f * half.y, 2f * half.z);
-            var rotation = stackalloc double[4] { local.Rotation.w, local.Rotation.x, local.Rotation.y, local.Rotation.z };
-            if (Body is null)
+            if (!Registered) return;
+            var shape = new Physx.Shape();
+            if (!Describe(scale, ref shape))
             {
-                Ode.dGeomSetPosition(Geom, local.Center.x, local.Center.y, local.Center.z);
-                Ode.dGeomSetQuaternion(Geom, rotation);
+                DropShape();
+                return;
             }
-            else
+            if (!(Body is null))
+                shape.Pose = new Physx.Pose(position + rotation * shape.Pose.Position, (rotation * shape.Pose.Rotation).normalized);
+            shape.Material = EffectiveMaterial.Values;
+            shape.Identity = (uint)id;
+            shape.Layer = owner.layer;
+            shape.Trigger = ownIsTrigger ? 1 : 0;
+            shape.Reports = Listening();
+            shape.Detection = Body is null ? CollisionDetectionMode.Discrete : Body.collisionDetectionMode;
+            if (Handle != Physx.None && Same(shape, known)) return;
+            PhysicsWorld.Flush();
+            if (Handle != Physx.None && (shape.Trigger != known.Trigger || shape.Geometry.Kind != known.Geometry.Kind)) DropShape();
+            if (Handle == Physx.None)
             {
-                Ode.dGeomSetBody(Geom, Body.Handle);
-                var center = local.Center - Body.CenterOfMass;
-                if (!center.Equals(Vector3.zero)) Ode.dGeomSetOffsetPosition(Geom, center.x, center.y, center.z);
-                if (!local.Rotation.Equals(Quaternion.identity)) Ode.dGeomSetOffsetQuaternion(Geom, rotation);
+                Handle = Physx.physics_shape_create(PhysicsWorld.Handle, Body is null ? place : Body.Handle, &shape);
+                if (Handle != Physx.None) PhysicsWorld.Add(this);
+                else Debug.LogError($"The collider of '{NameImpl}' has no shape: {Physx.Error()}", this);
             }
-            geomStale = false;
+            else if (Physx.physics_shape_change(PhysicsWorld.Handle, Handle, &shape) == 0)
+                Debug.LogError($"The collider of '{NameImpl}' keeps its former shape: {Physx.Error()}", this);
+            known = shape;
         }
 
-        void DropGeom()
+        /// Rounding of a child's pose is no change.
+        static bool Same(in Physx.Shape a, in Physx.Shape b)
         {
-            if (Geom != IntPtr.Zero) Ode.dGeomDestroy(Geom);
-            Geom = IntPtr.Zero;
-            geomStale = true;
+            return a.Geometry.Kind == b.Geometry.Kind && a.Geometry.Radius == b.Geometry.Radius && a.Geometry.Half.Equals(b.Geometry.Half)
+                && a.Geometry.Mesh == b.Geometry.Mesh
+                && (a.Pose.Position - b.Pose.Position).sqrMagnitude <= Tolerance * Tolerance * Mathf.Max(1f, a.Pose.Position.sqrMagnitude)
+                && Near(a.Pose.Rotation.x, b.Pose.Rotation.x) && Near(a.Pose.Rotation.y, b.Pose.Rotation.y)
+                && Near(a.Pose.Rotation.z, b.Pose.Rotation.z) && Near(a.Pose.Rotation.w, b.Pose.Rotation.w)
+                && a.Material.StaticFriction == b.Material.StaticFriction && a.Material.DynamicFriction == b.Material.DynamicFriction
+                && a.Material.Bounciness == b.Material.Bounciness && a.Material.FrictionCombine == b.Material.FrictionCombine
+                && a.Material.BounceCombine == b.Material.BounceCombine
+                && a.Identity == b.Identity && a.Layer == b.Layer && a.Trigger == b.Trigger && a.Reports == b.Reports && a.Detection == b.Detection;
         }
+
+        static bool Near(float a, float b) => Mathf.Abs(a - b) <= Tolerance;
+
+        /// What somebody listens to: overlaps are told to this object and its body's, contacts to its body's or, without one, to it.
+        Physx.Reports Listening()
+        {
+            var heardByBody = Body is null ? owner.hears : Body.owner.hears;
+            var reports = Physx.Reports.None;
+            if (((owner.hears | heardByBody) & TouchMessages.Triggers) != 0) reports |= Physx.Reports.Overlaps;
+            if ((heardByBody & TouchMessages.Collisions) != 0) reports |= Physx.Reports.Contacts;
+            return reports;
+        }
+
+        internal void DropShape()
+        {
+            if (Handle == Physx.None) return;
+            PhysicsWorld.Remove(this);
+            Physx.physics_shape_destroy(PhysicsWorld.Handle, Handle);
+            Handle = Physx.None;
+        }
+
+        /// The world is gone, and PhysX's objects with it.
+        internal void Forget() => Handle = place = Physx.None;
 
         internal override void CopyFrom(Component original)
         {

@@ -8,15 +8,12 @@ namespace UnityEngine
         readonly int[] layers = new int[32]; // bit j of row i: layers i and j
         readonly HashSet<ulong> colliders = new HashSet<ulong>();
 
-        /// One number for a pair, whatever its order. The odd factor keeps it unique and spreads the hash codes, which for plain pairs of near
-        /// ids would nearly all be the same.
-        public static ulong Key(Collider a, Collider b) =>
-            (a.id < b.id ? (ulong)a.id << 32 | (uint)b.id : (ulong)b.id << 32 | (uint)a.id) * 0x9E3779B97F4A7C15UL;
+        static ulong Key(Collider a, Collider b) => a.id < b.id ? (ulong)a.id << 32 | (uint)b.id : (ulong)b.id << 32 | (uint)a.id;
 
         public void Set(Collider a, Collider b, bool ignore)
         {
-            if (ignore) colliders.Add(Key(a, b));
-            else colliders.Remove(Key(a, b));
+            if (ignore ? colliders.Add(Key(a, b)) : colliders.Remove(Key(a, b)))
+                Physx.physics_ignore_pair(PhysicsWorld.Handle, (uint)a.id, (uint)b.id, ignore ? 1 : 0);
         }
 
         public bool Has(Collider a, Collider b) => colliders.Contains(Key(a, b));
@@ -25,12 +22,17 @@ namespace UnityEngine
         {
             layers[a] = ignore ? layers[a] | 1 << b : layers[a] & ~(1 << b);
             layers[b] = ignore ? layers[b] | 1 << a : layers[b] & ~(1 << a);
+            SendTo(PhysicsWorld.Handle);
         }
 
         public bool HasLayers(int a, int b) => (layers[a] & 1 << b) != 0;
 
-        public bool Contains(Collider a, Collider b) => HasLayers(a.owner.layer, b.owner.layer) || colliders.Count > 0 && Has(a, b);
+        unsafe void SendTo(System.IntPtr world)
+        {
+            fixed (int* rows = layers) Physx.physics_ignore_layers(world, rows);
+        }
 
+        /// PhysX's world goes with it.
         public void Clear()
         {
             System.Array.Clear(layers, 0, layers.Length);

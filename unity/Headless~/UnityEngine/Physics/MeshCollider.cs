@@ -1,34 +1,96 @@
+using System;
+
 namespace UnityEngine
 {
-    /// ODE's world knows it as the box around its mesh.
+    /// Convex: the hull around the mesh. Not convex: its triangles, which have no inside; for static and kinematic objects only.
     public class MeshCollider : Collider
     {
         Mesh ownMesh;
+        bool ownConvex;
+        IntPtr cooked;
+        int cookedVersion;
+        Vector3 cookedScale;
 
-        public bool convex { get; set; }
+        public bool convex
+        {
+            get => ownConvex;
+            set
+            {
+                if (ownConvex == value) return;
+                ownConvex = value;
+                MeshChanged();
+            }
+        }
 
+        /// Assign it again after changes of its vertices, as in Unity.
         public Mesh sharedMesh
         {
             get => ownMesh;
             set
             {
                 ownMesh = value;
-                ShapeChanged();
+                MeshChanged();
             }
         }
 
-        internal override bool HasClosestPoint => convex;
+        internal override bool HasClosestPoint => ownConvex;
 
-        internal override Shape ScaledShape(Vector3 scale)
+        void MeshChanged()
         {
-            var box = ownMesh ? ownMesh.bounds : default;
-            var size = Vector3.Scale(box.size, scale);
-            return new Shape
+            DropShape();
+            Release();
+            ShapeChanged();
+        }
+
+        internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
+        {
+            if (!ownMesh || ownMesh.vertexCount == 0) return false;
+            if (!ownConvex && !(Body is null) && !Body.isKinematic)
             {
-                Center = Vector3.Scale(box.center, scale),
-                Rotation = Quaternion.identity,
-                Half = 0.5f * new Vector3(Mathf.Abs(size.x), Mathf.Abs(size.y), Mathf.Abs(size.z)),
-            };
+                Debug.LogError("Non-convex MeshCollider with non-kinematic Rigidbody is no longer supported since Unity 5.\n"
+                    + "If you want to use a non-convex mesh either make the Rigidbody kinematic or remove the Rigidbody component. "
+                    + $"Object '{NameImpl}' has no shape.", this);
+                return false;
+            }
+            if (cooked != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
+            {
+                DropShape(); // a new mesh may lie where the old one was
+                Release();
+            }
+            if (cooked == IntPtr.Zero) Cook(scale);
+            if (cooked == IntPtr.Zero) return false;
+            shape.Geometry.Kind = Physx.Kind.Mesh;
+            shape.Geometry.Mesh = cooked;
+            shape.Pose = new Physx.Pose(Vector3.zero, Quaternion.identity);
+            return true;
+        }
+
+        /// The scale goes into the vertices: any scale will do, mirrored and flat ones too.
+        unsafe void Cook(Vector3 scale)
+        {
+            var points = ownMesh.vertices;
+            var indices = ownMesh.triangles;
+            for (var index = 0; index < points.Length; index++) points[index] = Vector3.Scale(points[index], scale);
+            if (scale.x * scale.y * scale.z < 0f)
+                for (var index = 0; index + 2 < indices.Length; index += 3) (indices[index], indices[index + 1]) = (indices[index + 1], indices[index]);
+            fixed (Vector3* first = points)
+            fixed (int* firstIndex = indices)
+                cooked = Physx.physics_mesh_create(first, points.Length, firstIndex, indices.Length, ownConvex ? 1 : 0);
+            cookedScale = scale;
+            cookedVersion = ownMesh.Version;
+            if (cooked == IntPtr.Zero) Debug.LogError($"The mesh '{ownMesh.name}' of MeshCollider '{NameImpl}' cannot be a collider: {Physx.Error()}", this);
+        }
+
+        void Release()
+        {
+            if (cooked != IntPtr.Zero) Physx.physics_mesh_release(cooked);
+            cooked = IntPtr.Zero;
+        }
+
+        internal override void Deactivate()
+        {
+            base.Deactivate();
+            Release();
         }
 
         internal override void CopyFrom(Component original)
@@ -36,7 +98,7 @@ namespace UnityEngine
             base.CopyFrom(original);
             var other = (MeshCollider)original;
             ownMesh = other.ownMesh;
-            convex = other.convex;
+            ownConvex = other.ownConvex;
         }
     }
 }

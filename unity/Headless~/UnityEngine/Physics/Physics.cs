@@ -90,26 +90,121 @@ namespace UnityEngine
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.RaycastAll(ray.origin, ray.direction, results, maxDistance, layerMask, queryTriggerInteraction);
 
-        // ---- Spheres and points ---------------------------------------------------------------------------------------
+        public static RaycastHit[] RaycastAll(Vector3 origin, Vector3 direction, float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.All(results => Queries.RaycastAll(origin, direction, results, maxDistance, layerMask, queryTriggerInteraction));
+
+        public static RaycastHit[] RaycastAll(Ray ray, float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            RaycastAll(ray.origin, ray.direction, maxDistance, layerMask, queryTriggerInteraction);
+
+        // ---- Shapes ---------------------------------------------------------------------------------------------------
+
+        static Physx.Geometry Ball(float radius) => new Physx.Geometry { Kind = Physx.Kind.Sphere, Radius = Mathf.Abs(radius) };
+        static Physx.Geometry Block(Vector3 half) =>
+            new Physx.Geometry { Kind = Physx.Kind.Box, Half = new Vector3(Mathf.Abs(half.x), Mathf.Abs(half.y), Mathf.Abs(half.z)) };
+
+        static Physx.Pose At(Vector3 position) => new Physx.Pose(position, Quaternion.identity);
+        static Physx.Pose At(Vector3 position, Quaternion rotation) => new Physx.Pose(position, rotation.normalized);
+
+        /// Between the centres of its two caps.
+        static Physx.Geometry Pill(Vector3 from, Vector3 to, float radius, out Physx.Pose pose)
+        {
+            var length = (to - from).magnitude;
+            pose = new Physx.Pose((from + to) * 0.5f, length > 0f ? Quaternion.FromToRotation(Vector3.right, to - from) : Quaternion.identity);
+            if (length == 0f) return Ball(radius);
+            return new Physx.Geometry { Kind = Physx.Kind.Capsule, Radius = Mathf.Abs(radius), Half = new Vector3(length * 0.5f, 0f, 0f) };
+        }
+
+        // ---- Sweeps ---------------------------------------------------------------------------------------------------
+
+        /// Shapes that the sphere overlaps at its start are not hit.
+        public static bool SphereCast(Vector3 origin, float radius, Vector3 direction, out RaycastHit hitInfo, float maxDistance = Mathf.Infinity,
+            int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Sweep(Ball(radius), At(origin), direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static bool SphereCast(Ray ray, float radius, float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            SphereCast(ray.origin, radius, ray.direction, out _, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static bool SphereCast(Ray ray, float radius, out RaycastHit hitInfo, float maxDistance = Mathf.Infinity,
+            int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            SphereCast(ray.origin, radius, ray.direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static int SphereCastNonAlloc(Vector3 origin, float radius, Vector3 direction, RaycastHit[] results, float maxDistance = Mathf.Infinity,
+            int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.SweepAll(Ball(radius), At(origin), direction, results, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static RaycastHit[] SphereCastAll(Vector3 origin, float radius, Vector3 direction, float maxDistance = Mathf.Infinity,
+            int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.All(results => SphereCastNonAlloc(origin, radius, direction, results, maxDistance, layerMask, queryTriggerInteraction));
+
+        public static bool CapsuleCast(Vector3 point1, Vector3 point2, float radius, Vector3 direction, float maxDistance = Mathf.Infinity,
+            int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            CapsuleCast(point1, point2, radius, direction, out _, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static bool CapsuleCast(Vector3 point1, Vector3 point2, float radius, Vector3 direction, out RaycastHit hitInfo,
+            float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Sweep(Pill(point1, point2, radius, out var pose), pose, direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static bool BoxCast(Vector3 center, Vector3 halfExtents, Vector3 direction, Quaternion orientation = default,
+            float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            BoxCast(center, halfExtents, direction, out _, orientation, maxDistance, layerMask, queryTriggerInteraction);
+
+        public static bool BoxCast(Vector3 center, Vector3 halfExtents, Vector3 direction, out RaycastHit hitInfo, Quaternion orientation = default,
+            float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Sweep(Block(halfExtents), At(center, orientation), direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
+
+        // ---- Overlaps -------------------------------------------------------------------------------------------------
 
         /// In no particular order, as in Unity; what does not fit is left out.
         public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask = AllLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Overlaps(position, radius, results, layerMask, queryTriggerInteraction);
+            Queries.Overlaps(Ball(radius), At(position), results, layerMask, queryTriggerInteraction);
 
         public static Collider[] OverlapSphere(Vector3 position, float radius, int layerMask = AllLayers,
-            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal)
-        {
-            var results = new Collider[Queries.Count(position, radius, layerMask, queryTriggerInteraction)];
-            Queries.Overlaps(position, radius, results, layerMask, queryTriggerInteraction);
-            return results;
-        }
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(Ball(radius), At(position), layerMask, queryTriggerInteraction);
 
         public static bool CheckSphere(Vector3 position, float radius, int layerMask = DefaultRaycastLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Count(position, radius, layerMask, queryTriggerInteraction) > 0;
+            Queries.Check(Ball(radius), At(position), layerMask, queryTriggerInteraction);
+
+        public static int OverlapBoxNonAlloc(Vector3 center, Vector3 halfExtents, Collider[] results, Quaternion orientation = default,
+            int mask = AllLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(Block(halfExtents), At(center, orientation), results, mask, queryTriggerInteraction);
+
+        public static Collider[] OverlapBox(Vector3 center, Vector3 halfExtents, Quaternion orientation = default, int layerMask = AllLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(Block(halfExtents), At(center, orientation), layerMask, queryTriggerInteraction);
+
+        public static bool CheckBox(Vector3 center, Vector3 halfExtents, Quaternion orientation = default, int layermask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Check(Block(halfExtents), At(center, orientation), layermask, queryTriggerInteraction);
+
+        public static int OverlapCapsuleNonAlloc(Vector3 point0, Vector3 point1, float radius, Collider[] results, int layerMask = AllLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(Pill(point0, point1, radius, out var pose), pose, results, layerMask, queryTriggerInteraction);
+
+        public static Collider[] OverlapCapsule(Vector3 point0, Vector3 point1, float radius, int layerMask = AllLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Overlaps(Pill(point0, point1, radius, out var pose), pose, layerMask, queryTriggerInteraction);
+
+        public static bool CheckCapsule(Vector3 start, Vector3 end, float radius, int layerMask = DefaultRaycastLayers,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Check(Pill(start, end, radius, out var pose), pose, layerMask, queryTriggerInteraction);
+
+        // ---- Distances ------------------------------------------------------------------------------------------------
 
         public static Vector3 ClosestPoint(Vector3 point, Collider collider, Vector3 position, Quaternion rotation) =>
-            collider.ShapeAt(position, rotation).ClosestPoint(point);
+            Queries.ClosestPoint(collider, point, position, rotation);
+
+        /// The shortest way that takes the first collider out of the second, were they at these poses.
+        public static bool ComputePenetration(Collider colliderA, Vector3 positionA, Quaternion rotationA, Collider colliderB, Vector3 positionB,
+            Quaternion rotationB, out Vector3 direction, out float distance) =>
+            Queries.Penetration(colliderA, positionA, rotationA, colliderB, positionB, rotationB, out direction, out distance);
     }
 }

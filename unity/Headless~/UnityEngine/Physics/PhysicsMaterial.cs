@@ -8,33 +8,60 @@ namespace UnityEngine
         Maximum,
     }
 
-    /// `staticFriction` is kept but not simulated: contacts use `dynamicFriction` also at rest.
     public class PhysicsMaterial : Object
     {
         internal static readonly PhysicsMaterial Default = new PhysicsMaterial("Default");
 
+        /// Counts changes of all materials: colliders look at theirs again when it grew.
+        internal static int Changes { get; private set; }
+
+        Physx.Material values = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };
+
         public PhysicsMaterial() { }
         public PhysicsMaterial(string name) => NameImpl = name;
 
-        public float bounciness { get; set; }
-        public float dynamicFriction { get; set; } = 0.6f;
-        public float staticFriction { get; set; } = 0.6f;
-        public PhysicsMaterialCombine frictionCombine { get; set; }
-        public PhysicsMaterialCombine bounceCombine { get; set; }
-
-        internal static float CombinedFriction(PhysicsMaterial a, PhysicsMaterial b) =>
-            Combine(a.dynamicFriction, b.dynamicFriction, a.frictionCombine, b.frictionCombine);
-
-        internal static float CombinedBounciness(PhysicsMaterial a, PhysicsMaterial b) =>
-            Combine(a.bounciness, b.bounciness, a.bounceCombine, b.bounceCombine);
-
-        /// When two materials ask for different modes, the later of average, minimum, multiply, maximum wins.
-        static float Combine(float a, float b, PhysicsMaterialCombine modeA, PhysicsMaterialCombine modeB)
+        internal Physx.Material Values
         {
-            if (modeA == PhysicsMaterialCombine.Maximum || modeB == PhysicsMaterialCombine.Maximum) return Mathf.Max(a, b);
-            if (modeA == PhysicsMaterialCombine.Multiply || modeB == PhysicsMaterialCombine.Multiply) return a * b;
-            if (modeA == PhysicsMaterialCombine.Minimum || modeB == PhysicsMaterialCombine.Minimum) return Mathf.Min(a, b);
-            return (a + b) * 0.5f;
+            get => values;
+            set
+            {
+                values = value;
+                Changes++;
+            }
         }
+
+        public float bounciness { get => values.Bounciness; set => Set(ref values.Bounciness, Mathf.Clamp01(value)); }
+        public float dynamicFriction { get => values.DynamicFriction; set => Set(ref values.DynamicFriction, Mathf.Max(0f, value)); }
+        public float staticFriction { get => values.StaticFriction; set => Set(ref values.StaticFriction, Mathf.Max(0f, value)); }
+
+        public PhysicsMaterialCombine frictionCombine
+        {
+            get => FromPhysx(values.FrictionCombine);
+            set => Set(ref values.FrictionCombine, ToPhysx(value));
+        }
+
+        public PhysicsMaterialCombine bounceCombine { get => FromPhysx(values.BounceCombine); set => Set(ref values.BounceCombine, ToPhysx(value)); }
+
+        static void Set<T>(ref T field, T value)
+        {
+            field = value;
+            Changes++;
+        }
+
+        static Physx.Combine ToPhysx(PhysicsMaterialCombine mode) => mode switch
+        {
+            PhysicsMaterialCombine.Multiply => Physx.Combine.Multiply,
+            PhysicsMaterialCombine.Minimum => Physx.Combine.Minimum,
+            PhysicsMaterialCombine.Maximum => Physx.Combine.Maximum,
+            _ => Physx.Combine.Average,
+        };
+
+        static PhysicsMaterialCombine FromPhysx(Physx.Combine mode) => mode switch
+        {
+            Physx.Combine.Multiply => PhysicsMaterialCombine.Multiply,
+            Physx.Combine.Minimum => PhysicsMaterialCombine.Minimum,
+            Physx.Combine.Maximum => PhysicsMaterialCombine.Maximum,
+            _ => PhysicsMaterialCombine.Average,
+        };
     }
 }

@@ -4,97 +4,136 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The one physics world: its members in creation order, what moved since the last sync, and the step. Main thread only.
+    /// The one physics world: what moved since the last sync, the commands for PhysX, and the step. Main thread only.
     static unsafe class PhysicsWorld
     {
         public static readonly IgnoredPairs Ignored = new IgnoredPairs();
 
-        static readonly List<Rigidbody> Bodies = new List<Rigidbody>();
-        static readonly List<Collider> Colliders = new List<Collider>();
         static readonly List<Transform> Moved = new List<Transform>();
-        static readonly ColliderGrid Places = new ColliderGrid();
+        static readonly List<Rigidbody> Unpublished = new List<Rigidbody>();
         static readonly Touches Touching = new Touches();
-        static readonly Ode.Contact* Contacts = (Ode.Contact*)Marshal.AllocHGlobal(Ode.MaxContacts * sizeof(Ode.Contact));
 
-        static IntPtr world, contactGroup;
-        static bool initialized, stepping;
+        static Rigidbody[] bodies = new Rigidbody[64]; // by PhysX's handle of the actor
+        static Collider[] colliders = new Collider[64]; // by PhysX's handle of the shape
+        static Physx.Command* commands; // native: read by PhysX, kept until the process ends
+        static int commandCount, commandCapacity;
+        static IntPtr world;
+        static bool stepping;
+        static int materialChanges;
 
-        public static int Seed;
-        public static bool GridStale = true;
+        /// Steps of this world so far.
+        public static int StepCount { get; private set; }
+
+        /// How many threads step the next world; results do not depend on it.
+        public static int Threads = 1;
 
         public static IntPtr Handle => world != IntPtr.Zero ? world : Create();
 
-        public static ColliderGrid Grid
-        {
-            get
-            {
-                if (GridStale) Places.Build(Colliders);
-                GridStale = false;
-                return Places;
-            }
-        }
-
         static IntPtr Create()
-        {
-            if (!initialized) Initialize();
-            Ode.dRandSetSeed((UIntPtr)(uint)Seed); // QuickStep draws from a global generator
-            world = Ode.dWorldCreate();
-            contactGroup = Ode.dJointGroupCreate(0);
-            Ode.dWorldSetQuickStepNumIterations(world, 20);
-            Ode.dWorldSetContactMaxCorrectingVel(world, 5);
-            Ode.dWorldSetContactSurfaceLayer(world, 0.001);
-            return world;
-        }
-
-        static void Initialize()
         {
             try
             {
-                Ode.dInitODE2(0);
+                if (Physx.physics_version() != Physx.Version)
+                    throw new NotSupportedException("libcollektive_physics.so is of another version than this player: run ./collektive clean and build again.");
             }
             catch (DllNotFoundException exception)
             {
-                throw new DllNotFoundException(
-                    "The physics engine ODE (libode.so.8) is missing: install it, on Debian or Ubuntu with 'apt-get install libode8'.", exception);
+                throw new DllNotFoundException("The physics engine (libcollektive_physics.so) is missing: any ./collektive command that runs scenes builds it.",
+                    exception);
             }
-            if (Ode.dCheckConfiguration("ODE_double_precision") == 0)
-                throw new NotSupportedException(
-                    "The installed ODE (libode.so.8) is a single precision build; the headless player needs double precision, as Debian and Ubuntu build it.");
-            initialized = true;
+            world = Physx.physics_world_create(Math.Max(1, Threads));
+            if (world == IntPtr.Zero) throw new OutOfMemoryException("PhysX could not make a world: " + Physx.Error());
+            return world;
         }
 
         public static void ResetState()
         {
-            Bodies.Clear();
-            Colliders.Clear();
+            foreach (var collider in colliders) collider?.Forget();
+            foreach (var body in bodies) body?.Forget();
+            Array.Clear(bodies, 0, bodies.Length);
+            Array.Clear(colliders, 0, colliders.Length);
             Moved.Clear();
+            Unpublished.Clear();
             Touching.Clear();
             Ignored.Clear();
-            GridStale = true;
-            Seed = 0;
+            commandCount = 0;
+            StepCount = 0;
             stepping = false;
             Physics.ResetState();
-            if (world == IntPtr.Zero) return;
-            Ode.dJointGroupDestroy(contactGroup);
-            Ode.dWorldDestroy(world);
-            world = contactGroup = IntPtr.Zero;
+            if (world != IntPtr.Zero) Physx.physics_world_destroy(world);
+            world = IntPtr.Zero;
         }
 
         // ---- Members --------------------------------------------------------------------------------------------------
 
-        public static void Add(Rigidbody body) => Bodies.Add(body);
-        public static void Remove(Rigidbody body) => Bodies.Remove(body);
+        public static void Add(Rigidbody body)
+        {
+            if (body.Handle >= bodies.Length) Array.Resize(ref bodies, 2 * body.Handle);
+            bodies[body.Handle] = body;
+        }
+
+        public static void Remove(Rigidbody body)
+        {
+            bodies[body.Handle] = null;
+            Unpublished.Remove(body);
+        }
 
         public static void Add(Collider collider)
         {
-            Colliders.Add(collider);
-            GridStale = true;
+            if (collider.Handle >= colliders.Length) Array.Resize(ref colliders, 2 * collider.Handle);
+            colliders[collider.Handle] = collider;
         }
 
-        public static void Remove(Collider collider)
+        public static void Remove(Collider collider) => colliders[collider.Handle] = null;
+
+        public static Collider ColliderOf(int shape) => shape == Physx.None ? null : colliders[shape];
+
+        /// Its transform follows with the next step, even if PhysX does not move it.
+        public static void PublishAfterStep(Rigidbody body) => Unpublished.Add(body);
+
+        // ---- Commands -------------------------------------------------------------------------------------------------
+
+        public static void Order(int actor, Physx.Order order, Vector3 value)
         {
-            Colliders.Remove(collider);
-            GridStale = true;
+            var command = NextCommand(actor, order);
+            command->Value[0] = value.x;
+            command->Value[1] = value.y;
+            command->Value[2] = value.z;
+        }
+
+        public static void Order(int actor, Physx.Order order, Vector3 value, Quaternion rotation)
+        {
+            var command = NextCommand(actor, order);
+            command->Value[0] = value.x;
+            command->Value[1] = value.y;
+            command->Value[2] = value.z;
+            command->Value[3] = rotation.x;
+            command->Value[4] = rotation.y;
+            command->Value[5] = rotation.z;
+            command->Value[6] = rotation.w;
+        }
+
+        static Physx.Command* NextCommand(int actor, Physx.Order order)
+        {
+            if (commandCount == commandCapacity)
+            {
+                var capacity = Math.Max(1024, 2 * commandCapacity);
+                var size = (IntPtr)((long)capacity * sizeof(Physx.Command));
+                commands = (Physx.Command*)(commands == null ? Marshal.AllocHGlobal(size) : Marshal.ReAllocHGlobal((IntPtr)commands, size));
+                commandCapacity = capacity;
+            }
+            var command = commands + commandCount++;
+            command->Actor = actor;
+            command->Order = order;
+            return command;
+        }
+
+        /// Brings PhysX up to what scripts asked for, before it is asked something.
+        public static void Flush()
+        {
+            if (commandCount == 0) return;
+            Physx.physics_apply(Handle, commands, commandCount);
+            commandCount = 0;
         }
 
         // ---- Transforms -----------------------------------------------------------------------------------------------
@@ -147,12 +186,26 @@ namespace UnityEngine
             if (stepping) throw new InvalidOperationException("A physics step was asked for inside a physics message.");
             SyncTransforms();
             if (step <= 0f) return;
+            RefreshMaterials();
             stepping = true;
             try
             {
-                Touching.BeginStep();
-                if (Bodies.Count > 0) MoveBodies(step);
-                Touching.SendMessages(step);
+                var gravity = Physics.gravity;
+                Physx.Result result;
+                var count = commandCount;
+                commandCount = 0;
+                var done = Physx.physics_step(Handle, commands, count, step, &gravity, &result);
+                StepCount++;
+                if (done == 0) throw new InvalidOperationException(Physx.Error());
+                for (var index = 0; index < result.MotionCount; index++)
+                {
+                    var motion = result.Motions + index;
+                    bodies[motion->Actor].TakeMotion(*motion);
+                }
+                foreach (var body in Unpublished) body.Publish();
+                Unpublished.Clear();
+                TellErrors();
+                Touching.Send(result);
             }
             finally
             {
@@ -160,82 +213,17 @@ namespace UnityEngine
             }
         }
 
-        static void MoveBodies(float step)
+        static void RefreshMaterials()
         {
-            for (var index = 0; index < Bodies.Count; index++) Bodies[index].BeforeStep(step);
-            for (var index = 0; index < Colliders.Count; index++) Colliders[index].RefreshGeom();
-            FindTouches();
-            Ode.dWorldQuickStep(world, step);
-            Ode.dJointGroupEmpty(contactGroup);
-            for (var index = 0; index < Bodies.Count; index++) Bodies[index].AfterStep();
+            if (materialChanges == PhysicsMaterial.Changes) return;
+            materialChanges = PhysicsMaterial.Changes;
+            foreach (var collider in colliders) collider?.Refresh();
         }
 
-        static void FindTouches()
+        static void TellErrors()
         {
-            var grid = Grid;
-            foreach (var body in Bodies)
-                foreach (var collider in body.Colliders)
-                {
-                    var isSphere = collider.World.IsSphere;
-                    var candidates = isSphere ? grid.InSphere(collider.World.Center, collider.World.Radius) : grid.InBox(collider.Min, collider.Max);
-                    for (var index = 0; index < candidates; index++)
-                    {
-                        var other = grid.Found(index);
-                        if (!other.IsStatic && (collider.id >= other.id || ReferenceEquals(other.Body, body))) continue;
-                        Examine(collider, other, isSphere);
-                    }
-                }
+            var error = Physx.Error();
+            if (error.Length > 0) Debug.LogError(error);
         }
-
-        /// `surelyTouch`: the shapes were compared already, not only the boxes around them.
-        static void Examine(Collider a, Collider b, bool surelyTouch)
-        {
-            var trigger = a.isTrigger || b.isTrigger;
-            var solid = !trigger && (IsPushable(a) || IsPushable(b));
-            var heard = trigger ? HearsTriggers(a) || HearsTriggers(b) : solid && (HearsCollisions(a) || HearsCollisions(b));
-            if (!solid && !heard || Ignored.Contains(a, b)) return;
-            if (!surelyTouch && b.World.IsSphere)
-            {
-                if (!a.World.TouchesSphere(b.World.Center, b.World.Radius)) return;
-                surelyTouch = true;
-            }
-            if (trigger)
-            {
-                Ode.ContactGeometry any;
-                if (surelyTouch || Ode.dCollide(a.Geom, b.Geom, 1, &any, sizeof(Ode.ContactGeometry)) > 0) Touching.AddTrigger(a, b);
-                return;
-            }
-            var count = Ode.dCollide(a.Geom, b.Geom, Ode.MaxContacts, &Contacts->geometry, sizeof(Ode.Contact));
-            if (count == 0) return;
-            var touch = heard ? Touching.AddCollision(a, b) : null;
-            var surface = Surface(a.EffectiveMaterial, b.EffectiveMaterial);
-            for (var index = 0; index < count; index++)
-            {
-                Contacts[index].surface = surface;
-                var joint = Ode.dJointCreateContact(world, contactGroup, &Contacts[index]);
-                Ode.dJointAttach(joint, a.IsStatic ? IntPtr.Zero : a.Body.Handle, b.IsStatic ? IntPtr.Zero : b.Body.Handle);
-                if (touch != null) Ode.dJointSetFeedback(joint, Touching.AddContact(touch, &Contacts[index].geometry));
-            }
-        }
-
-        static Ode.SurfaceParameters Surface(PhysicsMaterial a, PhysicsMaterial b)
-        {
-            const float slowestBounce = 2f; // m/s: Unity's default bounce threshold
-            var bounce = PhysicsMaterial.CombinedBounciness(a, b);
-            return new Ode.SurfaceParameters
-            {
-                mode = Ode.ContactMode.ApproximatePyramid | Ode.ContactMode.SoftErp | Ode.ContactMode.SoftCfm | (bounce > 0f ? Ode.ContactMode.Bounce : 0),
-                mu = PhysicsMaterial.CombinedFriction(a, b),
-                bounce = bounce,
-                bounceVelocity = slowestBounce,
-                softErp = 0.2,
-                softCfm = 1e-5,
-            };
-        }
-
-        static bool IsPushable(Collider collider) => !collider.IsStatic && !collider.Body.isKinematic;
-        static bool HearsTriggers(Collider collider) =>
-            (collider.owner.hears & TouchMessages.Triggers) != 0 || !collider.IsStatic && (collider.Body.owner.hears & TouchMessages.Triggers) != 0;
-        static bool HearsCollisions(Collider collider) => ((collider.IsStatic ? collider.owner : collider.Body.owner).hears & TouchMessages.Collisions) != 0;
     }
 }

@@ -1,76 +1,240 @@
+using System;
+
 namespace UnityEngine
 {
-    /// Questions about the world at the poses that physics knows. Nothing here allocates but the array results.
-    static class Queries
+    /// Questions about the world at the poses that physics knows. Nothing here allocates in steady state but the array results.
+    static unsafe class Queries
     {
-        static bool Passes(Collider collider, int layerMask, QueryTriggerInteraction triggers)
-        {
-            if ((layerMask & (1 << collider.owner.layer)) == 0) return false;
-            return !collider.isTrigger || triggers == QueryTriggerInteraction.Collide
-                || triggers == QueryTriggerInteraction.UseGlobal && Physics.queriesHitTriggers;
-        }
+        static Physx.Hit[] hits = new Physx.Hit[64];
+        static int[] shapes = new int[64];
 
-        /// Puts colliders that touch the sphere into the array as far as it goes; returns how many there are, or the array's length if that is less.
-        public static int Overlaps(Vector3 center, float radius, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
+        /// PhysX's world, up to date.
+        static IntPtr World
         {
-            var grid = PhysicsWorld.Grid;
-            int touching = grid.InSphere(center, radius), count = 0;
-            for (var index = 0; index < touching && count < results.Length; index++)
+            get
             {
-                var collider = grid.Found(index);
-                if (Passes(collider, layerMask, triggers)) results[count++] = collider;
+                PhysicsWorld.Flush();
+                return PhysicsWorld.Handle;
             }
-            return count;
         }
 
-        public static int Count(Vector3 center, float radius, int layerMask, QueryTriggerInteraction triggers)
+        static Physx.Filter Filter(int layerMask, QueryTriggerInteraction triggers) =>
+            new Physx.Filter { Layers = layerMask, Triggers = HitsTriggers(triggers) ? 1 : 0 };
+
+        static bool HitsTriggers(QueryTriggerInteraction triggers) =>
+            triggers == QueryTriggerInteraction.Collide || triggers == QueryTriggerInteraction.UseGlobal && Physics.queriesHitTriggers;
+
+        static bool IsFinite(Vector3 value)
         {
-            var grid = PhysicsWorld.Grid;
-            int touching = grid.InSphere(center, radius), count = 0;
-            for (var index = 0; index < touching; index++)
-                if (Passes(grid.Found(index), layerMask, triggers)) count++;
-            return count;
+            var sum = value.x + value.y + value.z;
+            return sum - sum == 0f;
         }
 
-        public static bool Hits(Collider collider, Vector3 origin, Vector3 unit, float maxDistance, out RaycastHit hit)
+        /// False when there is nothing to ask: no direction, or what is no number.
+        static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
         {
-            hit = default;
-            if (!collider.World.Raycast(origin, unit, maxDistance, out var distance, out var normal)) return false;
-            hit.collider = collider;
-            hit.distance = distance;
-            hit.point = origin + unit * distance;
-            hit.normal = normal;
-            return true;
+            line = new Physx.RayLine { Origin = origin, Direction = direction.normalized, Distance = maxDistance };
+            return line.Direction.sqrMagnitude > 0f && maxDistance > 0f && IsFinite(origin) && IsFinite(direction);
         }
+
+        // ---- Rays -----------------------------------------------------------------------------------------------------
 
         public static bool Raycast(Vector3 origin, Vector3 direction, out RaycastHit nearest, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
             Headless.QueryLog.Rays++;
             nearest = default;
-            var unit = direction.normalized;
-            if (unit.sqrMagnitude == 0f) return false;
-            var grid = PhysicsWorld.Grid;
-            var candidates = grid.AlongRay(origin, unit, maxDistance);
-            for (var index = 0; index < candidates; index++)
-                if (Passes(grid.Found(index), layerMask, triggers) && Hits(grid.Found(index), origin, unit, maxDistance, out var hit)
-                    && (nearest.collider is null || hit.distance < nearest.distance))
-                    nearest = hit;
-            return !(nearest.collider is null);
+            if (!Line(origin, direction, maxDistance, out var line)) return false;
+            var filter = Filter(layerMask, triggers);
+            Physx.Hit hit;
+            Physx.physics_raycast(World, &line, 1, &filter, &hit);
+            if (hit.Shape == Physx.None) return false;
+            nearest = new RaycastHit(hit);
+            return true;
         }
 
+        /// Fills the array as far as it goes; returns how many it put there.
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
             Headless.QueryLog.Rays++;
-            var unit = direction.normalized;
-            if (unit.sqrMagnitude == 0f) return 0;
-            var grid = PhysicsWorld.Grid;
-            var candidates = grid.AlongRay(origin, unit, maxDistance);
-            var count = 0;
-            for (var index = 0; index < candidates && count < results.Length; index++)
-                if (Passes(grid.Found(index), layerMask, triggers) && Hits(grid.Found(index), origin, unit, maxDistance, out var hit)) results[count++] = hit;
+            if (!Line(origin, direction, maxDistance, out var line)) return 0;
+            Reserve(results.Length);
+            var filter = Filter(layerMask, triggers);
+            int count;
+            fixed (Physx.Hit* found = hits) count = Physx.physics_raycast_all(World, &line, &filter, found, results.Length);
+            return Take(results, count);
+        }
+
+        public static bool RaycastOne(Collider collider, Ray ray, out RaycastHit hitInfo, float maxDistance)
+        {
+            hitInfo = default;
+            if (!Line(ray.origin, ray.direction, maxDistance, out var line)) return false;
+            Physx.Hit hit;
+            if (Physx.physics_raycast_shape(World, collider.Handle, &line, &hit) == 0) return false;
+            hitInfo = new RaycastHit(hit);
+            return true;
+        }
+
+        // ---- Sweeps ---------------------------------------------------------------------------------------------------
+
+        public static bool Sweep(Physx.Geometry geometry, Physx.Pose pose, Vector3 direction, out RaycastHit nearest, float maxDistance, int layerMask,
+            QueryTriggerInteraction triggers)
+        {
+            nearest = default;
+            if (!Line(pose.Position, direction, maxDistance, out var line)) return false;
+            var filter = Filter(layerMask, triggers);
+            Physx.Hit hit;
+            if (Physx.physics_sweep(World, &geometry, &pose, &line.Direction, line.Distance, &filter, &hit, 1) == 0) return false;
+            nearest = new RaycastHit(hit);
+            return true;
+        }
+
+        public static int SweepAll(Physx.Geometry geometry, Physx.Pose pose, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
+            QueryTriggerInteraction triggers)
+        {
+            if (results.Length == 1) return Sweep(geometry, pose, direction, out results[0], maxDistance, layerMask, triggers) ? 1 : 0;
+            if (!Line(pose.Position, direction, maxDistance, out var line)) return 0;
+            Reserve(results.Length);
+            var filter = Filter(layerMask, triggers);
+            int count;
+            fixed (Physx.Hit* found = hits)
+                count = Physx.physics_sweep(World, &geometry, &pose, &line.Direction, line.Distance, &filter, found, results.Length);
+            return Take(results, count);
+        }
+
+        public static bool Sweep(Rigidbody body, Vector3 direction, out RaycastHit nearest, float maxDistance, QueryTriggerInteraction triggers)
+        {
+            nearest = default;
+            if (!body.Registered || !Line(body.position, direction, maxDistance, out var line)) return false;
+            Physx.Hit hit;
+            if (Physx.physics_sweep_actor(World, body.Handle, &line.Direction, line.Distance, HitsTriggers(triggers) ? 1 : 0, &hit, 1) == 0) return false;
+            nearest = new RaycastHit(hit);
+            return true;
+        }
+
+        public static RaycastHit[] SweepAll(Rigidbody body, Vector3 direction, float maxDistance, QueryTriggerInteraction triggers)
+        {
+            if (!body.Registered || !Line(body.position, direction, maxDistance, out var line)) return new RaycastHit[0];
+            int count;
+            do
+            {
+                fixed (Physx.Hit* found = hits)
+                    count = Physx.physics_sweep_actor(World, body.Handle, &line.Direction, line.Distance, HitsTriggers(triggers) ? 1 : 0, found, hits.Length);
+            }
+            while (Grow(ref hits, count));
+            return Taken(count);
+        }
+
+        /// All results of a query that fills an array as far as it goes.
+        public static RaycastHit[] All(Func<RaycastHit[], int> query)
+        {
+            var results = new RaycastHit[16];
+            int count;
+            while ((count = query(results)) == results.Length) results = new RaycastHit[2 * count];
+            Array.Resize(ref results, count);
+            return results;
+        }
+
+        // ---- Overlaps -------------------------------------------------------------------------------------------------
+
+        /// Puts colliders that touch the geometry into the array as far as it goes; returns how many it put there.
+        public static int Overlaps(Physx.Geometry geometry, Physx.Pose pose, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
+        {
+            if (results.Length == 0) return 0;
+            if (shapes.Length < results.Length) shapes = new int[results.Length];
+            var count = Overlapping(geometry, pose, layerMask, triggers, results.Length);
+            for (var index = 0; index < count; index++) results[index] = PhysicsWorld.ColliderOf(shapes[index]);
             return count;
+        }
+
+        public static Collider[] Overlaps(Physx.Geometry geometry, Physx.Pose pose, int layerMask, QueryTriggerInteraction triggers)
+        {
+            int count;
+            do count = Overlapping(geometry, pose, layerMask, triggers, shapes.Length);
+            while (Grow(ref shapes, count));
+            var results = new Collider[count];
+            for (var index = 0; index < count; index++) results[index] = PhysicsWorld.ColliderOf(shapes[index]);
+            return results;
+        }
+
+        public static bool Check(Physx.Geometry geometry, Physx.Pose pose, int layerMask, QueryTriggerInteraction triggers) =>
+            Overlapping(geometry, pose, layerMask, triggers, 1) > 0;
+
+        static int Overlapping(Physx.Geometry geometry, Physx.Pose pose, int layerMask, QueryTriggerInteraction triggers, int capacity)
+        {
+            if (!IsFinite(pose.Position) || !IsFinite(geometry.Half) || !IsFinite(new Vector3(geometry.Radius, 0f, 0f))) return 0;
+            var filter = Filter(layerMask, triggers);
+            fixed (int* found = shapes) return Physx.physics_overlap(World, &geometry, &pose, &filter, found, capacity);
+        }
+
+        // ---- Distances ------------------------------------------------------------------------------------------------
+
+        public static Vector3 ClosestPoint(Collider collider, Vector3 point)
+        {
+            if (!CanBeNear(collider)) return point;
+            Vector3 closest;
+            Physx.physics_closest_point(World, collider.Handle, null, &point, &closest);
+            return closest;
+        }
+
+        public static Vector3 ClosestPoint(Collider collider, Vector3 point, Vector3 position, Quaternion rotation)
+        {
+            if (!CanBeNear(collider) || collider.Handle == Physx.None) return point;
+            var at = collider.GeometryAt(position, rotation);
+            Vector3 closest;
+            Physx.physics_closest_point(World, collider.Handle, &at, &point, &closest);
+            return closest;
+        }
+
+        static bool CanBeNear(Collider collider)
+        {
+            if (collider.HasClosestPoint) return true;
+            Debug.LogError("Physics.ClosestPoint can only be used with a BoxCollider, SphereCollider, CapsuleCollider and a convex MeshCollider.", collider);
+            return false;
+        }
+
+        public static bool Penetration(Collider a, Vector3 positionA, Quaternion rotationA, Collider b, Vector3 positionB, Quaternion rotationB,
+            out Vector3 direction, out float distance)
+        {
+            direction = Vector3.zero;
+            distance = 0f;
+            if (a.Handle == Physx.None || b.Handle == Physx.None) return false;
+            Physx.Pose atA = a.GeometryAt(positionA, rotationA), atB = b.GeometryAt(positionB, rotationB);
+            Vector3 way;
+            float depth;
+            if (Physx.physics_penetration(World, a.Handle, &atA, b.Handle, &atB, &way, &depth) == 0) return false;
+            direction = way;
+            distance = depth;
+            return true;
+        }
+
+        // ---- Buffers --------------------------------------------------------------------------------------------------
+
+        static void Reserve(int length)
+        {
+            if (hits.Length < length) hits = new Physx.Hit[length];
+        }
+
+        /// A full buffer may have been too small.
+        static bool Grow<T>(ref T[] buffer, int count)
+        {
+            if (count < buffer.Length) return false;
+            buffer = new T[2 * buffer.Length];
+            return true;
+        }
+
+        static int Take(RaycastHit[] results, int count)
+        {
+            for (var index = 0; index < count; index++) results[index] = new RaycastHit(hits[index]);
+            return count;
+        }
+
+        static RaycastHit[] Taken(int count)
+        {
+            var results = new RaycastHit[count];
+            Take(results, count);
+            return results;
         }
     }
 }

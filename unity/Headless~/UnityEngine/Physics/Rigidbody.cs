@@ -41,44 +41,150 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    /// Bodies sleep only when told to. Detection is discrete whatever the mode, and nothing is interpolated: no frame lies between steps.
+    /// Velocities and poses are those after the last step; what scripts set since is included, forces are not. Nothing is interpolated: no frame lies
+    /// between steps.
     [DisallowMultipleComponent]
     public class Rigidbody : Component
     {
-        internal readonly List<Collider> Colliders = new List<Collider>();
-        internal Vector3 PosePosition;
-        internal Quaternion PoseRotation = Quaternion.identity;
-        internal Vector3 CenterOfMass;
-        internal bool MassStale = true;
+        const float DefaultDepenetration = 10f, DefaultSleepThreshold = 0.005f;
+        const int DefaultIterations = 6, DefaultVelocityIterations = 1;
 
-        OdeBody ode;
+        internal readonly List<Collider> Colliders = new List<Collider>();
+        /// PhysX's handle, or none: not active.
+        internal int Handle = Physx.None;
+
+        Vector3 posePosition;
+        Quaternion poseRotation = Quaternion.identity;
         float ownMass = 1f;
-        bool kinematic;
+        bool kinematic, gravity = true, asleep;
         RigidbodyConstraints ownConstraints;
+        CollisionDetectionMode detection;
+        float ownLinearDamping, ownAngularDamping = 0.05f, ownMaxLinear = 1e16f, ownMaxAngular = 7f, ownDepenetration = DefaultDepenetration;
+        float ownSleepThreshold = DefaultSleepThreshold;
+        int iterations = DefaultIterations, velocityIterations = DefaultVelocityIterations;
+        Vector3? ownCenter, ownInertia;
+        Quaternion ownInertiaRotation = Quaternion.identity;
         Vector3 velocity, spin;
-        Vector3 accelerationDue, velocityDue, torqueDue, angularImpulseDue, angularAccelerationDue, spinDue;
         Vector3 targetPosition;
         Quaternion targetRotation;
-        bool hasTarget, poseUnpublished;
+        int targetStep = -1; // the step that the target was set for
 
-        public bool useGravity { get; set; } = true;
-        public float linearDamping { get; set; }
-        public float angularDamping { get; set; } = 0.05f;
-        public float maxLinearVelocity { get; set; } = 1e16f;
-        public float maxAngularVelocity { get; set; } = 7f;
-        public CollisionDetectionMode collisionDetectionMode { get; set; }
+        internal bool Registered => Handle != Physx.None;
+
+        // ---- Properties -----------------------------------------------------------------------------------------------
+
         public RigidbodyInterpolation interpolation { get; set; }
 
-        internal bool Registered => ode != null;
-        internal IntPtr Handle => ode.Handle;
+        public bool useGravity
+        {
+            get => gravity;
+            set
+            {
+                gravity = value;
+                Order(Physx.Order.Gravity, new Vector3(value ? 1f : 0f, 0f, 0f));
+            }
+        }
+
+        public float linearDamping
+        {
+            get => ownLinearDamping;
+            set
+            {
+                ownLinearDamping = Mathf.Max(0f, value);
+                SendDamping();
+            }
+        }
+
+        public float angularDamping
+        {
+            get => ownAngularDamping;
+            set
+            {
+                ownAngularDamping = Mathf.Max(0f, value);
+                SendDamping();
+            }
+        }
+
+        public float maxLinearVelocity
+        {
+            get => ownMaxLinear;
+            set
+            {
+                ownMaxLinear = Mathf.Clamp(value, 0f, 1e16f); // PhysX squares it
+                SendLimits();
+            }
+        }
+
+        public float maxAngularVelocity
+        {
+            get => ownMaxAngular;
+            set
+            {
+                ownMaxAngular = Mathf.Clamp(value, 0f, 1e16f);
+                SendLimits();
+            }
+        }
+
+        /// How fast the solver pushes it out of what it lies in.
+        public float maxDepenetrationVelocity
+        {
+            get => ownDepenetration;
+            set
+            {
+                ownDepenetration = Mathf.Clamp(value, 1e-3f, 1e16f);
+                SendLimits();
+            }
+        }
+
+        public CollisionDetectionMode collisionDetectionMode
+        {
+            get => detection;
+            set
+            {
+                detection = value;
+                Order(Physx.Order.Detection, new Vector3((int)value, 0f, 0f));
+                foreach (var collider in Colliders) collider.Refresh();
+            }
+        }
+
+        /// Kinetic energy per kilogram below which it falls asleep.
+        public float sleepThreshold
+        {
+            get => ownSleepThreshold;
+            set
+            {
+                ownSleepThreshold = Mathf.Max(0f, value);
+                Order(Physx.Order.SleepBelow, new Vector3(ownSleepThreshold, 0f, 0f));
+            }
+        }
+
+        public int solverIterations
+        {
+            get => iterations;
+            set
+            {
+                iterations = Mathf.Clamp(value, 1, 255);
+                Order(Physx.Order.Iterations, new Vector3(iterations, velocityIterations, 0f));
+            }
+        }
+
+        public int solverVelocityIterations
+        {
+            get => velocityIterations;
+            set
+            {
+                velocityIterations = Mathf.Clamp(value, 1, 255);
+                Order(Physx.Order.Iterations, new Vector3(iterations, velocityIterations, 0f));
+            }
+        }
 
         public float mass
         {
             get => ownMass;
             set
             {
-                ownMass = Mathf.Max(value, 1e-7f);
-                MassStale = true;
+                ownMass = Mathf.Clamp(value, 1e-7f, 1e9f);
+                Order(Physx.Order.Mass, new Vector3(ownMass, 0f, 0f));
             }
         }
 
@@ -90,8 +196,12 @@ namespace UnityEngine
                 if (kinematic == value) return;
                 kinematic = value;
                 velocity = spin = Vector3.zero;
-                ClearForces();
-                MassStale = true;
+                asleep = false;
+                // Shapes that only a kinematic body may have go before it changes and come after it.
+                if (!value) RefreshColliders();
+                Order(Physx.Order.Kinematic, new Vector3(value ? 1f : 0f, 0f, 0f));
+                Order(Physx.Order.Detection, new Vector3((int)detection, 0f, 0f));
+                if (value) RefreshColliders();
             }
         }
 
@@ -101,7 +211,7 @@ namespace UnityEngine
             set
             {
                 ownConstraints = value;
-                MassStale = true;
+                Order(Physx.Order.Freeze, new Vector3((int)value >> 1, 0f, 0f));
             }
         }
 
@@ -124,7 +234,8 @@ namespace UnityEngine
             {
                 if (!Finite.Accepts(value, "Rigidbody.linearVelocity", this) || !TakesVelocity("linear")) return;
                 velocity = value;
-                if (!value.Equals(Vector3.zero)) WakeUp();
+                if (!value.Equals(Vector3.zero)) asleep = false;
+                Order(Physx.Order.Velocity, value);
             }
         }
 
@@ -135,45 +246,128 @@ namespace UnityEngine
             {
                 if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this) || !TakesVelocity("angular")) return;
                 spin = value;
-                if (!value.Equals(Vector3.zero)) WakeUp();
+                if (!value.Equals(Vector3.zero)) asleep = false;
+                Order(Physx.Order.Spin, value);
             }
         }
 
         /// Where physics has the body; setting it moves the transform with the next step.
         public Vector3 position
         {
-            get => Registered ? PosePosition : transform.position;
+            get => Registered ? posePosition : transform.position;
             set => Teleport(value, rotation);
         }
 
         public Quaternion rotation
         {
-            get => Registered ? PoseRotation : transform.rotation;
+            get => Registered ? poseRotation : transform.rotation;
             set => Teleport(position, value.normalized);
         }
 
-        public Vector3 worldCenterOfMass
+        // ---- Mass -----------------------------------------------------------------------------------------------------
+
+        /// In the body's frame; that of its colliders unless one was set.
+        public unsafe Vector3 centerOfMass
         {
             get
             {
-                if (MassStale && Registered) RefreshMass();
-                return position + rotation * CenterOfMass;
+                if (!Registered) return ownCenter ?? Vector3.zero;
+                PhysicsWorld.Flush();
+                Vector3 center;
+                Physx.physics_mass_center(PhysicsWorld.Handle, Handle, &center);
+                return center;
             }
+            set
+            {
+                if (!Finite.Accepts(value, "Rigidbody.centerOfMass", this)) return;
+                ownCenter = value;
+                SendCenter();
+            }
+        }
+
+        public bool automaticCenterOfMass
+        {
+            get => ownCenter == null;
+            set
+            {
+                ownCenter = value ? (Vector3?)null : centerOfMass;
+                SendCenter();
+            }
+        }
+
+        public void ResetCenterOfMass() => automaticCenterOfMass = true;
+
+        public Vector3 worldCenterOfMass => position + rotation * centerOfMass;
+
+        public Vector3 inertiaTensor
+        {
+            get => Inertia(out _);
+            set
+            {
+                if (!Finite.Accepts(value, "Rigidbody.inertiaTensor", this)) return;
+                Inertia(out ownInertiaRotation);
+                ownInertia = value;
+                SendInertia();
+            }
+        }
+
+        public Quaternion inertiaTensorRotation
+        {
+            get
+            {
+                Inertia(out var turn);
+                return turn;
+            }
+            set
+            {
+                if (!Finite.Accepts(value, "Rigidbody.inertiaTensorRotation", this)) return;
+                ownInertia = Inertia(out _);
+                ownInertiaRotation = value.normalized;
+                SendInertia();
+            }
+        }
+
+        public bool automaticInertiaTensor
+        {
+            get => ownInertia == null;
+            set
+            {
+                ownInertia = value ? (Vector3?)null : Inertia(out ownInertiaRotation);
+                SendInertia();
+            }
+        }
+
+        public void ResetInertiaTensor() => automaticInertiaTensor = true;
+
+        unsafe Vector3 Inertia(out Quaternion turn)
+        {
+            turn = ownInertiaRotation;
+            if (!Registered) return ownInertia ?? Vector3.one;
+            PhysicsWorld.Flush();
+            Vector3 diagonal;
+            Quaternion about;
+            Physx.physics_inertia(PhysicsWorld.Handle, Handle, &diagonal, &about);
+            turn = about;
+            return diagonal;
         }
 
         // ---- Control --------------------------------------------------------------------------------------------------
 
         /// A kinematic body gets there with the next step, pushing what is in its way; another one is put there.
-        public void MovePosition(Vector3 position) => Move(position, hasTarget ? targetRotation : rotation);
+        public void MovePosition(Vector3 position) => Move(position, HasTarget ? targetRotation : rotation);
 
-        public void MoveRotation(Quaternion rotation) => Move(hasTarget ? targetPosition : position, rotation);
+        public void MoveRotation(Quaternion rotation) => Move(HasTarget ? targetPosition : position, rotation);
+
+        bool HasTarget => targetStep == PhysicsWorld.StepCount;
 
         public void Move(Vector3 position, Quaternion rotation)
         {
             if (!Finite.Accepts(position, "Rigidbody.MovePosition", this) || !Finite.Accepts(rotation, "Rigidbody.MoveRotation", this)) return;
             targetPosition = position;
             targetRotation = rotation.normalized;
-            hasTarget = true;
+            targetStep = PhysicsWorld.StepCount;
+            if (kinematic) OrderPose(Physx.Order.Target, targetPosition, targetRotation);
+            else Teleport(targetPosition, targetRotation);
         }
 
         public void AddForce(Vector3 force) => AddForce(force, ForceMode.Force);
@@ -183,19 +377,15 @@ namespace UnityEngine
         /// Takes effect with the next step.
         public void AddForce(Vector3 force, ForceMode mode)
         {
-            if (!Finite.Accepts(force, "Rigidbody.AddForce", this)) return;
-            switch (mode)
-            {
-                case ForceMode.Force: accelerationDue += force / ownMass; break;
-                case ForceMode.Acceleration: accelerationDue += force; break;
-                case ForceMode.Impulse: velocityDue += force / ownMass; break;
-                case ForceMode.VelocityChange: velocityDue += force; break;
-            }
-            WakeUp();
+            if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic) return;
+            asleep = false;
+            Order(Physx.Order.Force + Number(mode), force);
         }
 
         public void AddRelativeForce(Vector3 force) => AddRelativeForce(force, ForceMode.Force);
         public void AddRelativeForce(Vector3 force, ForceMode mode) => AddForce(rotation * force, mode);
+        public void AddRelativeForce(float x, float y, float z) => AddRelativeForce(new Vector3(x, y, z));
+        public void AddRelativeForce(float x, float y, float z, ForceMode mode) => AddRelativeForce(new Vector3(x, y, z), mode);
 
         public void AddTorque(Vector3 torque) => AddTorque(torque, ForceMode.Force);
         public void AddTorque(float x, float y, float z) => AddTorque(new Vector3(x, y, z));
@@ -203,19 +393,17 @@ namespace UnityEngine
 
         public void AddTorque(Vector3 torque, ForceMode mode)
         {
-            if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this)) return;
-            switch (mode)
-            {
-                case ForceMode.Force: torqueDue += torque; break;
-                case ForceMode.Acceleration: angularAccelerationDue += torque; break;
-                case ForceMode.Impulse: angularImpulseDue += torque; break;
-                case ForceMode.VelocityChange: spinDue += torque; break;
-            }
-            WakeUp();
+            if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this) || kinematic) return;
+            asleep = false;
+            Order(Physx.Order.Torque + Number(mode), torque);
         }
+
+        static int Number(ForceMode mode) => mode == ForceMode.Acceleration ? 3 : (int)mode;
 
         public void AddRelativeTorque(Vector3 torque) => AddRelativeTorque(torque, ForceMode.Force);
         public void AddRelativeTorque(Vector3 torque, ForceMode mode) => AddTorque(rotation * torque, mode);
+        public void AddRelativeTorque(float x, float y, float z) => AddRelativeTorque(new Vector3(x, y, z));
+        public void AddRelativeTorque(float x, float y, float z, ForceMode mode) => AddRelativeTorque(new Vector3(x, y, z), mode);
 
         public void AddForceAtPosition(Vector3 force, Vector3 position) => AddForceAtPosition(force, position, ForceMode.Force);
 
@@ -227,19 +415,84 @@ namespace UnityEngine
         }
 
         public Vector3 GetPointVelocity(Vector3 worldPoint) => velocity + Vector3.Cross(spin, worldPoint - worldCenterOfMass);
+        public Vector3 GetRelativePointVelocity(Vector3 relativePoint) => GetPointVelocity(position + rotation * relativePoint);
 
         public void Sleep()
         {
+            if (kinematic) return;
             velocity = spin = Vector3.zero;
-            ClearForces();
-            ode?.SetEnabled(false);
+            asleep = Registered;
+            Order(Physx.Order.Sleep, Vector3.zero);
         }
 
-        public void WakeUp() => ode?.SetEnabled(true);
-        public bool IsSleeping() => ode != null && !ode.Enabled;
+        public void WakeUp()
+        {
+            if (kinematic) return;
+            asleep = false;
+            Order(Physx.Order.Wake, Vector3.zero);
+        }
 
-        void ClearForces() =>
-            accelerationDue = velocityDue = torqueDue = angularImpulseDue = angularAccelerationDue = spinDue = Vector3.zero;
+        public bool IsSleeping() => asleep;
+
+        // ---- Queries --------------------------------------------------------------------------------------------------
+
+        public bool SweepTest(Vector3 direction, out RaycastHit hitInfo, float maxDistance = Mathf.Infinity,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.Sweep(this, direction, out hitInfo, maxDistance, queryTriggerInteraction);
+
+        public RaycastHit[] SweepTestAll(Vector3 direction, float maxDistance = Mathf.Infinity,
+            QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
+            Queries.SweepAll(this, direction, maxDistance, queryTriggerInteraction);
+
+        /// The nearest point on the boxes around its colliders.
+        public Vector3 ClosestPointOnBounds(Vector3 position)
+        {
+            var best = position;
+            var least = float.PositiveInfinity;
+            foreach (var collider in Colliders)
+            {
+                var point = collider.ClosestPointOnBounds(position);
+                var distance = (point - position).sqrMagnitude;
+                if (distance >= least) continue;
+                least = distance;
+                best = point;
+            }
+            return best;
+        }
+
+        // ---- Physics --------------------------------------------------------------------------------------------------
+
+        void Order(Physx.Order order, Vector3 value)
+        {
+            if (Registered) PhysicsWorld.Order(Handle, order, value);
+        }
+
+        void OrderPose(Physx.Order order, Vector3 position, Quaternion rotation)
+        {
+            if (Registered) PhysicsWorld.Order(Handle, order, position, rotation);
+        }
+
+        void SendDamping() => Order(Physx.Order.Damping, new Vector3(ownLinearDamping, ownAngularDamping, 0f));
+        void SendLimits() => Order(Physx.Order.Limits, new Vector3(ownMaxLinear, ownMaxAngular, ownDepenetration));
+
+        void SendCenter() => OrderPose(Physx.Order.MassCenter, ownCenter ?? Vector3.zero, new Quaternion(ownCenter == null ? 0f : 1f, 0f, 0f, 0f));
+        void SendInertia() => OrderPose(Physx.Order.Inertia, ownInertia ?? Vector3.zero, ownInertiaRotation);
+
+        void SendAll()
+        {
+            Order(Physx.Order.Mass, new Vector3(ownMass, 0f, 0f));
+            if (kinematic) Order(Physx.Order.Kinematic, Vector3.right);
+            if (!gravity) Order(Physx.Order.Gravity, Vector3.zero);
+            SendDamping();
+            SendLimits();
+            Order(Physx.Order.Freeze, new Vector3((int)ownConstraints >> 1, 0f, 0f));
+            if (detection != CollisionDetectionMode.Discrete) Order(Physx.Order.Detection, new Vector3((int)detection, 0f, 0f));
+            if (ownSleepThreshold != DefaultSleepThreshold) Order(Physx.Order.SleepBelow, new Vector3(ownSleepThreshold, 0f, 0f));
+            if (iterations != DefaultIterations || velocityIterations != DefaultVelocityIterations)
+                Order(Physx.Order.Iterations, new Vector3(iterations, velocityIterations, 0f));
+            if (ownCenter != null) SendCenter();
+            if (ownInertia != null) SendInertia();
+        }
 
         void Teleport(Vector3 position, Quaternion rotation)
         {
@@ -250,18 +503,20 @@ namespace UnityEngine
                 return;
             }
             SetPose(position, rotation);
-            poseUnpublished = true;
+            PhysicsWorld.PublishAfterStep(this);
         }
 
-        // ---- Physics --------------------------------------------------------------------------------------------------
-
-        internal override void Activate()
+        internal override unsafe void Activate()
         {
-            ode = new OdeBody(PhysicsWorld.Handle);
-            MassStale = true;
-            owner.AddPhysics(this);
+            var transform = owner.TransformUnchecked;
+            posePosition = transform.position;
+            poseRotation = transform.rotation;
+            var pose = new Physx.Pose(posePosition, poseRotation);
+            Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
-            TakePose();
+            asleep = false;
+            SendAll();
+            owner.AddPhysics(this);
             foreach (var collider in owner.GetComponentsInChildren<Collider>())
                 if (collider.Registered) collider.Attach();
         }
@@ -269,129 +524,58 @@ namespace UnityEngine
         internal override void Deactivate()
         {
             if (!Registered) return;
-            PhysicsWorld.Remove(this);
             owner.RemovePhysics(this);
-            var dying = ode;
-            ode = null;
+            PhysicsWorld.Flush();
+            PhysicsWorld.Remove(this);
+            var dying = Handle;
+            Handle = Physx.None;
             foreach (var collider in Colliders.ToArray()) collider.Attach();
-            dying.Destroy();
+            Physx.physics_actor_destroy(PhysicsWorld.Handle, dying);
             velocity = spin = Vector3.zero;
-            ClearForces();
+            asleep = false;
         }
 
+        /// The world is gone, and PhysX's objects with it.
+        internal void Forget()
+        {
+            foreach (var collider in Colliders) collider.Forget();
+            Handle = Physx.None;
+        }
+
+        internal void RefreshColliders()
+        {
+            foreach (var collider in Colliders) collider.Refresh();
+        }
+
+        /// Takes the transform's pose over, if it is another.
         internal void TakePose()
         {
             var transform = owner.TransformUnchecked;
-            SetPose(transform.position, transform.rotation);
+            var position = transform.position;
+            var rotation = transform.rotation;
+            if (!position.Equals(posePosition) || !rotation.Equals(poseRotation)) SetPose(position, rotation);
         }
 
         void SetPose(Vector3 position, Quaternion rotation)
         {
-            PosePosition = position;
-            PoseRotation = rotation;
-            ode.SetPose(position + rotation * CenterOfMass, rotation);
-            foreach (var collider in Colliders) collider.FollowBody();
+            posePosition = position;
+            poseRotation = rotation;
+            asleep = false;
+            OrderPose(Physx.Order.Pose, position, rotation);
         }
 
-        /// Mass, centre and inertia from the colliders, as if they had one density; a body without any turns like a ball of 1 m.
-        void RefreshMass()
+        /// Takes the result of a step over and moves the transform.
+        internal void TakeMotion(in Physx.Motion motion)
         {
-            MassStale = false;
-            var center = ode.SetMass(ownMass, Colliders, ownConstraints, kinematic);
-            if (!center.Equals(CenterOfMass))
-            {
-                CenterOfMass = center;
-                foreach (var collider in Colliders) collider.GeomMoved();
-            }
-            SetPose(PosePosition, PoseRotation);
+            posePosition = motion.Pose.Position;
+            poseRotation = motion.Pose.Rotation;
+            velocity = motion.Velocity;
+            spin = motion.Spin;
+            asleep = motion.Asleep != 0;
+            Publish();
         }
 
-        /// Velocity for the coming step: forces and gravity, then damping, then the limit, in PhysX's order.
-        internal void BeforeStep(float step)
-        {
-            if (MassStale) RefreshMass();
-            if (hasTarget && !kinematic)
-            {
-                hasTarget = false;
-                SetPose(targetPosition, targetRotation);
-                poseUnpublished = true;
-            }
-            if (kinematic)
-            {
-                velocity = hasTarget ? (targetPosition - PosePosition) / step : Vector3.zero;
-                spin = hasTarget ? SpinTo(targetRotation, step) : Vector3.zero;
-                if (hasTarget) ode.SetEnabled(true);
-            }
-            else if (ode.Enabled)
-            {
-                if (useGravity) accelerationDue += Physics.gravity;
-                velocity += accelerationDue * step + velocityDue;
-                spin += angularAccelerationDue * step + spinDue;
-                velocity *= Mathf.Max(0f, 1f - linearDamping * step);
-                spin *= Mathf.Max(0f, 1f - angularDamping * step);
-                Limit();
-                var torque = torqueDue + angularImpulseDue / step;
-                if (!torque.Equals(Vector3.zero)) ode.AddTorque(torque);
-            }
-            ClearForces();
-            ode.SetVelocity(velocity, spin);
-        }
-
-        Vector3 SpinTo(Quaternion target, float step)
-        {
-            (target * Quaternion.Inverse(PoseRotation)).ToAngleAxis(out var angle, out var axis);
-            if (angle > 180f) angle -= 360f;
-            return axis * (angle * Mathf.Deg2Rad / step);
-        }
-
-        void Limit()
-        {
-            velocity = Vector3.ClampMagnitude(velocity, maxLinearVelocity);
-            spin = Vector3.ClampMagnitude(spin, maxAngularVelocity);
-            if (ownConstraints == RigidbodyConstraints.None) return;
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionX) != 0) velocity.x = 0f;
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionY) != 0) velocity.y = 0f;
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionZ) != 0) velocity.z = 0f;
-            if ((ownConstraints & RigidbodyConstraints.FreezeRotation) == 0) return;
-            var local = Quaternion.Inverse(PoseRotation) * spin;
-            if ((ownConstraints & RigidbodyConstraints.FreezeRotationX) != 0) local.x = 0f;
-            if ((ownConstraints & RigidbodyConstraints.FreezeRotationY) != 0) local.y = 0f;
-            if ((ownConstraints & RigidbodyConstraints.FreezeRotationZ) != 0) local.z = 0f;
-            spin = PoseRotation * local;
-        }
-
-        /// Takes the step's result over, holds what is frozen in place, and moves the transform.
-        internal void AfterStep()
-        {
-            if (kinematic)
-            {
-                if (hasTarget) SetPose(targetPosition, targetRotation);
-                else if (!poseUnpublished) return;
-                hasTarget = false;
-                velocity = spin = Vector3.zero;
-            }
-            else if (ode.Enabled) ReadStep();
-            else if (!poseUnpublished) return;
-            poseUnpublished = false;
-            owner.TransformUnchecked.Place(PosePosition, PoseRotation);
-        }
-
-        void ReadStep()
-        {
-            velocity = ode.Velocity;
-            spin = ode.Spin;
-            var oldPosition = PosePosition;
-            var heldRotation = freezeRotation;
-            if (!heldRotation) PoseRotation = ode.Rotation;
-            PosePosition = ode.Position - PoseRotation * CenterOfMass;
-            Limit();
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionX) != 0) PosePosition.x = oldPosition.x;
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionY) != 0) PosePosition.y = oldPosition.y;
-            if ((ownConstraints & RigidbodyConstraints.FreezePositionZ) != 0) PosePosition.z = oldPosition.z;
-            if (ownConstraints != RigidbodyConstraints.None) SetPose(PosePosition, PoseRotation);
-            else
-                for (var index = 0; index < Colliders.Count; index++) Colliders[index].FollowBody();
-        }
+        internal void Publish() => owner.TransformUnchecked.Place(posePosition, poseRotation);
 
         internal override void CopyFrom(Component original)
         {
@@ -399,13 +583,20 @@ namespace UnityEngine
             ownMass = other.ownMass;
             kinematic = other.kinematic;
             ownConstraints = other.ownConstraints;
-            useGravity = other.useGravity;
-            linearDamping = other.linearDamping;
-            angularDamping = other.angularDamping;
-            maxLinearVelocity = other.maxLinearVelocity;
-            maxAngularVelocity = other.maxAngularVelocity;
-            collisionDetectionMode = other.collisionDetectionMode;
+            gravity = other.gravity;
+            ownLinearDamping = other.ownLinearDamping;
+            ownAngularDamping = other.ownAngularDamping;
+            ownMaxLinear = other.ownMaxLinear;
+            ownMaxAngular = other.ownMaxAngular;
+            ownDepenetration = other.ownDepenetration;
+            detection = other.detection;
             interpolation = other.interpolation;
+            ownSleepThreshold = other.ownSleepThreshold;
+            iterations = other.iterations;
+            velocityIterations = other.velocityIterations;
+            ownCenter = other.ownCenter;
+            ownInertia = other.ownInertia;
+            ownInertiaRotation = other.ownInertiaRotation;
         }
     }
 }

@@ -25,12 +25,13 @@ namespace UnityEngine
             }
         }
 
-        internal override Shape ScaledShape(Vector3 scale) => new Shape
+        internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
-            Center = Vector3.Scale(ownCenter, scale),
-            Rotation = Quaternion.identity,
-            Radius = ownRadius * Mathf.Max(Mathf.Abs(scale.x), Mathf.Max(Mathf.Abs(scale.y), Mathf.Abs(scale.z))),
-        };
+            shape.Geometry.Kind = Physx.Kind.Sphere;
+            shape.Geometry.Radius = Mathf.Abs(ownRadius) * Mathf.Max(Mathf.Abs(scale.x), Mathf.Max(Mathf.Abs(scale.y), Mathf.Abs(scale.z)));
+            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Quaternion.identity);
+            return true;
+        }
 
         internal override void CopyFrom(Component original)
         {

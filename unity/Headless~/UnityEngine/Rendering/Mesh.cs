@@ -19,6 +19,9 @@ namespace UnityEngine
         readonly List<Color> ownColors = new List<Color>();
         readonly List<int> indices = new List<int>();
 
+        /// Counts changes of vertices and triangles.
+        internal int Version { get; private set; }
+
         public IndexFormat indexFormat { get; set; }
         public Bounds bounds { get; set; }
         public int vertexCount => ownVertices.Count;
@@ -49,12 +52,14 @@ namespace UnityEngine
 
         public void SetVertices(List<Vector3> inVertices, int start, int length)
         {
+            Version++;
             ownVertices.Clear();
             for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
         }
 
         public void SetVertices(Vector3[] inVertices, int start, int length)
         {
+            Version++;
             ownVertices.Clear();
             for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
         }
@@ -76,16 +81,18 @@ namespace UnityEngine
             if (calculateBounds) RecalculateBounds();
         }
 
-        static void Replace<T>(List<T> target, IEnumerable<T> values)
+        void Replace<T>(List<T> target, IEnumerable<T> values)
         {
             target.Clear();
             target.AddRange(values);
+            Version++;
         }
 
         public void Clear() => Clear(true);
 
         public void Clear(bool keepVertexLayout)
         {
+            Version++;
             ownVertices.Clear();
             ownColors.Clear();
             indices.Clear();

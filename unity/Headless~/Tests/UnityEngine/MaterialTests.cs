@@ -1,0 +1,112 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    /// Friction and bounce of PhysicsMaterial.
+    public sealed class MaterialTests : PhysicsFixture
+    {
+        /// How far a resting box slides in two seconds while its floor tilts for one (here gravity does), m.
+        static float SlideOn(float degrees, PhysicsMaterial floor, PhysicsMaterial box)
+        {
+            Floor(floor);
+            var body = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, box).gameObject.AddComponent<Rigidbody>();
+            body.sleepThreshold = 0f;
+            Run(0.5f);
+            var start = body.position;
+            var down = Physics.gravity;
+            for (var step = 1; step <= 100; step++)
+            {
+                Physics.gravity = Quaternion.Euler(0f, 0f, degrees * Mathf.Min(1f, step / 50f)) * down;
+                Physics.Simulate(Step);
+            }
+            return (body.position - start).magnitude;
+        }
+
+        static PhysicsMaterial Rough(float friction, PhysicsMaterialCombine combine = PhysicsMaterialCombine.Average) =>
+            new PhysicsMaterial { staticFriction = friction, dynamicFriction = friction, frictionCombine = combine };
+
+        [TestCase(26f, false)] // tan 26 = 0.49
+        [TestCase(36f, true)] // tan 36 = 0.73
+        public void A_box_slides_on_a_slope_above_its_friction_angle_and_rests_below(float degrees, bool slides)
+        {
+            var way = SlideOn(degrees, null, null); // 0.6 both
+            if (slides) Assert.That(way, Is.GreaterThan(0.5f));
+            else Assert.That(way, Is.LessThan(0.01f));
+        }
+
+        [Test]
+        public void Static_friction_holds_what_dynamic_friction_would_not()
+        {
+            var material = new PhysicsMaterial { staticFriction = 0.9f, dynamicFriction = 0.1f };
+            Assert.That(SlideOn(35f, material, material), Is.LessThan(0.01f)); // tan 35 = 0.70
+        }
+
+        [Test]
+        public void A_sliding_box_is_slowed_by_dynamic_friction()
+        {
+            var material = new PhysicsMaterial { staticFriction = 0.2f, dynamicFriction = 0.2f };
+            Floor(material);
+            var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, material).gameObject.AddComponent<Rigidbody>();
+            Run(0.2f);
+            box.linearVelocity = new Vector3(5f, 0f, 0f);
+            Run(1f);
+            Assert.That(box.linearVelocity.x, Is.EqualTo(5f - 0.2f * 9.81f).Within(0.1f));
+        }
+
+        [TestCase(PhysicsMaterialCombine.Average, PhysicsMaterialCombine.Average, 0.5f)]
+        [TestCase(PhysicsMaterialCombine.Minimum, PhysicsMaterialCombine.Average, 0.2f)]
+        [TestCase(PhysicsMaterialCombine.Multiply, PhysicsMaterialCombine.Minimum, 0.16f)]
+        [TestCase(PhysicsMaterialCombine.Multiply, PhysicsMaterialCombine.Maximum, 0.8f)]
+        public void Two_materials_are_combined_as_the_stronger_mode_says(PhysicsMaterialCombine floor, PhysicsMaterialCombine box, float friction)
+        {
+            Floor(Rough(0.2f, floor));
+            var body = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, Rough(0.8f, box)).gameObject.AddComponent<Rigidbody>();
+            Run(0.2f);
+            body.linearVelocity = new Vector3(9f, 0f, 0f);
+            Run(0.5f);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(9f - friction * 9.81f * 0.5f).Within(0.15f));
+        }
+
+        [TestCase(0.5f)]
+        [TestCase(0.9f)]
+        public void A_ball_bounces_to_its_bounciness_squared_of_its_height(float bounciness)
+        {
+            var material = new PhysicsMaterial { bounciness = bounciness };
+            Floor(material);
+            var ball = Ball(new Vector3(0f, 5.5f, 0f), material: material);
+            ball.angularDamping = 0f;
+            while (ball.linearVelocity.y <= 0f) Physics.Simulate(0.005f);
+            var highest = 0f;
+            while (ball.linearVelocity.y > 0f)
+            {
+                Physics.Simulate(0.005f);
+                highest = Mathf.Max(highest, ball.position.y - 0.5f);
+            }
+            Assert.That(highest, Is.EqualTo(5f * bounciness * bounciness).Within(0.2f));
+        }
+
+        [Test]
+        public void Below_the_bounce_threshold_of_2_metres_a_second_nothing_bounces()
+        {
+            var material = new PhysicsMaterial { bounciness = 1f };
+            Floor(material);
+            var ball = Ball(new Vector3(0f, 0.6f, 0f), material: material); // falls at 1.4 m/s
+            Run(1f);
+            Assert.That(ball.position.y, Is.EqualTo(0.5f).Within(0.01f));
+        }
+
+        [Test]
+        public void A_changed_material_counts_from_the_next_step()
+        {
+            var material = Rough(0.8f);
+            Floor(material);
+            var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, material).gameObject.AddComponent<Rigidbody>();
+            Run(0.2f);
+            material.staticFriction = material.dynamicFriction = 0f;
+            box.linearVelocity = new Vector3(5f, 0f, 0f);
+            Run(1f);
+            Assert.That(box.linearVelocity.x, Is.EqualTo(5f).Within(0.01f));
+        }
+    }
+}

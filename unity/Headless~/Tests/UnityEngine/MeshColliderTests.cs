@@ -1,0 +1,123 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class MeshColliderTests : PhysicsFixture
+    {
+        /// A ramp that rises by 1 m per metre along x, 10 m wide.
+        static Mesh Ramp()
+        {
+            var mesh = new Mesh { name = "ramp" };
+            mesh.vertices = new[] { new Vector3(-10f, -10f, -5f), new Vector3(10f, 10f, -5f), new Vector3(-10f, -10f, 5f), new Vector3(10f, 10f, 5f) };
+            mesh.triangles = new[] { 0, 2, 1, 1, 2, 3 };
+            return mesh;
+        }
+
+        static Mesh Pyramid()
+        {
+            var mesh = new Mesh { name = "pyramid" };
+            mesh.vertices = new[]
+            {
+                new Vector3(-1f, 0f, -1f), new Vector3(1f, 0f, -1f), new Vector3(1f, 0f, 1f), new Vector3(-1f, 0f, 1f), new Vector3(0f, 2f, 0f),
+            };
+            mesh.triangles = new[] { 0, 1, 2, 0, 2, 3, 0, 4, 1, 1, 4, 2, 2, 4, 3, 3, 4, 0 };
+            return mesh;
+        }
+
+        static MeshCollider Meshed(Mesh mesh, bool convex)
+        {
+            var collider = new GameObject(mesh.name).AddComponent<MeshCollider>();
+            collider.convex = convex;
+            collider.sharedMesh = mesh;
+            return collider;
+        }
+
+        [Test]
+        public void A_mesh_is_hit_on_its_triangles_and_from_their_front()
+        {
+            Meshed(Ramp(), false);
+            Physics.SyncTransforms();
+            Assert.That(Physics.Raycast(new Vector3(3f, 20f, 0f), Vector3.down, out var hit), Is.True);
+            Assert.That(hit.point.y, Is.EqualTo(3f).Within(1e-3f));
+            Assert.That((hit.normal - new Vector3(-1f, 1f, 0f).normalized).magnitude, Is.LessThan(1e-3f));
+            Assert.That(hit.triangleIndex, Is.InRange(0, 1));
+            Assert.That(Physics.Raycast(new Vector3(3f, -20f, 0f), Vector3.up), Is.False, "queriesHitBackfaces is off");
+        }
+
+        [Test]
+        public void A_ball_rolls_down_a_mesh()
+        {
+            Meshed(Ramp(), false);
+            var ball = Ball(new Vector3(5f, 5.8f, 0f));
+            Run(1f);
+            Assert.That(ball.position.x, Is.LessThan(3.5f));
+            Assert.That(ball.position.y - ball.position.x, Is.EqualTo(0.5f * Mathf.Sqrt(2f)).Within(0.1f), "on the ramp");
+        }
+
+        [TestCase(2f, 2f, 2f)]
+        [TestCase(-1f, 1f, 1f)]
+        [TestCase(1f, 3f, -2f)]
+        public void A_scaled_or_mirrored_mesh_keeps_its_front(float x, float y, float z)
+        {
+            Meshed(Ramp(), false).transform.localScale = new Vector3(x, y, z);
+            Physics.SyncTransforms();
+            Assert.That(Physics.Raycast(new Vector3(2f, 90f, 0f), Vector3.down, out var hit), Is.True);
+            Assert.That(hit.point.y, Is.EqualTo(2f * y / x).Within(1e-2f));
+        }
+
+        [TestCase(1f)]
+        [TestCase(-1f)]
+        public void A_convex_body_stands_on_its_base(float mirror)
+        {
+            Floor();
+            var pyramid = Meshed(Pyramid(), true);
+            pyramid.transform.localScale = new Vector3(mirror, 1f, 1f);
+            pyramid.transform.position = new Vector3(0f, 0.5f, 0f);
+            var body = pyramid.gameObject.AddComponent<Rigidbody>();
+            Assert.That(body.worldCenterOfMass.y, Is.EqualTo(1f).Within(0.02f), "a quarter of its height above its base");
+            Run(2f);
+            Assert.That(body.position.y, Is.EqualTo(0f).Within(0.02f));
+            Assert.That(Quaternion.Angle(body.rotation, Quaternion.identity), Is.LessThan(1f));
+        }
+
+        [Test]
+        public void A_concave_mesh_is_refused_for_a_body_that_is_not_kinematic()
+        {
+            var collider = Meshed(Ramp(), false);
+            var body = collider.gameObject.AddComponent<Rigidbody>();
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("Non-convex MeshCollider with non-kinematic Rigidbody"));
+            Run(0.1f);
+            Assert.That(Physics.Raycast(new Vector3(3f, 20f, 0f), Vector3.down), Is.False);
+            body.isKinematic = true;
+            Assert.That(Physics.Raycast(new Vector3(3f, 20f, 0f), Vector3.down), Is.True);
+            body.isKinematic = false;
+            Assert.That(Physics.Raycast(new Vector3(3f, 20f, 0f), Vector3.down), Is.False);
+            Run(0.1f);
+        }
+
+        [Test]
+        public void A_mesh_that_has_no_hull_is_an_error_that_names_it()
+        {
+            Meshed(Ramp(), true);
+            Assert.That(Errors.Count, Is.LessThanOrEqualTo(1)); // a flat mesh: PhysX may give it a thin hull
+            var point = new Mesh { name = "point" };
+            point.vertices = new[] { Vector3.zero };
+            point.triangles = new[] { 0, 0, 0 };
+            Meshed(point, true);
+            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("point"));
+            Physics.Simulate(Step);
+        }
+
+        [Test]
+        public void The_nearest_point_is_known_of_convex_meshes_only()
+        {
+            var pyramid = Meshed(Pyramid(), true);
+            Assert.That((pyramid.ClosestPoint(new Vector3(0f, -5f, 0f)) - Vector3.zero).magnitude, Is.LessThan(1e-3f));
+            var ramp = Meshed(Ramp(), false);
+            Assert.That(ramp.ClosestPoint(new Vector3(0f, -5f, 0f)), Is.EqualTo(new Vector3(0f, -5f, 0f)));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+        }
+    }
+}

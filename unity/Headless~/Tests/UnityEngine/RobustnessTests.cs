@@ -1,0 +1,138 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    /// Physics survives what scripts do to it.
+    public sealed class RobustnessTests : PhysicsFixture
+    {
+        public class Destroyer : MonoBehaviour
+        {
+            void OnCollisionEnter(Collision collision) => Object.DestroyImmediate(collision.gameObject);
+            void OnTriggerEnter(Collider other) => Object.DestroyImmediate(other.gameObject);
+        }
+
+        public class Suicide : MonoBehaviour
+        {
+            void OnCollisionStay(Collision collision) => Object.DestroyImmediate(gameObject);
+        }
+
+        public class Changer : MonoBehaviour
+        {
+            void OnCollisionEnter(Collision collision)
+            {
+                GetComponent<Collider>().enabled = false;
+                GetComponent<Rigidbody>().isKinematic = true;
+                transform.localScale = new Vector3(-2f, 2f, 2f);
+                gameObject.AddComponent<BoxCollider>().isTrigger = true;
+                Physics.SyncTransforms();
+                Physics.Raycast(Vector3.up, Vector3.down);
+            }
+        }
+
+        [TestCase(typeof(Destroyer))]
+        [TestCase(typeof(Suicide))]
+        [TestCase(typeof(Changer))]
+        public void Messages_may_remove_and_change_what_touches(Type script)
+        {
+            Floor();
+            for (var index = 0; index < 100; index++)
+                Ball(new Vector3(index % 10 * 0.9f, 1f + index / 10 * 0.9f, 0f)).gameObject.AddComponent(script);
+            Run(2f);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_trigger_message_may_remove_the_other_side()
+        {
+            var zone = Box(Vector3.zero, new Vector3(4f, 4f, 4f));
+            zone.isTrigger = true;
+            zone.gameObject.AddComponent<Destroyer>();
+            for (var index = 0; index < 50; index++) Ball(new Vector3(0f, index, 0f), 0.1f);
+            Run(4f);
+            Assert.That(Object.FindAnyObjectByType<Rigidbody>() == null, Is.True);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(1e30f)]
+        [TestCase(float.MaxValue)]
+        public void A_monstrous_force_moves_no_body_out_of_the_numbers(float force)
+        {
+            Floor();
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            Ball(new Vector3(0.5f, 1.3f, 0f));
+            for (var step = 0; step < 20; step++)
+            {
+                ball.AddForce(force, force, force);
+                ball.AddForce(force, -force, force);
+                ball.AddTorque(force, force, -force);
+                Physics.Simulate(Step);
+                var sum = ball.position.x + ball.position.y + ball.position.z;
+                Assert.That(sum - sum, Is.EqualTo(0f));
+            }
+            Physics.Raycast(Vector3.up, Vector3.down);
+        }
+
+        [Test]
+        public void Hands_on_bodies_of_all_states_do_no_harm()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.gameObject.SetActive(false);
+            ball.AddForce(Vector3.one);
+            ball.linearVelocity = Vector3.one;
+            ball.Sleep();
+            ball.WakeUp();
+            ball.MovePosition(Vector3.one);
+            ball.centerOfMass = Vector3.up;
+            ball.inertiaTensor = Vector3.one;
+            ball.SweepTest(Vector3.right, out _);
+            ball.gameObject.SetActive(true);
+            ball.isKinematic = true;
+            ball.AddForce(Vector3.one);
+            ball.AddTorque(Vector3.one);
+            ball.Sleep();
+            ball.isKinematic = false;
+            ball.mass = 0f;
+            ball.maxLinearVelocity = float.PositiveInfinity;
+            ball.maxAngularVelocity = float.PositiveInfinity;
+            ball.solverIterations = 100000;
+            Run(0.2f);
+            Assert.That(ball.position.y, Is.LessThan(1f));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Queries_with_what_is_no_number_find_nothing()
+        {
+            Box(Vector3.zero, Vector3.one);
+            var bad = new Vector3(float.NaN, 0f, 0f);
+            Assert.That(Physics.Raycast(bad, Vector3.right), Is.False);
+            Assert.That(Physics.Raycast(Vector3.left, bad), Is.False);
+            Assert.That(Physics.OverlapSphere(bad, 1f), Is.Empty);
+            Assert.That(Physics.OverlapSphere(Vector3.zero, float.NaN), Is.Empty);
+            Assert.That(Physics.SphereCast(bad, 1f, Vector3.right, out _), Is.False);
+            Assert.That(Physics.CheckBox(Vector3.zero, bad), Is.False);
+        }
+
+        [Test]
+        [Category("Slow")]
+        public void One_heap_of_100000_bodies_is_a_clear_error()
+        {
+            for (var index = 0; index < 100000; index++) Ball(Vector3.zero);
+            var error = Assert.Throws<InvalidOperationException>(() => Physics.Simulate(Step));
+            Assert.That(error.Message, Is.StringContaining("overlap in one place"));
+        }
+
+        [Test]
+        public void Many_bodies_in_one_place_come_apart()
+        {
+            var balls = new List<Rigidbody>();
+            for (var index = 0; index < 300; index++) balls.Add(Ball(new Vector3(index * 1e-3f, 0f, 0f)));
+            Run(1f);
+            foreach (var ball in balls) Assert.That(ball.position.magnitude, Is.LessThan(1000f));
+        }
+    }
+}
