@@ -52,8 +52,9 @@ def test_javascript_is_clean_under_eslint():
     clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay")
 
 
-def test_c_is_formatted_by_clang_format():
-    clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror", *sources("native-shim/*.c", "native-shim/*.h"))
+def test_c_and_cpp_are_formatted_by_clang_format():
+    clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror",
+          *sources("native-shim/*.c", "native-shim/*.h", "unity/*.cpp", "unity/*.hpp", "unity/*.h"))
 
 
 def test_kotlin_is_clean_under_ktlint():

@@ -68,6 +68,10 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
         flatbuffers = json.load(file)["version"]
     crate = re.search(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))[1]
+    physx = re.search(r'physx-sys = "=([^"]+)"', text("tools/physx/Cargo.toml"))[1]
+    with open(os.path.join(BUILD, "physx/physx/physx/include/foundation/PxPhysicsVersion.h")) as file:
+        version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
+    assert third_party("PhysX") == f"{version} ({physx})"
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
     for name, version in json.loads(text("tools/npm/package.json"))["dependencies"].items():
         assert third_party(name) == version, name

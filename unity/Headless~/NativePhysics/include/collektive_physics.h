@@ -7,7 +7,7 @@
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
  * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step uses worker threads of its own inside the call.
  * Determinism: the same calls give the same bits, for any number of threads, on every start of the same build.
- * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next call into it.
+ * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next step.
  * Handles are small numbers that are reused after their destruction. A handle that is not alive is ignored, or answered with PHYSICS_NONE or 0.
  */
 #ifndef COLLEKTIVE_PHYSICS_H
@@ -31,9 +31,16 @@ extern "C" {
 typedef struct physics_world physics_world;
 typedef struct physics_mesh physics_mesh;
 
-typedef struct { float x, y, z; } physics_vector;
-typedef struct { float x, y, z, w; } physics_quaternion;
-typedef struct { physics_vector position; physics_quaternion rotation; } physics_pose;
+typedef struct {
+    float x, y, z;
+} physics_vector;
+typedef struct {
+    float x, y, z, w;
+} physics_quaternion;
+typedef struct {
+    physics_vector position;
+    physics_quaternion rotation;
+} physics_pose;
 
 /* The PHYSICS_VERSION that the library was built with. */
 PHYSICS_API int32_t physics_version(void);
@@ -80,26 +87,26 @@ enum { PHYSICS_DISCRETE = 0, PHYSICS_CONTINUOUS = 1, PHYSICS_CONTINUOUS_DYNAMIC 
 enum { PHYSICS_OVERLAPS = 1, PHYSICS_CONTACTS = 2 };
 
 typedef struct {
-  int32_t kind;
-  float radius;             /* of a sphere or capsule */
-  physics_vector half;      /* half sizes of a box; of a capsule x is half the length between its centres */
-  const physics_mesh *mesh; /* a world's shapes keep it alive */
+    int32_t kind;
+    float radius;             /* of a sphere or capsule */
+    physics_vector half;      /* half sizes of a box; of a capsule x is half the length between its centres */
+    const physics_mesh *mesh; /* a world's shapes keep it alive */
 } physics_geometry;
 
 typedef struct {
-  float static_friction, dynamic_friction, bounciness; /* 0 or more; bounciness at most 1 */
-  int32_t friction_combine, bounce_combine;            /* when two differ, the later of the four wins */
+    float static_friction, dynamic_friction, bounciness; /* 0 or more; bounciness at most 1 */
+    int32_t friction_combine, bounce_combine;            /* when two differ, the later of the four wins */
 } physics_material;
 
 typedef struct {
-  physics_geometry geometry;
-  physics_pose pose; /* in the actor's frame; a capsule lies along x */
-  physics_material material;
-  uint32_t identity; /* the caller's number: names pairs to ignore, orders reports */
-  int32_t layer;     /* 0 to 31 */
-  int32_t trigger;   /* solves nothing, reports overlaps */
-  int32_t reports;   /* bits: PHYSICS_OVERLAPS, PHYSICS_CONTACTS; a pair is reported when one of its shapes asks */
-  int32_t detection; /* collision detection mode of its body */
+    physics_geometry geometry;
+    physics_pose pose; /* in the actor's frame; a capsule lies along x */
+    physics_material material;
+    uint32_t identity; /* the caller's number: names pairs to ignore, orders reports */
+    int32_t layer;     /* 0 to 31 */
+    int32_t trigger;   /* solves nothing, reports overlaps */
+    int32_t reports;   /* bits: PHYSICS_OVERLAPS, PHYSICS_CONTACTS; a pair is reported when one of its shapes asks */
+    int32_t detection; /* collision detection mode of its body */
 } physics_shape;
 
 /* Adds a shape to an actor. PHYSICS_NONE, with physics_error set, when the geometry is impossible (such as a concave mesh on a dynamic body that is
@@ -119,72 +126,96 @@ PHYSICS_API void physics_shape_bounds(physics_world *world, int32_t shape, physi
 
 /* Makes a mesh of points and triangles (three indices each). A convex one is the hull around the points, of at most 255 corners; a concave one has
  * no inside. NULL, with physics_error set, when there is no such hull or mesh. Any thread may call this. */
-PHYSICS_API physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_count, const int32_t *indices, int32_t index_count,
-                                              int32_t convex);
+PHYSICS_API physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_count, const int32_t *indices,
+                                              int32_t index_count, int32_t convex);
 
 /* Gives the caller's share of the mesh back. */
 PHYSICS_API void physics_mesh_release(physics_mesh *mesh);
+
+/* ---- Joints ---- */
+
+enum { PHYSICS_FIXED = 0, PHYSICS_HINGE = 1, PHYSICS_SPRING = 2 };
+
+typedef struct {
+    int32_t kind;
+    int32_t actor;                     /* a body */
+    int32_t other;                     /* another actor, or PHYSICS_NONE for the world */
+    physics_pose pose, other_pose;     /* of the joint in both actors' frames, or the world's; a hinge turns about their x axes */
+    float break_force, break_torque;   /* N, N m; infinite: it never breaks */
+    int32_t collide;                   /* whether the two actors collide with each other */
+    int32_t use_limits, use_motor;     /* of a hinge */
+    float least, most;                 /* angles of a hinge with limits; distances of a spring */
+    float motor_velocity, motor_force; /* rad/s; at most so many N m */
+    float spring, damper,
+        target; /* N/m and N s/m, or N m/rad and N m s/rad; the angle of a hinge's spring, the tolerance of a spring's distance */
+} physics_joint;
+
+/* Makes a joint and wakes nobody. PHYSICS_NONE, with physics_error set, when it is impossible. A joint ends with either actor, or when it breaks. */
+PHYSICS_API int32_t physics_joint_create(physics_world *world, const physics_joint *joint);
+
+PHYSICS_API void physics_joint_destroy(physics_world *world, int32_t joint);
 
 /* ---- Steps ---- */
 
 /* What commands ask for, in the order of the array. Unless said otherwise `value` holds x, y, z. Commands to static actors other than POSE do nothing. */
 enum {
-  PHYSICS_POSE = 0,          /* position and rotation: there at once */
-  PHYSICS_TARGET = 1,        /* position and rotation: a kinematic body gets there with the next step */
-  PHYSICS_VELOCITY = 2,
-  PHYSICS_SPIN = 3,
-  PHYSICS_FORCE = 4,         /* + 0 to 3: force, impulse, velocity change, acceleration */
-  PHYSICS_TORQUE = 8,        /* + 0 to 3 */
-  PHYSICS_WAKE = 12,
-  PHYSICS_SLEEP = 13,
-  PHYSICS_KINEMATIC = 14,    /* x: 0 or 1 */
-  PHYSICS_GRAVITY = 15,      /* x: 0 or 1 */
-  PHYSICS_DAMPING = 16,      /* x: linear, y: angular */
-  PHYSICS_LIMITS = 17,       /* x: linear velocity, y: angular velocity, z: velocity out of a penetration */
-  PHYSICS_FREEZE = 18,       /* x: bits 0 to 2 freeze positions along x, y, z; bits 3 to 5 rotations about them */
-  PHYSICS_MASS = 19,         /* x: mass */
-  PHYSICS_MASS_CENTER = 20,  /* in the actor's frame; a fourth value of 0 goes back to that of the shapes */
-  PHYSICS_SLEEP_BELOW = 21,  /* x: kinetic energy per mass */
-  PHYSICS_ITERATIONS = 22,   /* x: for positions, y: for velocities */
-  PHYSICS_DETECTION = 23,    /* x: collision detection mode */
-  PHYSICS_INERTIA = 24       /* diagonal, then rotation; diagonal 0 goes back to that of the shapes */
+    PHYSICS_POSE = 0,   /* position and rotation: there at once */
+    PHYSICS_TARGET = 1, /* position and rotation: a kinematic body gets there with the next step */
+    PHYSICS_VELOCITY = 2,
+    PHYSICS_SPIN = 3,
+    PHYSICS_FORCE = 4,  /* + 0 to 3: force, impulse, velocity change, acceleration */
+    PHYSICS_TORQUE = 8, /* + 0 to 3 */
+    PHYSICS_WAKE = 12,
+    PHYSICS_SLEEP = 13,
+    PHYSICS_KINEMATIC = 14,   /* x: 0 or 1 */
+    PHYSICS_GRAVITY = 15,     /* x: 0 or 1 */
+    PHYSICS_DAMPING = 16,     /* x: linear, y: angular */
+    PHYSICS_LIMITS = 17,      /* x: linear velocity, y: angular velocity, z: velocity out of a penetration */
+    PHYSICS_FREEZE = 18,      /* x: bits 0 to 2 freeze positions along x, y, z; bits 3 to 5 rotations about them */
+    PHYSICS_MASS = 19,        /* x: mass */
+    PHYSICS_MASS_CENTER = 20, /* in the actor's frame; a fourth value of 0 goes back to that of the shapes */
+    PHYSICS_SLEEP_BELOW = 21, /* x: kinetic energy per mass */
+    PHYSICS_ITERATIONS = 22,  /* x: for positions, y: for velocities */
+    PHYSICS_DETECTION = 23,   /* x: collision detection mode */
+    PHYSICS_INERTIA = 24      /* diagonal, then rotation; diagonal 0 goes back to that of the shapes */
 };
 
 typedef struct {
-  int32_t actor, kind;
-  float value[7];
+    int32_t actor, kind;
+    float value[7];
 } physics_command;
 
 typedef struct {
-  int32_t actor;
-  int32_t asleep;
-  physics_pose pose;
-  physics_vector velocity, spin;
+    int32_t actor;
+    int32_t asleep;
+    physics_pose pose;
+    physics_vector velocity, spin;
 } physics_motion;
 
 enum { PHYSICS_ENTER = 0, PHYSICS_STAY = 1, PHYSICS_EXIT = 2 };
 
 /* A pair of shapes that touch or touched; a has the lower identity. */
 typedef struct {
-  int32_t a, b;
-  int32_t phase;
-  int32_t trigger;
-  int32_t first_contact, contact_count; /* in `contacts`; none for triggers and exits */
-  physics_vector relative_velocity;     /* of b as seen from a, before the contact was solved */
+    int32_t a, b;
+    int32_t phase;
+    int32_t trigger;
+    int32_t first_contact, contact_count; /* in `contacts`; none for triggers and exits */
+    physics_vector relative_velocity;     /* of b as seen from a, before the contact was solved */
 } physics_touch;
 
 typedef struct {
-  physics_vector point;
-  physics_vector normal;  /* out of b, into a */
-  physics_vector impulse; /* on a, N s */
-  float separation;       /* negative: penetration */
+    physics_vector point;
+    physics_vector normal;  /* out of b, into a */
+    physics_vector impulse; /* on a, N s */
+    float separation;       /* negative: penetration */
 } physics_contact;
 
 typedef struct {
-  const physics_motion *motions; /* bodies that moved or fell asleep, in the order of their handles */
-  const physics_touch *touches;  /* by identities */
-  const physics_contact *contacts;
-  int32_t motion_count, touch_count, contact_count;
+    const physics_motion *motions; /* bodies that moved or fell asleep, in the order of their handles */
+    const physics_touch *touches;  /* by identities */
+    const physics_contact *contacts;
+    const int32_t *broken; /* joints that broke in this step: they are gone */
+    int32_t motion_count, touch_count, contact_count, broken_count;
 } physics_result;
 
 /* Applies commands without a step. */
@@ -199,24 +230,25 @@ PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *co
  * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are seen only when asked for. */
 
 typedef struct {
-  uint32_t layers;
-  int32_t triggers;
+    uint32_t layers;
+    int32_t triggers;
 } physics_filter;
 
 typedef struct {
-  physics_vector origin, direction; /* the direction has length 1 */
-  float distance;
+    physics_vector origin, direction; /* the direction has length 1 */
+    float distance;
 } physics_ray;
 
 typedef struct {
-  int32_t shape; /* PHYSICS_NONE: nothing was hit */
-  int32_t triangle; /* of a concave mesh, or PHYSICS_NONE */
-  physics_vector point, normal;
-  float distance;
+    int32_t shape;    /* PHYSICS_NONE: nothing was hit */
+    int32_t triangle; /* of a concave mesh, or PHYSICS_NONE */
+    physics_vector point, normal;
+    float distance;
 } physics_hit;
 
 /* The nearest hit of each ray; shapes that contain its origin are not hit. */
-PHYSICS_API void physics_raycast(physics_world *world, const physics_ray *rays, int32_t count, const physics_filter *filter, physics_hit *hits);
+PHYSICS_API void physics_raycast(physics_world *world, const physics_ray *rays, int32_t count, const physics_filter *filter,
+                                 physics_hit *hits);
 
 /* All shapes that a ray hits, in no particular order; returns their number, at most `capacity`. */
 PHYSICS_API int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const physics_filter *filter, physics_hit *hits,
@@ -226,17 +258,18 @@ PHYSICS_API int32_t physics_raycast_all(physics_world *world, const physics_ray 
 PHYSICS_API int32_t physics_raycast_shape(physics_world *world, int32_t shape, const physics_ray *ray, physics_hit *hit);
 
 /* All shapes that overlap a geometry, in no particular order; returns their number, at most `capacity`. */
-PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, const physics_pose *pose, const physics_filter *filter,
-                                    int32_t *shapes, int32_t capacity);
+PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
+                                    const physics_filter *filter, int32_t *shapes, int32_t capacity);
 
 /* Moves a geometry along a ray from its pose; shapes that it overlaps at the start are not hit. With a capacity of 1 the nearest hit, else all in no
  * particular order; returns their number. `point` is where they touch. */
-PHYSICS_API int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *pose, const physics_vector *direction,
-                                  float distance, const physics_filter *filter, physics_hit *hits, int32_t capacity);
+PHYSICS_API int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
+                                  const physics_vector *direction, float distance, const physics_filter *filter, physics_hit *hits,
+                                  int32_t capacity);
 
 /* The same with all shapes of a body that are no triggers; the body itself is not hit. */
-PHYSICS_API int32_t physics_sweep_actor(physics_world *world, int32_t actor, const physics_vector *direction, float distance, int32_t triggers,
-                                        physics_hit *hits, int32_t capacity);
+PHYSICS_API int32_t physics_sweep_actor(physics_world *world, int32_t actor, const physics_vector *direction, float distance,
+                                        int32_t triggers, physics_hit *hits, int32_t capacity);
 
 /* The point of a shape nearest to `point`: that point itself inside the shape, or for a concave mesh. `at`, if not NULL, is the pose of its
  * geometry in the world. */
@@ -244,8 +277,8 @@ PHYSICS_API void physics_closest_point(physics_world *world, int32_t shape, cons
                                        physics_vector *closest);
 
 /* Whether two shapes overlap with their geometries at these poses; then the direction and distance that move the first out of the other. */
-PHYSICS_API int32_t physics_penetration(physics_world *world, int32_t shape, const physics_pose *at, int32_t other, const physics_pose *other_at,
-                                        physics_vector *direction, float *distance);
+PHYSICS_API int32_t physics_penetration(physics_world *world, int32_t shape, const physics_pose *at, int32_t other,
+                                        const physics_pose *other_at, physics_vector *direction, float *distance);
 
 #ifdef __cplusplus
 }

@@ -8,266 +8,282 @@ using namespace collektive;
 
 namespace {
 
-const PxForceMode::Enum FORCE_MODES[] = {PxForceMode::eFORCE, PxForceMode::eIMPULSE, PxForceMode::eVELOCITY_CHANGE, PxForceMode::eACCELERATION};
+const PxForceMode::Enum FORCE_MODES[] = {PxForceMode::eFORCE, PxForceMode::eIMPULSE, PxForceMode::eVELOCITY_CHANGE,
+                                         PxForceMode::eACCELERATION};
 
 // A pair costs about half a kilobyte.
 const uint64_t MOST_PAIRS = 4000000;
 const size_t FEW_PLACED = 512;
 
 bool all_finite(const float *value, int count) {
-  for (int index = 0; index < count; index++)
-    if (!std::isfinite(value[index])) return false;
-  return true;
+    for (int index = 0; index < count; index++)
+        if (!std::isfinite(value[index])) return false;
+    return true;
 }
 
 bool is_active(const Actor &actor) {
-  const PxRigidDynamic *body = actor.body();
-  return actor.placed || (body && !body->isSleeping());
+    const PxRigidDynamic *body = actor.body();
+    return actor.placed || (body && !body->isSleeping());
 }
 
 bool spheres_overlap(const PxSphereGeometry &a, const PxVec3 &at_a, const PxSphereGeometry &b, const PxVec3 &at_b) {
-  const float reach = a.radius + b.radius;
-  return (at_a - at_b).magnitudeSquared() <= reach * reach;
+    const float reach = a.radius + b.radius;
+    return (at_a - at_b).magnitudeSquared() <= reach * reach;
 }
 
 } // namespace
 
 void physics_world::apply(const physics_command &command) {
-  Actor *actor = this->actor(command.actor);
-  const bool posed = command.kind == PHYSICS_POSE || command.kind == PHYSICS_TARGET || command.kind == PHYSICS_INERTIA;
-  if (!actor) return;
-  if (!all_finite(command.value, posed ? 7 : 3)) {
-    fail("A command's value is not finite: it was left out.");
-    return;
-  }
-  const float *value = command.value;
-  const PxVec3 vector(value[0], value[1], value[2]);
-  if (command.kind == PHYSICS_POSE) {
-    actor->last_pose = PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized());
-    actor->rigid->setGlobalPose(actor->last_pose);
-    actor->placed = true;
-    placed++;
-    return;
-  }
-  PxRigidDynamic *body = actor->body();
-  if (!body) return;
-  const bool kinematic = body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC;
-  switch (command.kind) {
-    case PHYSICS_TARGET:
-      if (kinematic) body->setKinematicTarget(PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized()));
-      break;
-    case PHYSICS_VELOCITY:
-      if (!kinematic) body->setLinearVelocity(vector);
-      break;
-    case PHYSICS_SPIN:
-      if (!kinematic) body->setAngularVelocity(vector);
-      break;
-    case PHYSICS_FORCE: case PHYSICS_FORCE + 1: case PHYSICS_FORCE + 2: case PHYSICS_FORCE + 3:
-      if (kinematic) break;
-      refresh_mass(*actor);
-      body->addForce(vector, FORCE_MODES[command.kind - PHYSICS_FORCE]);
-      break;
-    case PHYSICS_TORQUE: case PHYSICS_TORQUE + 1: case PHYSICS_TORQUE + 2: case PHYSICS_TORQUE + 3:
-      if (kinematic) break;
-      refresh_mass(*actor);
-      body->addTorque(vector, FORCE_MODES[command.kind - PHYSICS_TORQUE]);
-      break;
-    case PHYSICS_WAKE:
-      if (!kinematic) body->wakeUp();
-      break;
-    case PHYSICS_SLEEP:
-      if (!kinematic) body->putToSleep();
-      break;
-    case PHYSICS_KINEMATIC:
-      body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
-      if (value[0] == 0.0f) body->wakeUp();
-      actor->placed = true;
-      break;
-    case PHYSICS_GRAVITY:
-      body->setActorFlag(PxActorFlag::eDISABLE_GRAVITY, value[0] == 0.0f);
-      break;
-    case PHYSICS_DAMPING:
-      body->setLinearDamping(std::max(0.0f, value[0]));
-      body->setAngularDamping(std::max(0.0f, value[1]));
-      break;
-    case PHYSICS_LIMITS:
-      body->setMaxLinearVelocity(std::max(0.0f, value[0]));
-      body->setMaxAngularVelocity(std::max(0.0f, value[1]));
-      body->setMaxDepenetrationVelocity(std::max(1e-3f, value[2]));
-      break;
-    case PHYSICS_FREEZE:
-      body->setRigidDynamicLockFlags(PxRigidDynamicLockFlags(PxU8(value[0])));
-      break;
-    case PHYSICS_MASS:
-      actor->mass = std::max(1e-7f, value[0]);
-      actor->mass_stale = true;
-      break;
-    case PHYSICS_MASS_CENTER:
-      actor->own_center = value[3] != 0.0f;
-      actor->center = vector;
-      actor->mass_stale = true;
-      break;
-    case PHYSICS_INERTIA:
-      actor->own_inertia = vector.x != 0.0f || vector.y != 0.0f || vector.z != 0.0f;
-      actor->inertia = vector;
-      actor->inertia_rotation = PxQuat(value[3], value[4], value[5], value[6]).getNormalized();
-      actor->mass_stale = true;
-      break;
-    case PHYSICS_SLEEP_BELOW:
-      body->setSleepThreshold(std::max(0.0f, value[0]));
-      break;
-    case PHYSICS_ITERATIONS:
-      body->setSolverIterationCounts(PxU32(std::min(255.0f, std::max(1.0f, value[0]))), PxU32(std::min(255.0f, std::max(0.0f, value[1]))));
-      break;
-    case PHYSICS_DETECTION:
-      body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_CCD, !kinematic && (value[0] == PHYSICS_CONTINUOUS || value[0] == PHYSICS_CONTINUOUS_DYNAMIC));
-      body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD, value[0] == PHYSICS_SPECULATIVE);
-      break;
-  }
+    Actor *actor = this->actor(command.actor);
+    const bool posed = command.kind == PHYSICS_POSE || command.kind == PHYSICS_TARGET || command.kind == PHYSICS_INERTIA;
+    if (!actor) return;
+    if (!all_finite(command.value, posed ? 7 : 3)) {
+        fail("A command's value is not finite: it was left out.");
+        return;
+    }
+    const float *value = command.value;
+    const PxVec3 vector(value[0], value[1], value[2]);
+    if (command.kind == PHYSICS_POSE) {
+        actor->last_pose = PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized());
+        actor->rigid->setGlobalPose(actor->last_pose);
+        actor->placed = true;
+        placed++;
+        return;
+    }
+    PxRigidDynamic *body = actor->body();
+    if (!body) return;
+    const bool kinematic = body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC;
+    switch (command.kind) {
+        case PHYSICS_TARGET:
+            if (kinematic) body->setKinematicTarget(PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized()));
+            break;
+        case PHYSICS_VELOCITY:
+            if (!kinematic) body->setLinearVelocity(vector);
+            break;
+        case PHYSICS_SPIN:
+            if (!kinematic) body->setAngularVelocity(vector);
+            break;
+        case PHYSICS_FORCE:
+        case PHYSICS_FORCE + 1:
+        case PHYSICS_FORCE + 2:
+        case PHYSICS_FORCE + 3:
+            if (kinematic) break;
+            refresh_mass(*actor);
+            body->addForce(vector, FORCE_MODES[command.kind - PHYSICS_FORCE]);
+            break;
+        case PHYSICS_TORQUE:
+        case PHYSICS_TORQUE + 1:
+        case PHYSICS_TORQUE + 2:
+        case PHYSICS_TORQUE + 3:
+            if (kinematic) break;
+            refresh_mass(*actor);
+            body->addTorque(vector, FORCE_MODES[command.kind - PHYSICS_TORQUE]);
+            break;
+        case PHYSICS_WAKE:
+            if (!kinematic) body->wakeUp();
+            break;
+        case PHYSICS_SLEEP:
+            if (!kinematic) body->putToSleep();
+            break;
+        case PHYSICS_KINEMATIC:
+            body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
+            if (value[0] == 0.0f) body->wakeUp();
+            actor->placed = true;
+            break;
+        case PHYSICS_GRAVITY: body->setActorFlag(PxActorFlag::eDISABLE_GRAVITY, value[0] == 0.0f); break;
+        case PHYSICS_DAMPING:
+            body->setLinearDamping(std::max(0.0f, value[0]));
+            body->setAngularDamping(std::max(0.0f, value[1]));
+            break;
+        case PHYSICS_LIMITS:
+            body->setMaxLinearVelocity(std::max(0.0f, value[0]));
+            body->setMaxAngularVelocity(std::max(0.0f, value[1]));
+            body->setMaxDepenetrationVelocity(std::max(1e-3f, value[2]));
+            break;
+        case PHYSICS_FREEZE: body->setRigidDynamicLockFlags(PxRigidDynamicLockFlags(PxU8(value[0]))); break;
+        case PHYSICS_MASS:
+            actor->mass = std::max(1e-7f, value[0]);
+            actor->mass_stale = true;
+            break;
+        case PHYSICS_MASS_CENTER:
+            actor->own_center = value[3] != 0.0f;
+            actor->center = vector;
+            actor->mass_stale = true;
+            break;
+        case PHYSICS_INERTIA:
+            actor->own_inertia = vector.x != 0.0f || vector.y != 0.0f || vector.z != 0.0f;
+            actor->inertia = vector;
+            actor->inertia_rotation = PxQuat(value[3], value[4], value[5], value[6]).getNormalized();
+            actor->mass_stale = true;
+            break;
+        case PHYSICS_SLEEP_BELOW: body->setSleepThreshold(std::max(0.0f, value[0])); break;
+        case PHYSICS_ITERATIONS:
+            body->setSolverIterationCounts(PxU32(std::min(255.0f, std::max(1.0f, value[0]))),
+                                           PxU32(std::min(255.0f, std::max(0.0f, value[1]))));
+            break;
+        case PHYSICS_DETECTION:
+            body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_CCD,
+                                   !kinematic && (value[0] == PHYSICS_CONTINUOUS || value[0] == PHYSICS_CONTINUOUS_DYNAMIC));
+            body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD, value[0] == PHYSICS_SPECULATIVE);
+            break;
+    }
 }
 
 void physics_world::apply_all(const physics_command *commands, int32_t count) {
-  for (int32_t index = 0; index < count; index++) apply(commands[index]);
+    for (int32_t index = 0; index < count; index++) apply(commands[index]);
 }
 
 // Whether the boxes of shapes overlap in more pairs than memory has room for. Sweeps the boxes along x, as long as that is not too many pairs.
 bool physics_world::crowded() {
-  struct Box { PxBounds3 bounds; bool moves; };
-  std::vector<Box> boxes;
-  boxes.reserve(shapes.size());
-  for (const Shape &each : shapes) {
-    if (!each.shape) continue;
-    PxRigidActor &rigid = *actors[each.actor].rigid;
-    Box box;
-    PxGeometryQuery::computeGeomBounds(box.bounds, each.shape->getGeometry(), PxShapeExt::getGlobalPose(*each.shape, rigid));
-    box.moves = rigid.is<PxRigidDynamic>() != nullptr;
-    boxes.push_back(box);
-  }
-  std::sort(boxes.begin(), boxes.end(), [](const Box &a, const Box &b) { return a.bounds.minimum.x < b.bounds.minimum.x; });
-  uint64_t pairs = 0, looked = 0;
-  for (size_t index = 0; index < boxes.size(); index++)
-    for (size_t next = index + 1; next < boxes.size() && boxes[next].bounds.minimum.x <= boxes[index].bounds.maximum.x; next++) {
-      if (++looked > 400 * MOST_PAIRS) return false; // long in x, but not known to be one heap
-      if ((boxes[index].moves || boxes[next].moves) && boxes[index].bounds.intersects(boxes[next].bounds) && ++pairs > MOST_PAIRS) return true;
+    struct Box {
+        PxBounds3 bounds;
+        bool moves;
+    };
+    std::vector<Box> boxes;
+    boxes.reserve(shapes.size());
+    for (const Shape &each : shapes) {
+        if (!each.shape) continue;
+        PxRigidActor &rigid = *actors[each.actor].rigid;
+        Box box;
+        PxGeometryQuery::computeGeomBounds(box.bounds, each.shape->getGeometry(), PxShapeExt::getGlobalPose(*each.shape, rigid));
+        box.moves = rigid.is<PxRigidDynamic>() != nullptr;
+        boxes.push_back(box);
     }
-  return false;
+    std::sort(boxes.begin(), boxes.end(), [](const Box &a, const Box &b) { return a.bounds.minimum.x < b.bounds.minimum.x; });
+    uint64_t pairs = 0, looked = 0;
+    for (size_t index = 0; index < boxes.size(); index++)
+        for (size_t next = index + 1; next < boxes.size() && boxes[next].bounds.minimum.x <= boxes[index].bounds.maximum.x; next++) {
+            if (++looked > 400 * MOST_PAIRS) return false; // long in x, but not known to be one heap
+            if ((boxes[index].moves || boxes[next].moves) && boxes[index].bounds.intersects(boxes[next].bounds) && ++pairs > MOST_PAIRS)
+                return true;
+        }
+    return false;
 }
 
 void physics_world::onSleep(PxActor **sleepers, PxU32 count) {
-  for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(sleepers[index]->userData))].moved = true;
+    for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(sleepers[index]->userData))].moved = true;
 }
 
 void physics_world::add_touch(int32_t a, int32_t b, int32_t phase, bool trigger) {
-  physics_touch touch = {};
-  touch.a = a;
-  touch.b = b;
-  touch.phase = phase;
-  touch.trigger = trigger;
-  touch.first_contact = int32_t(contacts.size());
-  touches.push_back(touch);
+    physics_touch touch = {};
+    touch.a = a;
+    touch.b = b;
+    touch.phase = phase;
+    touch.trigger = trigger;
+    touch.first_contact = int32_t(contacts.size());
+    touches.push_back(touch);
 }
 
 void physics_world::onContact(const PxContactPairHeader &header, const PxContactPair *pairs, PxU32 count) {
-  if (header.flags & (PxContactPairHeaderFlag::eREMOVED_ACTOR_0 | PxContactPairHeaderFlag::eREMOVED_ACTOR_1)) return;
-  PxVec3 relative(0.0f);
-  PxContactPairExtraDataIterator extra(header.extraDataStream, header.extraDataStreamSize);
-  if (extra.nextItemSet() && extra.preSolverVelocity)
-    relative = extra.preSolverVelocity->linearVelocity[1] - extra.preSolverVelocity->linearVelocity[0];
-  PxContactPairPoint points[64];
-  for (PxU32 index = 0; index < count; index++) {
-    const PxContactPair &pair = pairs[index];
-    if (pair.flags & (PxContactPairFlag::eREMOVED_SHAPE_0 | PxContactPairFlag::eREMOVED_SHAPE_1)) continue;
-    const int32_t a = int32_t(intptr_t(pair.shapes[0]->userData)), b = int32_t(intptr_t(pair.shapes[1]->userData));
-    const bool flip = shapes[a].identity > shapes[b].identity;
-    const int32_t phase = pair.events & PxPairFlag::eNOTIFY_TOUCH_LOST ? PHYSICS_EXIT
-      : pair.events & PxPairFlag::eNOTIFY_TOUCH_FOUND ? PHYSICS_ENTER : PHYSICS_STAY;
-    add_touch(flip ? b : a, flip ? a : b, phase, false);
-    if (phase == PHYSICS_EXIT) continue;
-    physics_touch &touch = touches.back();
-    const float sign = flip ? -1.0f : 1.0f;
-    touch.relative_velocity = vec(relative * sign);
-    const PxU32 found = pair.extractContacts(points, 64);
-    for (PxU32 contact = 0; contact < found; contact++) {
-      const PxContactPairPoint &point = points[contact];
-      contacts.push_back({vec(point.position), vec(point.normal * sign), vec(point.impulse * sign), point.separation});
+    if (header.flags & (PxContactPairHeaderFlag::eREMOVED_ACTOR_0 | PxContactPairHeaderFlag::eREMOVED_ACTOR_1)) return;
+    PxVec3 relative(0.0f);
+    PxContactPairExtraDataIterator extra(header.extraDataStream, header.extraDataStreamSize);
+    if (extra.nextItemSet() && extra.preSolverVelocity)
+        relative = extra.preSolverVelocity->linearVelocity[1] - extra.preSolverVelocity->linearVelocity[0];
+    PxContactPairPoint points[64];
+    for (PxU32 index = 0; index < count; index++) {
+        const PxContactPair &pair = pairs[index];
+        if (pair.flags & (PxContactPairFlag::eREMOVED_SHAPE_0 | PxContactPairFlag::eREMOVED_SHAPE_1)) continue;
+        const int32_t a = int32_t(intptr_t(pair.shapes[0]->userData)), b = int32_t(intptr_t(pair.shapes[1]->userData));
+        const bool flip = shapes[a].identity > shapes[b].identity;
+        const int32_t phase = pair.events & PxPairFlag::eNOTIFY_TOUCH_LOST    ? PHYSICS_EXIT
+                              : pair.events & PxPairFlag::eNOTIFY_TOUCH_FOUND ? PHYSICS_ENTER
+                                                                              : PHYSICS_STAY;
+        add_touch(flip ? b : a, flip ? a : b, phase, false);
+        if (phase == PHYSICS_EXIT) continue;
+        physics_touch &touch = touches.back();
+        const float sign = flip ? -1.0f : 1.0f;
+        touch.relative_velocity = vec(relative * sign);
+        const PxU32 found = pair.extractContacts(points, 64);
+        for (PxU32 contact = 0; contact < found; contact++) {
+            const PxContactPairPoint &point = points[contact];
+            contacts.push_back({vec(point.position), vec(point.normal * sign), vec(point.impulse * sign), point.separation});
+        }
+        touch.contact_count = int32_t(found);
     }
-    touch.contact_count = int32_t(found);
-  }
 }
 
 PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, const PxActor *, const PxShape *shape0,
-                                       PxFilterObjectAttributes, PxFilterData data1, const PxActor *, const PxShape *shape1, PxPairFlags &) {
-  if (overlaps.size() <= pair) overlaps.resize(std::max<size_t>(pair + 1, 2 * overlaps.size()));
-  Overlap &overlap = overlaps[pair];
-  overlap = Overlap();
-  overlap.a = int32_t(intptr_t(shape0->userData));
-  overlap.b = int32_t(intptr_t(shape1->userData));
-  if (data0.word1 > data1.word1) std::swap(overlap.a, overlap.b);
-  const auto known = lost_overlaps.find(Ignored::key(data0.word1, data1.word1));
-  if (known != lost_overlaps.end()) {
-    overlap.touching = true;
-    lost_overlaps.erase(known);
-  }
-  return PxFilterFlag::eNOTIFY | PxFilterFlag::eSUPPRESS;
+                                       PxFilterObjectAttributes, PxFilterData data1, const PxActor *, const PxShape *shape1,
+                                       PxPairFlags &) {
+    if (overlaps.size() <= pair) overlaps.resize(std::max<size_t>(pair + 1, 2 * overlaps.size()));
+    Overlap &overlap = overlaps[pair];
+    overlap = Overlap();
+    overlap.a = int32_t(intptr_t(shape0->userData));
+    overlap.b = int32_t(intptr_t(shape1->userData));
+    if (data0.word1 > data1.word1) std::swap(overlap.a, overlap.b);
+    const auto known = lost_overlaps.find(Ignored::key(data0.word1, data1.word1));
+    if (known != lost_overlaps.end()) {
+        overlap.touching = true;
+        lost_overlaps.erase(known);
+    }
+    return PxFilterFlag::eNOTIFY | PxFilterFlag::eSUPPRESS;
 }
 
-void physics_world::pairLost(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, PxFilterObjectAttributes, PxFilterData data1, bool removed) {
-  Overlap &overlap = overlaps[pair];
-  if (overlap.touching && !removed) lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b};
-  overlap = Overlap();
+void physics_world::pairLost(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, PxFilterObjectAttributes, PxFilterData data1,
+                             bool removed) {
+    Overlap &overlap = overlaps[pair];
+    if (overlap.touching && !removed) lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b};
+    overlap = Overlap();
 }
 
 void physics_world::collect_overlaps() {
-  for (const auto &entry : lost_overlaps) add_touch(entry.second.first, entry.second.second, PHYSICS_EXIT, true);
-  lost_overlaps.clear();
-  for (Overlap &overlap : overlaps) {
-    if (overlap.a == PHYSICS_NONE) continue;
-    const Shape &a = shapes[overlap.a], &b = shapes[overlap.b];
-    const Actor &actor_a = actors[a.actor], &actor_b = actors[b.actor];
-    const bool was = overlap.touching;
-    if (!overlap.tested || is_active(actor_a) || is_active(actor_b)) {
-      const PxTransform at_a = PxShapeExt::getGlobalPose(*a.shape, *actor_a.rigid), at_b = PxShapeExt::getGlobalPose(*b.shape, *actor_b.rigid);
-      const PxGeometry &first = a.shape->getGeometry(), &second = b.shape->getGeometry();
-      if (first.getType() == PxGeometryType::eSPHERE && second.getType() == PxGeometryType::eSPHERE)
-        overlap.touching = spheres_overlap(static_cast<const PxSphereGeometry &>(first), at_a.p, static_cast<const PxSphereGeometry &>(second), at_b.p);
-      else overlap.touching = PxGeometryQuery::overlap(first, at_a, second, at_b);
-      overlap.tested = true;
+    for (const auto &entry : lost_overlaps) add_touch(entry.second.first, entry.second.second, PHYSICS_EXIT, true);
+    lost_overlaps.clear();
+    for (Overlap &overlap : overlaps) {
+        if (overlap.a == PHYSICS_NONE) continue;
+        const Shape &a = shapes[overlap.a], &b = shapes[overlap.b];
+        const Actor &actor_a = actors[a.actor], &actor_b = actors[b.actor];
+        const bool was = overlap.touching;
+        if (!overlap.tested || is_active(actor_a) || is_active(actor_b)) {
+            const PxTransform at_a = PxShapeExt::getGlobalPose(*a.shape, *actor_a.rigid),
+                              at_b = PxShapeExt::getGlobalPose(*b.shape, *actor_b.rigid);
+            const PxGeometry &first = a.shape->getGeometry(), &second = b.shape->getGeometry();
+            if (first.getType() == PxGeometryType::eSPHERE && second.getType() == PxGeometryType::eSPHERE)
+                overlap.touching = spheres_overlap(static_cast<const PxSphereGeometry &>(first), at_a.p,
+                                                   static_cast<const PxSphereGeometry &>(second), at_b.p);
+            else
+                overlap.touching = PxGeometryQuery::overlap(first, at_a, second, at_b);
+            overlap.tested = true;
+        }
+        if (overlap.touching)
+            add_touch(overlap.a, overlap.b, was ? PHYSICS_STAY : PHYSICS_ENTER, true);
+        else if (was)
+            add_touch(overlap.a, overlap.b, PHYSICS_EXIT, true);
     }
-    if (overlap.touching) add_touch(overlap.a, overlap.b, was ? PHYSICS_STAY : PHYSICS_ENTER, true);
-    else if (was) add_touch(overlap.a, overlap.b, PHYSICS_EXIT, true);
-  }
 }
 
 void physics_world::collect_motions() {
-  PxU32 count = 0;
-  PxActor **active = scene->getActiveActors(count);
-  for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(active[index]->userData))].moved = true;
-  for (size_t handle = 0; handle < actors.size(); handle++) {
-    Actor &actor = actors[handle];
-    actor.placed = false;
-    if (!actor.moved) continue;
-    PxRigidDynamic &body = *actor.body();
-    physics_motion motion;
-    motion.actor = int32_t(handle);
-    motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
-    const PxTransform at = body.getGlobalPose();
-    motion.pose = pose(at);
-    motion.velocity = vec(body.getLinearVelocity());
-    motion.spin = vec(body.getAngularVelocity());
-    actor.moved = false;
-    if (at.isFinite() && all_finite(&motion.velocity.x, 6)) actor.last_pose = at;
-    else {
-      fail("A body's motion became infinite: it was put back where it was, at rest.");
-      body.setGlobalPose(actor.last_pose);
-      if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
-        body.setLinearVelocity(PxVec3(0.0f));
-        body.setAngularVelocity(PxVec3(0.0f));
-      }
-      motion.pose = pose(actor.last_pose);
-      motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
+    PxU32 count = 0;
+    PxActor **active = scene->getActiveActors(count);
+    for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(active[index]->userData))].moved = true;
+    for (size_t handle = 0; handle < actors.size(); handle++) {
+        Actor &actor = actors[handle];
+        actor.placed = false;
+        if (!actor.moved) continue;
+        PxRigidDynamic &body = *actor.body();
+        physics_motion motion;
+        motion.actor = int32_t(handle);
+        motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
+        const PxTransform at = body.getGlobalPose();
+        motion.pose = pose(at);
+        motion.velocity = vec(body.getLinearVelocity());
+        motion.spin = vec(body.getAngularVelocity());
+        actor.moved = false;
+        if (at.isFinite() && all_finite(&motion.velocity.x, 6))
+            actor.last_pose = at;
+        else {
+            fail("A body's motion became infinite: it was put back where it was, at rest.");
+            body.setGlobalPose(actor.last_pose);
+            if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
+                body.setLinearVelocity(PxVec3(0.0f));
+                body.setAngularVelocity(PxVec3(0.0f));
+            }
+            motion.pose = pose(actor.last_pose);
+            motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
+        }
+        motions.push_back(motion);
     }
-    motions.push_back(motion);
-  }
 }
 
 extern "C" {
@@ -276,30 +292,34 @@ void physics_apply(physics_world *world, const physics_command *commands, int32_
 
 int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds, const physics_vector *gravity,
                      physics_result *result) {
-  *result = {};
-  world->apply_all(commands, count);
-  for (Actor &actor : world->actors)
-    if (actor.mass_stale) world->refresh_mass(actor);
-  if (world->placed > FEW_PLACED && world->crowded()) {
-    fail("More than " + std::to_string(MOST_PAIRS) + " pairs of colliders overlap in one place: physics does not step. Spread the objects out.");
-    return 0;
-  }
-  world->placed = 0;
-  world->motions.clear();
-  world->touches.clear();
-  world->contacts.clear();
-  world->scene->setGravity(vec(*gravity));
-  world->scene->simulate(seconds);
-  world->scene->fetchResults(true);
-  world->collect_overlaps();
-  world->collect_motions();
-  std::sort(world->touches.begin(), world->touches.end(), [world](const physics_touch &a, const physics_touch &b) {
-    const uint32_t a0 = world->shapes[a.a].identity, b0 = world->shapes[b.a].identity;
-    return a0 != b0 ? a0 < b0 : world->shapes[a.b].identity < world->shapes[b.b].identity;
-  });
-  *result = {world->motions.data(), world->touches.data(), world->contacts.data(), int32_t(world->motions.size()), int32_t(world->touches.size()),
-             int32_t(world->contacts.size())};
-  return 1;
+    *result = {};
+    world->apply_all(commands, count);
+    for (Actor &actor : world->actors)
+        if (actor.mass_stale) world->refresh_mass(actor);
+    if (world->placed > FEW_PLACED && world->crowded()) {
+        fail("More than " + std::to_string(MOST_PAIRS) +
+             " pairs of colliders overlap in one place: physics does not step. Spread the objects out.");
+        return 0;
+    }
+    world->placed = 0;
+    world->motions.clear();
+    world->touches.clear();
+    world->contacts.clear();
+    world->broken.clear();
+    world->scene->setGravity(vec(*gravity));
+    world->scene->simulate(seconds);
+    world->scene->fetchResults(true);
+    world->collect_overlaps();
+    world->collect_motions();
+    std::sort(world->touches.begin(), world->touches.end(), [world](const physics_touch &a, const physics_touch &b) {
+        const uint32_t a0 = world->shapes[a.a].identity, b0 = world->shapes[b.a].identity;
+        return a0 != b0 ? a0 < b0 : world->shapes[a.b].identity < world->shapes[b.b].identity;
+    });
+    for (const int32_t joint : world->broken) world->drop_joint(joint);
+    *result = {
+        world->motions.data(),          world->touches.data(),          world->contacts.data(),          world->broken.data(),
+        int32_t(world->motions.size()), int32_t(world->touches.size()), int32_t(world->contacts.size()), int32_t(world->broken.size())};
+    return 1;
 }
 
 } // extern "C"

@@ -14,97 +14,104 @@ static std::mutex error_turn; // guards the texts: worker threads report, too
 static std::string error_text, error_read;
 
 void fail(const std::string &message) {
-  std::lock_guard<std::mutex> turn(error_turn);
-  if (error_text.empty()) error_text = message;
+    std::lock_guard<std::mutex> turn(error_turn);
+    if (error_text.empty()) error_text = message;
 }
 
 namespace {
 
 struct Reporter final : PxErrorCallback {
-  void reportError(PxErrorCode::Enum code, const char *message, const char *, int) override {
-    if (code != PxErrorCode::eDEBUG_INFO && code != PxErrorCode::ePERF_WARNING) fail(std::string("PhysX: ") + message);
-  }
+    void reportError(PxErrorCode::Enum code, const char *message, const char *, int) override {
+        if (code != PxErrorCode::eDEBUG_INFO && code != PxErrorCode::ePERF_WARNING) fail(std::string("PhysX: ") + message);
+    }
 };
 
-PxFilterFlags filter_pair(PxFilterObjectAttributes attributes0, PxFilterData data0, PxFilterObjectAttributes attributes1, PxFilterData data1,
-                          PxPairFlags &flags, const void *constants, PxU32) {
-  const Ignored &ignored = **static_cast<const Ignored *const *>(constants);
-  if (ignored.layers[data0.word0 & LAYER] >> (data1.word0 & LAYER) & 1) return PxFilterFlag::eSUPPRESS;
-  if (!ignored.pairs.empty() && ignored.pairs.count(Ignored::key(data0.word1, data1.word1))) return PxFilterFlag::eSUPPRESS;
-  const PxU32 either = data0.word0 | data1.word0;
-  if (either & TRIGGER) return either & OVERLAPS ? PxFilterFlag::eNOTIFY | PxFilterFlag::eSUPPRESS : PxFilterFlags(PxFilterFlag::eSUPPRESS);
-  const bool static0 = PxGetFilterObjectType(attributes0) == PxFilterObjectType::eRIGID_STATIC;
-  const bool static1 = PxGetFilterObjectType(attributes1) == PxFilterObjectType::eRIGID_STATIC;
-  if ((static0 || PxFilterObjectIsKinematic(attributes0)) && (static1 || PxFilterObjectIsKinematic(attributes1))) return PxFilterFlag::eSUPPRESS;
-  flags = PxPairFlag::eCONTACT_DEFAULT;
-  // Continuous bodies are swept against what is static, ContinuousDynamic ones also against continuous bodies.
-  const PxU32 continuous0 = data0.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC), continuous1 = data1.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC);
-  const bool swept = static0 ? continuous1 : static1 ? continuous0
-    : continuous0 && continuous1 && ((continuous0 | continuous1) & CONTINUOUS_DYNAMIC);
-  if (swept) flags |= PxPairFlag::eDETECT_CCD_CONTACT;
-  if (either & CONTACTS)
-    flags |= PxPairFlag::eNOTIFY_TOUCH_FOUND | PxPairFlag::eNOTIFY_TOUCH_PERSISTS | PxPairFlag::eNOTIFY_TOUCH_LOST
-      | PxPairFlag::eNOTIFY_CONTACT_POINTS | PxPairFlag::ePRE_SOLVER_VELOCITY;
-  return PxFilterFlag::eDEFAULT;
+PxFilterFlags filter_pair(PxFilterObjectAttributes attributes0, PxFilterData data0, PxFilterObjectAttributes attributes1,
+                          PxFilterData data1, PxPairFlags &flags, const void *constants, PxU32) {
+    const Ignored &ignored = **static_cast<const Ignored *const *>(constants);
+    if (ignored.layers[data0.word0 & LAYER] >> (data1.word0 & LAYER) & 1) return PxFilterFlag::eSUPPRESS;
+    if (!ignored.pairs.empty() && ignored.pairs.count(Ignored::key(data0.word1, data1.word1))) return PxFilterFlag::eSUPPRESS;
+    const PxU32 either = data0.word0 | data1.word0;
+    if (either & TRIGGER)
+        return either & OVERLAPS ? PxFilterFlag::eNOTIFY | PxFilterFlag::eSUPPRESS : PxFilterFlags(PxFilterFlag::eSUPPRESS);
+    const bool static0 = PxGetFilterObjectType(attributes0) == PxFilterObjectType::eRIGID_STATIC;
+    const bool static1 = PxGetFilterObjectType(attributes1) == PxFilterObjectType::eRIGID_STATIC;
+    if ((static0 || PxFilterObjectIsKinematic(attributes0)) && (static1 || PxFilterObjectIsKinematic(attributes1)))
+        return PxFilterFlag::eSUPPRESS;
+    flags = PxPairFlag::eCONTACT_DEFAULT;
+    // Continuous bodies are swept against what is static, ContinuousDynamic ones also against continuous bodies.
+    const PxU32 continuous0 = data0.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC),
+                continuous1 = data1.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC);
+    const bool swept = static0   ? continuous1
+                       : static1 ? continuous0
+                                 : continuous0 && continuous1 && ((continuous0 | continuous1) & CONTINUOUS_DYNAMIC);
+    if (swept) flags |= PxPairFlag::eDETECT_CCD_CONTACT;
+    if (either & CONTACTS)
+        flags |= PxPairFlag::eNOTIFY_TOUCH_FOUND | PxPairFlag::eNOTIFY_TOUCH_PERSISTS | PxPairFlag::eNOTIFY_TOUCH_LOST |
+                 PxPairFlag::eNOTIFY_CONTACT_POINTS | PxPairFlag::ePRE_SOLVER_VELOCITY;
+    return PxFilterFlag::eDEFAULT;
 }
 
 bool finite(const physics_geometry &geometry) {
-  return std::isfinite(geometry.radius) && std::isfinite(geometry.half.x) && std::isfinite(geometry.half.y) && std::isfinite(geometry.half.z);
+    return std::isfinite(geometry.radius) && std::isfinite(geometry.half.x) && std::isfinite(geometry.half.y) &&
+           std::isfinite(geometry.half.z);
 }
 
 bool finite(const physics_pose &at) {
-  return std::isfinite(at.position.x + at.position.y + at.position.z + at.rotation.x + at.rotation.y + at.rotation.z + at.rotation.w);
+    return std::isfinite(at.position.x + at.position.y + at.position.z + at.rotation.x + at.rotation.y + at.rotation.z + at.rotation.w);
 }
 
 void set_filters(PxShape &target, const physics_shape &from) {
-  const PxU32 layer = PxU32(from.layer) & LAYER;
-  PxFilterData data;
-  data.word0 = layer;
-  if (from.trigger) data.word0 |= TRIGGER;
-  if (from.reports & PHYSICS_OVERLAPS) data.word0 |= OVERLAPS;
-  if (from.reports & PHYSICS_CONTACTS) data.word0 |= CONTACTS;
-  if (from.detection == PHYSICS_CONTINUOUS) data.word0 |= CONTINUOUS;
-  if (from.detection == PHYSICS_CONTINUOUS_DYNAMIC) data.word0 |= CONTINUOUS_DYNAMIC;
-  data.word1 = from.identity;
-  target.setSimulationFilterData(data);
-  // Word 0 is tested by all queries, word 1 by those that want triggers.
-  PxFilterData query;
-  (from.trigger ? query.word1 : query.word0) = 1u << layer;
-  target.setQueryFilterData(query);
+    const PxU32 layer = PxU32(from.layer) & LAYER;
+    PxFilterData data;
+    data.word0 = layer;
+    if (from.trigger) data.word0 |= TRIGGER;
+    if (from.reports & PHYSICS_OVERLAPS) data.word0 |= OVERLAPS;
+    if (from.reports & PHYSICS_CONTACTS) data.word0 |= CONTACTS;
+    if (from.detection == PHYSICS_CONTINUOUS) data.word0 |= CONTINUOUS;
+    if (from.detection == PHYSICS_CONTINUOUS_DYNAMIC) data.word0 |= CONTINUOUS_DYNAMIC;
+    data.word1 = from.identity;
+    target.setSimulationFilterData(data);
+    // Word 0 is tested by all queries, word 1 by those that want triggers.
+    PxFilterData query;
+    (from.trigger ? query.word1 : query.word0) = 1u << layer;
+    target.setQueryFilterData(query);
 }
 
 } // namespace
 
 PxPhysics &physics() {
-  static PxPhysics *instance = [] {
-    static PxDefaultAllocator allocator;
-    static Reporter reporter;
-    PxFoundation *foundation = PxCreateFoundation(PX_PHYSICS_VERSION, allocator, reporter);
-    return PxCreatePhysics(PX_PHYSICS_VERSION, *foundation, PxTolerancesScale());
-  }();
-  return *instance;
+    static PxPhysics *instance = [] {
+        static PxDefaultAllocator allocator;
+        static Reporter reporter;
+        PxFoundation *foundation = PxCreateFoundation(PX_PHYSICS_VERSION, allocator, reporter);
+        return PxCreatePhysics(PX_PHYSICS_VERSION, *foundation, PxTolerancesScale());
+    }();
+    return *instance;
 }
 
 bool make_geometry(const physics_geometry &from, PxGeometryHolder &to) {
-  const float thinnest = 1e-4f; // PhysX refuses sizes of 0, Unity makes them thin
-  if (!finite(from)) {
-    fail("A shape's size is not finite.");
+    const float thinnest = 1e-4f; // PhysX refuses sizes of 0, Unity makes them thin
+    if (!finite(from)) {
+        fail("A shape's size is not finite.");
+        return false;
+    }
+    switch (from.kind) {
+        case PHYSICS_SPHERE: to.storeAny(PxSphereGeometry(std::max(from.radius, thinnest))); return true;
+        case PHYSICS_BOX:
+            to.storeAny(PxBoxGeometry(std::max(from.half.x, thinnest), std::max(from.half.y, thinnest), std::max(from.half.z, thinnest)));
+            return true;
+        case PHYSICS_CAPSULE: to.storeAny(PxCapsuleGeometry(std::max(from.radius, thinnest), std::max(from.half.x, thinnest))); return true;
+        case PHYSICS_MESH:
+            if (!from.mesh) break;
+            if (from.mesh->convex)
+                to.storeAny(PxConvexMeshGeometry(static_cast<PxConvexMesh *>(from.mesh->base)));
+            else
+                to.storeAny(PxTriangleMeshGeometry(static_cast<PxTriangleMesh *>(from.mesh->base)));
+            return true;
+    }
+    fail("A shape has no geometry.");
     return false;
-  }
-  switch (from.kind) {
-    case PHYSICS_SPHERE: to.storeAny(PxSphereGeometry(std::max(from.radius, thinnest))); return true;
-    case PHYSICS_BOX:
-      to.storeAny(PxBoxGeometry(std::max(from.half.x, thinnest), std::max(from.half.y, thinnest), std::max(from.half.z, thinnest)));
-      return true;
-    case PHYSICS_CAPSULE: to.storeAny(PxCapsuleGeometry(std::max(from.radius, thinnest), std::max(from.half.x, thinnest))); return true;
-    case PHYSICS_MESH:
-      if (!from.mesh) break;
-      if (from.mesh->convex) to.storeAny(PxConvexMeshGeometry(static_cast<PxConvexMesh *>(from.mesh->base)));
-      else to.storeAny(PxTriangleMeshGeometry(static_cast<PxTriangleMesh *>(from.mesh->base)));
-      return true;
-  }
-  fail("A shape has no geometry.");
-  return false;
 }
 
 } // namespace collektive
@@ -112,92 +119,102 @@ bool make_geometry(const physics_geometry &from, PxGeometryHolder &to) {
 using namespace collektive;
 
 physics_world::physics_world(int32_t threads) {
-  PxSceneDesc description(physics().getTolerancesScale());
-  description.gravity = PxVec3(0.0f, -9.81f, 0.0f);
-  // Without workers the dispatcher runs tasks on the thread that submits them.
-  dispatcher = PxDefaultCpuDispatcherCreate(threads > 1 ? PxU32(threads) : 0);
-  description.cpuDispatcher = dispatcher;
-  static_assert(sizeof(Ignored *) == 8, "the filter shader's constants are one pointer");
-  const Ignored *constants = &ignored;
-  description.filterShader = filter_pair;
-  description.filterShaderData = &constants;
-  description.filterShaderDataSize = sizeof constants;
-  description.filterCallback = this;
-  description.simulationEventCallback = this;
-  description.kineKineFilteringMode = PxPairFilteringMode::eKEEP; // for triggers
-  description.staticKineFilteringMode = PxPairFilteringMode::eKEEP;
-  description.bounceThresholdVelocity = 2.0f;
-  description.flags = PxSceneFlag::eENABLE_PCM | PxSceneFlag::eENABLE_CCD | PxSceneFlag::eENABLE_ACTIVE_ACTORS | PxSceneFlag::eENABLE_ENHANCED_DETERMINISM;
-  // Queries bring their trees in line when they are asked, not every step.
-  description.sceneQueryUpdateMode = PxSceneQueryUpdateMode::eBUILD_ENABLED_COMMIT_DISABLED;
-  scene = physics().createScene(description);
+    PxSceneDesc description(physics().getTolerancesScale());
+    description.gravity = PxVec3(0.0f, -9.81f, 0.0f);
+    // Without workers the dispatcher runs tasks on the thread that submits them.
+    dispatcher = PxDefaultCpuDispatcherCreate(threads > 1 ? PxU32(threads) : 0);
+    description.cpuDispatcher = dispatcher;
+    static_assert(sizeof(Ignored *) == 8, "the filter shader's constants are one pointer");
+    const Ignored *constants = &ignored;
+    description.filterShader = filter_pair;
+    description.filterShaderData = &constants;
+    description.filterShaderDataSize = sizeof constants;
+    description.filterCallback = this;
+    description.simulationEventCallback = this;
+    description.kineKineFilteringMode = PxPairFilteringMode::eKEEP; // for triggers
+    description.staticKineFilteringMode = PxPairFilteringMode::eKEEP;
+    description.bounceThresholdVelocity = 2.0f;
+    description.flags = PxSceneFlag::eENABLE_PCM | PxSceneFlag::eENABLE_CCD | PxSceneFlag::eENABLE_ACTIVE_ACTORS |
+                        PxSceneFlag::eENABLE_ENHANCED_DETERMINISM;
+    // Queries bring their trees in line when they are asked, not every step.
+    description.sceneQueryUpdateMode = PxSceneQueryUpdateMode::eBUILD_ENABLED_COMMIT_DISABLED;
+    scene = physics().createScene(description);
 }
 
 physics_world::~physics_world() {
-  for (Actor &each : actors)
-    if (each.rigid) each.rigid->release();
-  if (scene) scene->release();
-  if (dispatcher) dispatcher->release();
-  for (auto &entry : materials) entry.second->release();
+    for (Joint &each : joints)
+        if (each.joint) each.joint->release();
+    for (Actor &each : actors)
+        if (each.rigid) each.rigid->release();
+    if (scene) scene->release();
+    if (dispatcher) dispatcher->release();
+    for (auto &entry : materials) entry.second->release();
 }
 
 PxMaterial *physics_world::material(const physics_material &wanted) {
-  const std::string key(reinterpret_cast<const char *>(&wanted), sizeof wanted);
-  PxMaterial *&known = materials[key];
-  if (known) return known;
-  // PhysX numbers materials with 16 bits: those that no shape uses any more make room.
-  if (materials.size() > 10000)
-    for (auto entry = materials.begin(); entry != materials.end();) {
-      if (entry->second && entry->second->getReferenceCount() == 1) {
-        entry->second->release();
-        entry = materials.erase(entry);
-      } else ++entry;
-    }
-  const auto finite_or = [](float value, float otherwise) { return std::isfinite(value) ? value : otherwise; };
-  PxMaterial *made = physics().createMaterial(std::max(0.0f, finite_or(wanted.static_friction, 0.6f)),
-    std::max(0.0f, finite_or(wanted.dynamic_friction, 0.6f)), std::min(1.0f, std::max(0.0f, finite_or(wanted.bounciness, 0.0f))));
-  made->setFrictionCombineMode(PxCombineMode::Enum(wanted.friction_combine & 3)); // the numbers are PhysX's
-  made->setRestitutionCombineMode(PxCombineMode::Enum(wanted.bounce_combine & 3));
-  return materials[key] = made;
+    const std::string key(reinterpret_cast<const char *>(&wanted), sizeof wanted);
+    PxMaterial *&known = materials[key];
+    if (known) return known;
+    // PhysX numbers materials with 16 bits: those that no shape uses any more make room.
+    if (materials.size() > 10000)
+        for (auto entry = materials.begin(); entry != materials.end();) {
+            if (entry->second && entry->second->getReferenceCount() == 1) {
+                entry->second->release();
+                entry = materials.erase(entry);
+            } else
+                ++entry;
+        }
+    const auto finite_or = [](float value, float otherwise) { return std::isfinite(value) ? value : otherwise; };
+    PxMaterial *made = physics().createMaterial(std::max(0.0f, finite_or(wanted.static_friction, 0.6f)),
+                                                std::max(0.0f, finite_or(wanted.dynamic_friction, 0.6f)),
+                                                std::min(1.0f, std::max(0.0f, finite_or(wanted.bounciness, 0.0f))));
+    made->setFrictionCombineMode(PxCombineMode::Enum(wanted.friction_combine & 3)); // the numbers are PhysX's
+    made->setRestitutionCombineMode(PxCombineMode::Enum(wanted.bounce_combine & 3));
+    return materials[key] = made;
 }
 
 void physics_world::refresh_mass(Actor &actor) {
-  PxRigidDynamic *body = actor.body();
-  if (!body || !actor.mass_stale) return;
-  actor.mass_stale = false;
-  std::vector<PxShape *> solid(body->getNbShapes());
-  body->getShapes(solid.data(), PxU32(solid.size()));
-  solid.erase(std::remove_if(solid.begin(), solid.end(), [](PxShape *shape) {
-    return (shape->getSimulationFilterData().word0 & TRIGGER) || shape->getGeometry().getType() == PxGeometryType::eTRIANGLEMESH;
-  }), solid.end());
-  PxTransform center(PxIdentity);
-  PxVec3 inertia(actor.mass);
-  if (!solid.empty()) {
-    const PxMassProperties total = PxRigidBodyExt::computeMassPropertiesFromShapes(solid.data(), PxU32(solid.size()));
-    center.p = total.centerOfMass;
-    inertia = PxMassProperties::getMassSpaceInertia(total.inertiaTensor, center.q) * (actor.mass / total.mass);
-  }
-  if (actor.own_center) center.p = actor.center;
-  if (actor.own_inertia) {
-    inertia = actor.inertia;
-    center.q = actor.inertia_rotation;
-  }
-  body->setCMassLocalPose(center);
-  body->setMass(actor.mass);
-  body->setMassSpaceInertiaTensor(inertia);
+    PxRigidDynamic *body = actor.body();
+    if (!body || !actor.mass_stale) return;
+    actor.mass_stale = false;
+    std::vector<PxShape *> solid(body->getNbShapes());
+    body->getShapes(solid.data(), PxU32(solid.size()));
+    solid.erase(std::remove_if(solid.begin(), solid.end(),
+                               [](PxShape *shape) {
+                                   return (shape->getSimulationFilterData().word0 & TRIGGER) ||
+                                          shape->getGeometry().getType() == PxGeometryType::eTRIANGLEMESH;
+                               }),
+                solid.end());
+    PxTransform center(PxIdentity);
+    PxVec3 inertia(actor.mass);
+    if (!solid.empty()) {
+        const PxMassProperties total = PxRigidBodyExt::computeMassPropertiesFromShapes(solid.data(), PxU32(solid.size()));
+        center.p = total.centerOfMass;
+        inertia = PxMassProperties::getMassSpaceInertia(total.inertiaTensor, center.q) * (actor.mass / total.mass);
+    }
+    if (actor.own_center) center.p = actor.center;
+    if (actor.own_inertia) {
+        inertia = actor.inertia;
+        center.q = actor.inertia_rotation;
+    }
+    body->setCMassLocalPose(center);
+    body->setMass(actor.mass);
+    body->setMassSpaceInertiaTensor(inertia);
 }
 
 void physics_world::drop_shape(int32_t handle) {
-  Shape &dying = shapes[handle];
-  Actor &owner = actors[dying.actor];
-  owner.mass_stale = true;
-  owner.rigid->detachShape(*dying.shape);
-  dying = Shape();
-  free_shapes.push_back(handle);
-  for (auto entry = lost_overlaps.begin(); entry != lost_overlaps.end();) {
-    if (entry->second.first == handle || entry->second.second == handle) entry = lost_overlaps.erase(entry);
-    else ++entry;
-  }
+    Shape &dying = shapes[handle];
+    Actor &owner = actors[dying.actor];
+    owner.mass_stale = true;
+    owner.rigid->detachShape(*dying.shape);
+    dying = Shape();
+    free_shapes.push_back(handle);
+    for (auto entry = lost_overlaps.begin(); entry != lost_overlaps.end();) {
+        if (entry->second.first == handle || entry->second.second == handle)
+            entry = lost_overlaps.erase(entry);
+        else
+            ++entry;
+    }
 }
 
 extern "C" {
@@ -205,188 +222,191 @@ extern "C" {
 int32_t physics_version(void) { return PHYSICS_VERSION; }
 
 const char *physics_error(void) {
-  std::lock_guard<std::mutex> turn(error_turn);
-  error_read.swap(error_text);
-  error_text.clear();
-  return error_read.c_str();
+    std::lock_guard<std::mutex> turn(error_turn);
+    error_read.swap(error_text);
+    error_text.clear();
+    return error_read.c_str();
 }
 
 physics_world *physics_world_create(int32_t threads) {
-  physics_world *world = new (std::nothrow) physics_world(threads);
-  if (world && !world->scene) {
-    delete world;
-    return nullptr;
-  }
-  return world;
+    physics_world *world = new (std::nothrow) physics_world(threads);
+    if (world && !world->scene) {
+        delete world;
+        return nullptr;
+    }
+    return world;
 }
 
 void physics_world_destroy(physics_world *world) { delete world; }
 
 static void filter_again(physics_world *world, PxRigidActor &actor) {
-  if (actor.getScene()) world->scene->resetFiltering(actor);
+    if (actor.getScene()) world->scene->resetFiltering(actor);
 }
 
 void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
-  if (std::memcmp(world->ignored.layers, rows, sizeof world->ignored.layers) == 0) return;
-  std::memcpy(world->ignored.layers, rows, sizeof world->ignored.layers);
-  for (Actor &each : world->actors)
-    if (each.rigid) filter_again(world, *each.rigid);
+    if (std::memcmp(world->ignored.layers, rows, sizeof world->ignored.layers) == 0) return;
+    std::memcpy(world->ignored.layers, rows, sizeof world->ignored.layers);
+    for (Actor &each : world->actors)
+        if (each.rigid) filter_again(world, *each.rigid);
 }
 
 void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore) {
-  const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
-                              : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
-  if (!changed) return;
-  for (Shape &each : world->shapes)
-    if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, *world->actors[each.actor].rigid);
+    const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
+                                : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
+    if (!changed) return;
+    for (Shape &each : world->shapes)
+        if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, *world->actors[each.actor].rigid);
 }
 
 int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *at) {
-  if (!finite(*at)) {
-    fail("An actor's pose is not finite.");
-    return PHYSICS_NONE;
-  }
-  int32_t handle;
-  if (world->free_actors.empty()) {
-    handle = int32_t(world->actors.size());
-    world->actors.emplace_back();
-  } else {
-    handle = world->free_actors.back();
-    world->free_actors.pop_back();
-  }
-  Actor made;
-  made.last_pose = pose(*at);
-  if (kind == PHYSICS_DYNAMIC) {
-    PxRigidDynamic *body = physics().createRigidDynamic(made.last_pose);
-    body->setLinearDamping(0.0f);
-    body->setAngularDamping(0.05f);
-    body->setMaxAngularVelocity(7.0f);
-    body->setMaxDepenetrationVelocity(10.0f);
-    body->setSleepThreshold(0.005f);
-    body->setSolverIterationCounts(6, 1);
-    body->setActorFlag(PxActorFlag::eSEND_SLEEP_NOTIFIES, true);
-    made.rigid = body;
-  } else made.rigid = physics().createRigidStatic(made.last_pose);
-  made.rigid->userData = reinterpret_cast<void *>(intptr_t(handle));
-  world->actors[handle] = made;
-  world->scene->addActor(*made.rigid);
-  return handle;
+    if (!finite(*at)) {
+        fail("An actor's pose is not finite.");
+        return PHYSICS_NONE;
+    }
+    int32_t handle;
+    if (world->free_actors.empty()) {
+        handle = int32_t(world->actors.size());
+        world->actors.emplace_back();
+    } else {
+        handle = world->free_actors.back();
+        world->free_actors.pop_back();
+    }
+    Actor made;
+    made.last_pose = pose(*at);
+    if (kind == PHYSICS_DYNAMIC) {
+        PxRigidDynamic *body = physics().createRigidDynamic(made.last_pose);
+        body->setLinearDamping(0.0f);
+        body->setAngularDamping(0.05f);
+        body->setMaxAngularVelocity(7.0f);
+        body->setMaxDepenetrationVelocity(10.0f);
+        body->setSleepThreshold(0.005f);
+        body->setSolverIterationCounts(6, 1);
+        body->setActorFlag(PxActorFlag::eSEND_SLEEP_NOTIFIES, true);
+        made.rigid = body;
+    } else
+        made.rigid = physics().createRigidStatic(made.last_pose);
+    made.rigid->userData = reinterpret_cast<void *>(intptr_t(handle));
+    world->actors[handle] = made;
+    world->scene->addActor(*made.rigid);
+    return handle;
 }
 
 void physics_actor_destroy(physics_world *world, int32_t handle) {
-  Actor *dying = world->actor(handle);
-  if (!dying) return;
-  std::vector<PxShape *> own(dying->rigid->getNbShapes());
-  dying->rigid->getShapes(own.data(), PxU32(own.size()));
-  for (PxShape *each : own) world->drop_shape(int32_t(intptr_t(each->userData)));
-  dying->rigid->release();
-  *dying = Actor();
-  world->free_actors.push_back(handle);
+    Actor *dying = world->actor(handle);
+    if (!dying) return;
+    world->drop_joints_of(handle);
+    std::vector<PxShape *> own(dying->rigid->getNbShapes());
+    dying->rigid->getShapes(own.data(), PxU32(own.size()));
+    for (PxShape *each : own) world->drop_shape(int32_t(intptr_t(each->userData)));
+    dying->rigid->release();
+    *dying = Actor();
+    world->free_actors.push_back(handle);
 }
 
 void physics_mass_center(physics_world *world, int32_t handle, physics_vector *center) {
-  *center = {0.0f, 0.0f, 0.0f};
-  Actor *actor = world->actor(handle);
-  if (!actor || !actor->body()) return;
-  world->refresh_mass(*actor);
-  *center = vec(actor->body()->getCMassLocalPose().p);
+    *center = {0.0f, 0.0f, 0.0f};
+    Actor *actor = world->actor(handle);
+    if (!actor || !actor->body()) return;
+    world->refresh_mass(*actor);
+    *center = vec(actor->body()->getCMassLocalPose().p);
 }
 
 void physics_inertia(physics_world *world, int32_t handle, physics_vector *diagonal, physics_quaternion *rotation) {
-  *diagonal = {0.0f, 0.0f, 0.0f};
-  *rotation = {0.0f, 0.0f, 0.0f, 1.0f};
-  Actor *actor = world->actor(handle);
-  if (!actor || !actor->body()) return;
-  world->refresh_mass(*actor);
-  const PxQuat turn = actor->body()->getCMassLocalPose().q;
-  *diagonal = vec(actor->body()->getMassSpaceInertiaTensor());
-  *rotation = {turn.x, turn.y, turn.z, turn.w};
+    *diagonal = {0.0f, 0.0f, 0.0f};
+    *rotation = {0.0f, 0.0f, 0.0f, 1.0f};
+    Actor *actor = world->actor(handle);
+    if (!actor || !actor->body()) return;
+    world->refresh_mass(*actor);
+    const PxQuat turn = actor->body()->getCMassLocalPose().q;
+    *diagonal = vec(actor->body()->getMassSpaceInertiaTensor());
+    *rotation = {turn.x, turn.y, turn.z, turn.w};
 }
 
 int32_t physics_shape_create(physics_world *world, int32_t owner, const physics_shape *from) {
-  Actor *actor = world->actor(owner);
-  PxGeometryHolder geometry;
-  if (!actor || !make_geometry(from->geometry, geometry)) return PHYSICS_NONE;
-  if (!finite(from->pose)) {
-    fail("A shape's pose is not finite.");
-    return PHYSICS_NONE;
-  }
-  PxRigidDynamic *body = actor->body();
-  const bool concave = geometry.getType() == PxGeometryType::eTRIANGLEMESH;
-  if (concave && body && !(body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
-    fail("A mesh that is not convex cannot be a shape of a body that is not kinematic.");
-    return PHYSICS_NONE;
-  }
-  PxShape *made = physics().createShape(geometry.any(), *world->material(from->material), true,
-    PxShapeFlag::eSIMULATION_SHAPE | PxShapeFlag::eSCENE_QUERY_SHAPE);
-  if (!made) {
-    fail("PhysX refused a shape.");
-    return PHYSICS_NONE;
-  }
-  int32_t handle;
-  if (world->free_shapes.empty()) {
-    handle = int32_t(world->shapes.size());
-    world->shapes.emplace_back();
-  } else {
-    handle = world->free_shapes.back();
-    world->free_shapes.pop_back();
-  }
-  made->userData = reinterpret_cast<void *>(intptr_t(handle));
-  made->setContactOffset(0.01f);
-  made->setLocalPose(pose(from->pose));
-  set_filters(*made, *from);
-  actor->rigid->attachShape(*made);
-  made->release(); // the actor holds it
-  actor->mass_stale = true;
-  world->placed++;
-  Shape &slot = world->shapes[handle];
-  slot.shape = made;
-  slot.actor = owner;
-  slot.identity = from->identity;
-  slot.trigger = from->trigger != 0;
-  return handle;
+    Actor *actor = world->actor(owner);
+    PxGeometryHolder geometry;
+    if (!actor || !make_geometry(from->geometry, geometry)) return PHYSICS_NONE;
+    if (!finite(from->pose)) {
+        fail("A shape's pose is not finite.");
+        return PHYSICS_NONE;
+    }
+    PxRigidDynamic *body = actor->body();
+    const bool concave = geometry.getType() == PxGeometryType::eTRIANGLEMESH;
+    if (concave && body && !(body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
+        fail("A mesh that is not convex cannot be a shape of a body that is not kinematic.");
+        return PHYSICS_NONE;
+    }
+    PxShape *made = physics().createShape(geometry.any(), *world->material(from->material), true,
+                                          PxShapeFlag::eSIMULATION_SHAPE | PxShapeFlag::eSCENE_QUERY_SHAPE);
+    if (!made) {
+        fail("PhysX refused a shape.");
+        return PHYSICS_NONE;
+    }
+    int32_t handle;
+    if (world->free_shapes.empty()) {
+        handle = int32_t(world->shapes.size());
+        world->shapes.emplace_back();
+    } else {
+        handle = world->free_shapes.back();
+        world->free_shapes.pop_back();
+    }
+    made->userData = reinterpret_cast<void *>(intptr_t(handle));
+    made->setContactOffset(0.01f);
+    made->setLocalPose(pose(from->pose));
+    set_filters(*made, *from);
+    actor->rigid->attachShape(*made);
+    made->release(); // the actor holds it
+    actor->mass_stale = true;
+    world->placed++;
+    Shape &slot = world->shapes[handle];
+    slot.shape = made;
+    slot.actor = owner;
+    slot.identity = from->identity;
+    slot.trigger = from->trigger != 0;
+    return handle;
 }
 
 int32_t physics_shape_change(physics_world *world, int32_t handle, const physics_shape *to) {
-  Shape *shape = world->shape(handle);
-  PxGeometryHolder geometry;
-  if (!shape || !make_geometry(to->geometry, geometry)) return 0;
-  if (!finite(to->pose)) {
-    fail("A shape's pose is not finite.");
-    return 0;
-  }
-  if (geometry.getType() != shape->shape->getGeometry().getType()) {
-    fail("A shape keeps its kind of geometry.");
-    return 0;
-  }
-  const PxFilterData before = shape->shape->getSimulationFilterData();
-  shape->shape->setGeometry(geometry.any());
-  shape->shape->setLocalPose(pose(to->pose));
-  PxMaterial *wanted = world->material(to->material);
-  shape->shape->setMaterials(&wanted, 1);
-  set_filters(*shape->shape, *to);
-  Actor &actor = world->actors[shape->actor];
-  if (before.word0 != shape->shape->getSimulationFilterData().word0) {
-    PxShape *changed = shape->shape;
-    world->scene->resetFiltering(*actor.rigid, &changed, 1);
-  }
-  actor.mass_stale = true;
-  world->placed++;
-  return 1;
+    Shape *shape = world->shape(handle);
+    PxGeometryHolder geometry;
+    if (!shape || !make_geometry(to->geometry, geometry)) return 0;
+    if (!finite(to->pose)) {
+        fail("A shape's pose is not finite.");
+        return 0;
+    }
+    if (geometry.getType() != shape->shape->getGeometry().getType()) {
+        fail("A shape keeps its kind of geometry.");
+        return 0;
+    }
+    const PxFilterData before = shape->shape->getSimulationFilterData();
+    shape->shape->setGeometry(geometry.any());
+    shape->shape->setLocalPose(pose(to->pose));
+    PxMaterial *wanted = world->material(to->material);
+    shape->shape->setMaterials(&wanted, 1);
+    set_filters(*shape->shape, *to);
+    Actor &actor = world->actors[shape->actor];
+    if (before.word0 != shape->shape->getSimulationFilterData().word0) {
+        PxShape *changed = shape->shape;
+        world->scene->resetFiltering(*actor.rigid, &changed, 1);
+    }
+    actor.mass_stale = true;
+    world->placed++;
+    return 1;
 }
 
 void physics_shape_destroy(physics_world *world, int32_t handle) {
-  if (world->shape(handle)) world->drop_shape(handle);
+    if (world->shape(handle)) world->drop_shape(handle);
 }
 
 void physics_shape_bounds(physics_world *world, int32_t handle, physics_vector *least, physics_vector *most) {
-  *least = *most = {0.0f, 0.0f, 0.0f};
-  Shape *shape = world->shape(handle);
-  if (!shape) return;
-  PxBounds3 bounds;
-  PxGeometryQuery::computeGeomBounds(bounds, shape->shape->getGeometry(), PxShapeExt::getGlobalPose(*shape->shape, *world->actors[shape->actor].rigid));
-  *least = vec(bounds.minimum);
-  *most = vec(bounds.maximum);
+    *least = *most = {0.0f, 0.0f, 0.0f};
+    Shape *shape = world->shape(handle);
+    if (!shape) return;
+    PxBounds3 bounds;
+    PxGeometryQuery::computeGeomBounds(bounds, shape->shape->getGeometry(),
+                                       PxShapeExt::getGlobalPose(*shape->shape, *world->actors[shape->actor].rigid));
+    *least = vec(bounds.minimum);
+    *most = vec(bounds.maximum);
 }
 
 } // extern "C"

@@ -13,8 +13,8 @@
 #include "collektive_physics.h"
 
 struct physics_mesh {
-  physx::PxRefCounted *base;
-  bool convex;
+    physx::PxRefCounted *base;
+    bool convex;
 };
 
 namespace collektive {
@@ -29,47 +29,59 @@ void fail(const std::string &message);
 inline PxVec3 vec(const physics_vector &v) { return PxVec3(v.x, v.y, v.z); }
 inline physics_vector vec(const PxVec3 &v) { return {v.x, v.y, v.z}; }
 inline PxTransform pose(const physics_pose &p) {
-  return PxTransform(vec(p.position), PxQuat(p.rotation.x, p.rotation.y, p.rotation.z, p.rotation.w).getNormalized());
+    return PxTransform(vec(p.position), PxQuat(p.rotation.x, p.rotation.y, p.rotation.z, p.rotation.w).getNormalized());
 }
 inline physics_pose pose(const PxTransform &t) { return {vec(t.p), {t.q.x, t.q.y, t.q.z, t.q.w}}; }
 
 struct Actor {
-  PxRigidActor *rigid = nullptr; // null: the handle is free
-  float mass = 1.0f;
-  bool own_center = false, own_inertia = false;
-  bool mass_stale = true;
-  bool placed = true; // put somewhere since the last step
-  bool moved = false;  // in the current step
-  PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
-  PxQuat inertia_rotation = PxQuat(PxIdentity);
-  PxTransform last_pose = PxTransform(PxIdentity);
+    PxRigidActor *rigid = nullptr; // null: the handle is free
+    float mass = 1.0f;
+    bool own_center = false, own_inertia = false;
+    bool mass_stale = true;
+    bool placed = true; // put somewhere since the last step
+    bool moved = false; // in the current step
+    PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
+    PxQuat inertia_rotation = PxQuat(PxIdentity);
+    PxTransform last_pose = PxTransform(PxIdentity);
 
-  PxRigidDynamic *body() const { return rigid ? rigid->is<PxRigidDynamic>() : nullptr; }
+    PxRigidDynamic *body() const { return rigid ? rigid->is<PxRigidDynamic>() : nullptr; }
 };
 
 struct Shape {
-  PxShape *shape = nullptr; // null: the handle is free
-  int32_t actor = PHYSICS_NONE;
-  uint32_t identity = 0;
-  bool trigger = false;
+    PxShape *shape = nullptr; // null: the handle is free
+    int32_t actor = PHYSICS_NONE;
+    uint32_t identity = 0;
+    bool trigger = false;
+};
+
+struct Joint {
+    PxJoint *joint = nullptr; // null: the handle is free
+    int32_t actor = PHYSICS_NONE, other = PHYSICS_NONE;
 };
 
 // A pair with a trigger whose boxes overlap. PhysX finds it, we test it: PhysX leaves pairs of two triggers out.
 struct Overlap {
-  int32_t a = PHYSICS_NONE, b = PHYSICS_NONE; // a has the lower identity
-  bool touching = false;
-  bool tested = false;
+    int32_t a = PHYSICS_NONE, b = PHYSICS_NONE; // a has the lower identity
+    bool touching = false;
+    bool tested = false;
 };
 
 // The words of PxFilterData of a simulated shape.
-enum FilterBits : PxU32 { LAYER = 31, TRIGGER = 1 << 5, OVERLAPS = 1 << 6, CONTACTS = 1 << 7, CONTINUOUS = 1 << 8, CONTINUOUS_DYNAMIC = 1 << 9 };
+enum FilterBits : PxU32 {
+    LAYER = 31,
+    TRIGGER = 1 << 5,
+    OVERLAPS = 1 << 6,
+    CONTACTS = 1 << 7,
+    CONTINUOUS = 1 << 8,
+    CONTINUOUS_DYNAMIC = 1 << 9
+};
 
 // What the filter shader, which worker threads run, reads: it changes only between steps.
 struct Ignored {
-  uint32_t layers[32] = {};
-  std::unordered_set<uint64_t> pairs;
+    uint32_t layers[32] = {};
+    std::unordered_set<uint64_t> pairs;
 
-  static uint64_t key(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
+    static uint64_t key(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
 };
 
 PxQueryFilterData query_filter(const physics_filter &filter, PxQueryFlags flags);
@@ -78,57 +90,61 @@ bool make_geometry(const physics_geometry &from, PxGeometryHolder &to);
 } // namespace collektive
 
 struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulationFilterCallback {
-  explicit physics_world(int32_t threads);
-  ~physics_world();
+    explicit physics_world(int32_t threads);
+    ~physics_world();
 
-  physx::PxDefaultCpuDispatcher *dispatcher = nullptr;
-  physx::PxScene *scene = nullptr;
-  std::vector<collektive::Actor> actors;
-  std::vector<collektive::Shape> shapes;
-  std::vector<int32_t> free_actors, free_shapes;
-  std::unordered_map<std::string, physx::PxMaterial *> materials;
-  collektive::Ignored ignored;
-  size_t placed = 0; // shapes made or put somewhere since the last step
+    physx::PxDefaultCpuDispatcher *dispatcher = nullptr;
+    physx::PxScene *scene = nullptr;
+    std::vector<collektive::Actor> actors;
+    std::vector<collektive::Shape> shapes;
+    std::vector<collektive::Joint> joints;
+    std::vector<int32_t> free_actors, free_shapes, free_joints;
+    std::unordered_map<std::string, physx::PxMaterial *> materials;
+    collektive::Ignored ignored;
+    size_t placed = 0; // shapes made or put somewhere since the last step
 
-  std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
-  // Touching pairs whose boxes came apart, or that wait to be found again by a new filtering; by identities.
-  std::map<uint64_t, std::pair<int32_t, int32_t>> lost_overlaps;
+    std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
+    // Touching pairs whose boxes came apart, or that wait to be found again by a new filtering; by identities.
+    std::map<uint64_t, std::pair<int32_t, int32_t>> lost_overlaps;
 
-  std::vector<physics_motion> motions;
-  std::vector<physics_touch> touches;
-  std::vector<physics_contact> contacts;
+    std::vector<physics_motion> motions;
+    std::vector<physics_touch> touches;
+    std::vector<physics_contact> contacts;
+    std::vector<int32_t> broken;
 
-  collektive::Actor *actor(int32_t handle) {
-    return handle >= 0 && size_t(handle) < actors.size() && actors[handle].rigid ? &actors[handle] : nullptr;
-  }
-  collektive::Shape *shape(int32_t handle) {
-    return handle >= 0 && size_t(handle) < shapes.size() && shapes[handle].shape ? &shapes[handle] : nullptr;
-  }
-  physx::PxMaterial *material(const physics_material &wanted);
-  void refresh_mass(collektive::Actor &actor);
-  void drop_shape(int32_t handle);
-  void apply(const physics_command &command);
-  void apply_all(const physics_command *commands, int32_t count);
-  bool crowded();
-  void collect_motions();
-  void collect_overlaps();
-  void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
+    collektive::Actor *actor(int32_t handle) {
+        return handle >= 0 && size_t(handle) < actors.size() && actors[handle].rigid ? &actors[handle] : nullptr;
+    }
+    collektive::Shape *shape(int32_t handle) {
+        return handle >= 0 && size_t(handle) < shapes.size() && shapes[handle].shape ? &shapes[handle] : nullptr;
+    }
+    physx::PxMaterial *material(const physics_material &wanted);
+    void refresh_mass(collektive::Actor &actor);
+    void drop_shape(int32_t handle);
+    void drop_joint(int32_t handle);
+    void drop_joints_of(int32_t actor);
+    void apply(const physics_command &command);
+    void apply_all(const physics_command *commands, int32_t count);
+    bool crowded();
+    void collect_motions();
+    void collect_overlaps();
+    void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 
-  // PxSimulationEventCallback, all on the stepping thread
-  void onContact(const physx::PxContactPairHeader &header, const physx::PxContactPair *pairs, physx::PxU32 count) override;
-  void onSleep(physx::PxActor **sleepers, physx::PxU32 count) override;
-  void onConstraintBreak(physx::PxConstraintInfo *, physx::PxU32) override {}
-  void onWake(physx::PxActor **, physx::PxU32) override {}
-  void onTrigger(physx::PxTriggerPair *, physx::PxU32) override {}
-  void onAdvance(const physx::PxRigidBody *const *, const physx::PxTransform *, const physx::PxU32) override {}
+    // PxSimulationEventCallback, all on the stepping thread
+    void onContact(const physx::PxContactPairHeader &header, const physx::PxContactPair *pairs, physx::PxU32 count) override;
+    void onSleep(physx::PxActor **sleepers, physx::PxU32 count) override;
+    void onConstraintBreak(physx::PxConstraintInfo *constraints, physx::PxU32 count) override;
+    void onWake(physx::PxActor **, physx::PxU32) override {}
+    void onTrigger(physx::PxTriggerPair *, physx::PxU32) override {}
+    void onAdvance(const physx::PxRigidBody *const *, const physx::PxTransform *, const physx::PxU32) override {}
 
-  // PxSimulationFilterCallback, called one after another
-  physx::PxFilterFlags pairFound(physx::PxU32 pair, physx::PxFilterObjectAttributes, physx::PxFilterData, const physx::PxActor *,
-                                 const physx::PxShape *shape0, physx::PxFilterObjectAttributes, physx::PxFilterData, const physx::PxActor *,
-                                 const physx::PxShape *shape1, physx::PxPairFlags &flags) override;
-  void pairLost(physx::PxU32 pair, physx::PxFilterObjectAttributes, physx::PxFilterData, physx::PxFilterObjectAttributes, physx::PxFilterData,
-                bool removed) override;
-  bool statusChange(physx::PxU32 &, physx::PxPairFlags &, physx::PxFilterFlags &) override { return false; }
+    // PxSimulationFilterCallback, called one after another
+    physx::PxFilterFlags pairFound(physx::PxU32 pair, physx::PxFilterObjectAttributes, physx::PxFilterData, const physx::PxActor *,
+                                   const physx::PxShape *shape0, physx::PxFilterObjectAttributes, physx::PxFilterData,
+                                   const physx::PxActor *, const physx::PxShape *shape1, physx::PxPairFlags &flags) override;
+    void pairLost(physx::PxU32 pair, physx::PxFilterObjectAttributes, physx::PxFilterData, physx::PxFilterObjectAttributes,
+                  physx::PxFilterData, bool removed) override;
+    bool statusChange(physx::PxU32 &, physx::PxPairFlags &, physx::PxFilterFlags &) override { return false; }
 };
 
 #endif

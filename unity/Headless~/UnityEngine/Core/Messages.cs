@@ -16,6 +16,8 @@ namespace UnityEngine
         public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
         public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
 
+        public readonly Action<Object, float> OnJointBreak;
+
         public readonly TouchMessages Touches;
 
         Messages(Type type)
@@ -36,6 +38,7 @@ namespace UnityEngine
             OnCollisionEnter = Compile<Collision>(type, nameof(OnCollisionEnter));
             OnCollisionStay = Compile<Collision>(type, nameof(OnCollisionStay));
             OnCollisionExit = Compile<Collision>(type, nameof(OnCollisionExit));
+            OnJointBreak = Compile<float>(type, nameof(OnJointBreak));
             if (OnTriggerEnter != null || OnTriggerExit != null) Touches |= TouchMessages.TriggerChange;
             if (OnTriggerStay != null) Touches |= TouchMessages.TriggerStay;
             if (OnCollisionEnter != null || OnCollisionExit != null) Touches |= TouchMessages.CollisionChange;

@@ -10,6 +10,7 @@ namespace UnityEngine
         public static readonly IgnoredPairs Ignored = new IgnoredPairs();
 
         static readonly List<Transform> Moved = new List<Transform>();
+        static readonly List<Joint> Joints = new List<Joint>();
         static readonly List<Rigidbody> Unpublished = new List<Rigidbody>();
         static readonly Touches Touching = new Touches();
 
@@ -50,6 +51,8 @@ namespace UnityEngine
         {
             foreach (var collider in colliders) collider?.Forget();
             foreach (var body in bodies) body?.Forget();
+            foreach (var joint in Joints) joint.Handle = Physx.None;
+            Joints.Clear();
             Array.Clear(bodies, 0, bodies.Length);
             Array.Clear(colliders, 0, colliders.Length);
             Moved.Clear();
@@ -70,6 +73,23 @@ namespace UnityEngine
         {
             if (body.Handle >= bodies.Length) Array.Resize(ref bodies, 2 * body.Handle);
             bodies[body.Handle] = body;
+        }
+
+        public static void Add(Joint joint) => Joints.Add(joint);
+        public static void Remove(Joint joint) => Joints.Remove(joint);
+
+        /// A body came: joints that wait for it are made.
+        public static void Connect(Rigidbody body)
+        {
+            foreach (var joint in Joints)
+                if (joint.Connects(body)) joint.Refresh();
+        }
+
+        /// A body goes, and PhysX's joints with it.
+        public static void Disconnect(Rigidbody body)
+        {
+            foreach (var joint in Joints)
+                if (joint.Connects(body)) joint.Drop();
         }
 
         public static void Remove(Rigidbody body)
@@ -205,12 +225,38 @@ namespace UnityEngine
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
                 TellErrors();
+                var broken = BrokenJoints(result);
                 Touching.Send(result);
+                if (broken != null)
+                    foreach (var joint in broken) Break(joint);
             }
             finally
             {
                 stepping = false;
             }
+        }
+
+        /// Null when none broke.
+        static List<Joint> BrokenJoints(in Physx.Result result)
+        {
+            List<Joint> broken = null;
+            for (var index = 0; index < result.BrokenCount; index++)
+                foreach (var joint in Joints)
+                {
+                    if (joint.Handle != result.Broken[index]) continue;
+                    joint.Handle = Physx.None;
+                    (broken = broken ?? new List<Joint>()).Add(joint);
+                }
+            return broken;
+        }
+
+        static void Break(Joint joint)
+        {
+            if (!joint) return;
+            var target = joint.owner;
+            for (var index = 0; index < target.components.Count; index++)
+                if (target.components[index] is MonoBehaviour script && script.didAwake) Messages.Send(script.messages.OnJointBreak, script, joint.breakForce);
+            Object.Destroy(joint);
         }
 
         static void RefreshMaterials()

@@ -104,6 +104,26 @@ namespace UnityEngine
             public CollisionDetectionMode Detection;
         }
 
+        public enum JointKind
+        {
+            Fixed = 0,
+            Hinge = 1,
+            Spring = 2,
+        }
+
+        public struct Joint
+        {
+            public JointKind Kind;
+            public int Actor, Other;
+            public Pose Pose, OtherPose;
+            public float BreakForce, BreakTorque;
+            public int Collide;
+            public int UseLimits, UseMotor;
+            public float Least, Most;
+            public float MotorVelocity, MotorForce;
+            public float Spring, Damper, Target;
+        }
+
         public struct Command
         {
             public int Actor;
@@ -140,7 +160,8 @@ namespace UnityEngine
             public Motion* Motions;
             public Touch* Touches;
             public Contact* Contacts;
-            public int MotionCount, TouchCount, ContactCount;
+            public int* Broken;
+            public int MotionCount, TouchCount, ContactCount, BrokenCount;
         }
 
         public struct Hit
@@ -183,6 +204,9 @@ namespace UnityEngine
 
         [DllImport(Library)] public static extern IntPtr physics_mesh_create(Vector3* points, int pointCount, int* indices, int indexCount, int convex);
         [DllImport(Library)] public static extern void physics_mesh_release(IntPtr mesh);
+
+        [DllImport(Library)] public static extern int physics_joint_create(IntPtr world, Joint* joint);
+        [DllImport(Library)] public static extern void physics_joint_destroy(IntPtr world, int joint);
 
         [DllImport(Library)] public static extern void physics_apply(IntPtr world, Command* commands, int count);
         [DllImport(Library)] public static extern int physics_step(IntPtr world, Command* commands, int count, float seconds, Vector3* gravity, Result* result);

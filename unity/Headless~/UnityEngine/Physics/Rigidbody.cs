@@ -519,6 +519,7 @@ namespace UnityEngine
             owner.AddPhysics(this);
             foreach (var collider in owner.GetComponentsInChildren<Collider>())
                 if (collider.Registered) collider.Attach();
+            PhysicsWorld.Connect(this);
         }
 
         internal override void Deactivate()
@@ -526,6 +527,7 @@ namespace UnityEngine
             if (!Registered) return;
             owner.RemovePhysics(this);
             PhysicsWorld.Flush();
+            PhysicsWorld.Disconnect(this);
             PhysicsWorld.Remove(this);
             var dying = Handle;
             Handle = Physx.None;

@@ -1,0 +1,137 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class JointTests : PhysicsFixture
+    {
+        public class Breaker : MonoBehaviour
+        {
+            void OnJointBreak(float force) => Notes.Add("breaks at " + force);
+        }
+
+        [Test]
+        public void A_fixed_joint_holds_a_body_in_the_world()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            ball.gameObject.AddComponent<FixedJoint>();
+            Run(1f);
+            Assert.That((ball.position - new Vector3(0f, 5f, 0f)).magnitude, Is.LessThan(0.01f));
+        }
+
+        [Test]
+        public void Two_bodies_with_a_fixed_joint_fall_as_one()
+        {
+            var a = Ball(new Vector3(-1f, 5f, 0f));
+            var b = Ball(new Vector3(1f, 5f, 0f));
+            a.gameObject.AddComponent<FixedJoint>().connectedBody = b;
+            a.AddForce(new Vector3(0f, 0f, 3f), ForceMode.Impulse);
+            Run(0.5f);
+            Assert.That((a.position - b.position).magnitude, Is.EqualTo(2f).Within(0.01f));
+            Assert.That(b.angularVelocity.y, Is.Not.EqualTo(0f));
+        }
+
+        [Test]
+        public void A_hinge_swings_about_its_anchor()
+        {
+            var ball = Ball(new Vector3(2f, 5f, 0f));
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.forward;
+            hinge.anchor = new Vector3(-2f, 0f, 0f);
+            var lowest = 5f;
+            for (var step = 0; step < 100; step++)
+            {
+                Physics.Simulate(Step);
+                Assert.That((ball.position - new Vector3(0f, 5f, 0f)).magnitude, Is.EqualTo(2f).Within(0.02f));
+                lowest = Mathf.Min(lowest, ball.position.y);
+            }
+            Assert.That(lowest, Is.EqualTo(3f).Within(0.05f));
+        }
+
+        [Test]
+        public void A_motor_turns_a_hinge_at_its_velocity()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.up;
+            hinge.motor = new JointMotor { targetVelocity = 90f, force = 100f };
+            hinge.useMotor = true;
+            Run(1f);
+            Assert.That(hinge.velocity, Is.EqualTo(90f).Within(1f));
+            Assert.That(ball.angularVelocity.y, Is.EqualTo(Mathf.PI / 2f).Within(0.02f));
+        }
+
+        [TestCase(45f)]
+        [TestCase(-20f)]
+        public void A_spring_turns_a_hinge_to_its_target(float target)
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.up;
+            hinge.spring = new JointSpring { spring = 10f, damper = 2f, targetPosition = target };
+            hinge.useSpring = true;
+            Run(4f);
+            Assert.That(Quaternion.Angle(ball.rotation, Quaternion.Euler(0f, target, 0f)), Is.LessThan(2f));
+        }
+
+        [Test]
+        public void Limits_stop_a_hinge()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.up;
+            hinge.limits = new JointLimits { min = -10f, max = 30f };
+            hinge.useLimits = true;
+            ball.AddTorque(new Vector3(0f, 1f, 0f), ForceMode.VelocityChange);
+            Run(2f);
+            Assert.That(Quaternion.Angle(ball.rotation, Quaternion.Euler(0f, 30f, 0f)), Is.LessThan(2f));
+        }
+
+        [Test]
+        public void A_spring_carries_a_weight_where_forces_are_equal()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            var joint = ball.gameObject.AddComponent<SpringJoint>();
+            joint.spring = 20f;
+            joint.damper = 5f;
+            Run(6f);
+            Assert.That(5f - ball.position.y, Is.EqualTo(9.81f / 20f).Within(0.05f));
+        }
+
+        [Test]
+        public void A_joint_breaks_beyond_its_force_and_says_so()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            ball.gameObject.AddComponent<Breaker>();
+            ball.gameObject.AddComponent<FixedJoint>().breakForce = 50f;
+            Run(0.5f);
+            Assert.That(Notes, Is.Empty);
+            ball.AddForce(100f, 0f, 0f);
+            Run(0.5f);
+            Assert.That(Told(), Is.EqualTo("breaks at 50"));
+            Assert.That(ball.position.y, Is.LessThan(4.5f));
+            UnityEngine.Headless.Loop.Frame(0.02f);
+            Assert.That(ball.GetComponent<Joint>() == null, Is.True);
+        }
+
+        [Test]
+        public void A_joint_outlives_the_rest_and_the_loss_of_its_bodies()
+        {
+            var a = Ball(new Vector3(0f, 5f, 0f));
+            var b = Ball(new Vector3(2f, 5f, 0f));
+            a.gameObject.AddComponent<FixedJoint>().connectedBody = b;
+            b.gameObject.SetActive(false);
+            Run(0.1f);
+            b.gameObject.SetActive(true);
+            Run(0.1f);
+            Object.DestroyImmediate(b.gameObject);
+            Run(0.1f);
+            Object.DestroyImmediate(a);
+            Run(0.1f);
+            Assert.That(Errors, Is.Empty);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+namespace UnityEngine
+{
+    public struct JointMotor
+    {
+        /// Degrees per second.
+        public float targetVelocity { get; set; }
+        /// Newton metres.
+        public float force { get; set; }
+        public bool freeSpin { get; set; }
+    }
+
+    public struct JointLimits
+    {
+        /// Degrees.
+        public float min { get; set; }
+        public float max { get; set; }
+        public float bounciness { get; set; }
+        public float bounceMinVelocity { get; set; }
+        public float contactDistance { get; set; }
+    }
+
+    public struct JointSpring
+    {
+        public float spring;
+        public float damper;
+        /// Degrees.
+        public float targetPosition;
+    }
+
+    /// Turns about its axis through its anchor. A motor always brakes too, limits do not bounce.
+    public class HingeJoint : Joint
+    {
+        JointMotor ownMotor;
+        JointLimits ownLimits;
+        JointSpring ownSpring;
+        bool ownUseMotor, ownUseLimits, ownUseSpring;
+
+        public JointMotor motor { get => ownMotor; set => Set(ref ownMotor, value); }
+        public JointLimits limits { get => ownLimits; set => Set(ref ownLimits, value); }
+        public JointSpring spring { get => ownSpring; set => Set(ref ownSpring, value); }
+        public bool useMotor { get => ownUseMotor; set => Set(ref ownUseMotor, value); }
+        public bool useLimits { get => ownUseLimits; set => Set(ref ownUseLimits, value); }
+        public bool useSpring { get => ownUseSpring; set => Set(ref ownUseSpring, value); }
+
+        /// Degrees per second about the axis, as seen from the connected body.
+        public float velocity
+        {
+            get
+            {
+                var relative = Body.angularVelocity - (connectedBody ? connectedBody.angularVelocity : Vector3.zero);
+                return Vector3.Dot(relative, Body.rotation * axis.normalized) * Mathf.Rad2Deg;
+            }
+        }
+
+        internal override void Describe(ref Physx.Joint joint)
+        {
+            joint.Kind = Physx.JointKind.Hinge;
+            joint.UseLimits = ownUseLimits && ownLimits.min < ownLimits.max ? 1 : 0;
+            joint.Least = Mathf.Clamp(ownLimits.min, -179f, 179f) * Mathf.Deg2Rad;
+            joint.Most = Mathf.Clamp(ownLimits.max, -179f, 179f) * Mathf.Deg2Rad;
+            joint.UseMotor = ownUseMotor ? 1 : 0;
+            joint.MotorVelocity = ownMotor.targetVelocity * Mathf.Deg2Rad;
+            joint.MotorForce = Mathf.Max(0f, ownMotor.force);
+            if (!ownUseSpring) return;
+            joint.Spring = Mathf.Max(0f, ownSpring.spring);
+            joint.Damper = Mathf.Max(0f, ownSpring.damper);
+            joint.Target = ownSpring.targetPosition * Mathf.Deg2Rad;
+        }
+
+        internal override void CopyFrom(Component original)
+        {
+            base.CopyFrom(original);
+            var other = (HingeJoint)original;
+            ownMotor = other.ownMotor;
+            ownLimits = other.ownLimits;
+            ownSpring = other.ownSpring;
+            ownUseMotor = other.ownUseMotor;
+            ownUseLimits = other.ownUseLimits;
+            ownUseSpring = other.ownUseSpring;
+        }
+    }
+}
