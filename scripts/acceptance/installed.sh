@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # installed.sh ROOT PROJECT: compiles the package that lies in PROJECT/Packages as Unity would, and a player for it, into PROJECT/bin.
-# Of the clone come only the stand-in of Unity and the player.
+# Of the clone come only the stand-in of Unity with its physics and the player.
 set -euo pipefail
 ROOT=$1
 . "$ROOT/scripts/lib.sh"
@@ -9,7 +9,7 @@ ROOT=$1
 package="$2/Packages/org.collektive.unity/unity"
 bin="$2/bin"
 mkdir -p "$bin"
-cp "$package/Runtime/Plugins/Collektive.FlatBuffers.dll" "$NEWTONSOFT" "$bin/"
+cp "$package/Runtime/Plugins/Collektive.FlatBuffers.dll" "$NEWTONSOFT" "$BUILD/physics/libcollektive_physics.so" "$bin/"
 
 # compiled NAME "REFERENCES" OPTION... SOURCES FOLDER...
 compiled() {

@@ -221,7 +221,7 @@ typedef struct {
 /* Applies commands without a step. */
 PHYSICS_API void physics_apply(physics_world *world, const physics_command *commands, int32_t count);
 
-/* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and the world as it was, when more shapes lie in one
+/* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes lie in one
  * place than memory allows pairs of. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
 PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds,
                                  const physics_vector *gravity, physics_result *result);

@@ -91,14 +91,7 @@ int32_t physics_joint_create(physics_world *world, const physics_joint *from) {
     }
     made->setBreakForce(largest(from->break_force), largest(from->break_torque));
     made->setConstraintFlag(PxConstraintFlag::eCOLLISION_ENABLED, from->collide != 0);
-    int32_t handle;
-    if (world->free_joints.empty()) {
-        handle = int32_t(world->joints.size());
-        world->joints.emplace_back();
-    } else {
-        handle = world->free_joints.back();
-        world->free_joints.pop_back();
-    }
+    const int32_t handle = take(world->joints, world->free_joints);
     made->userData = reinterpret_cast<void *>(intptr_t(handle));
     world->joints[handle] = {made, from->actor, from->other};
     return handle;

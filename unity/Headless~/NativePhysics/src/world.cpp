@@ -263,14 +263,7 @@ int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_p
         fail("An actor's pose is not finite.");
         return PHYSICS_NONE;
     }
-    int32_t handle;
-    if (world->free_actors.empty()) {
-        handle = int32_t(world->actors.size());
-        world->actors.emplace_back();
-    } else {
-        handle = world->free_actors.back();
-        world->free_actors.pop_back();
-    }
+    const int32_t handle = take(world->actors, world->free_actors);
     Actor made;
     made.last_pose = pose(*at);
     if (kind == PHYSICS_DYNAMIC) {
@@ -342,14 +335,7 @@ int32_t physics_shape_create(physics_world *world, int32_t owner, const physics_
         fail("PhysX refused a shape.");
         return PHYSICS_NONE;
     }
-    int32_t handle;
-    if (world->free_shapes.empty()) {
-        handle = int32_t(world->shapes.size());
-        world->shapes.emplace_back();
-    } else {
-        handle = world->free_shapes.back();
-        world->free_shapes.pop_back();
-    }
+    const int32_t handle = take(world->shapes, world->free_shapes);
     made->userData = reinterpret_cast<void *>(intptr_t(handle));
     made->setContactOffset(0.01f);
     made->setLocalPose(pose(from->pose));

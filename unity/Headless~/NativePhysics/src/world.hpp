@@ -84,6 +84,17 @@ struct Ignored {
     static uint64_t key(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
 };
 
+// The handle of a slot to fill: the last one that was given back, or a new one.
+template <typename Slot> int32_t take(std::vector<Slot> &slots, std::vector<int32_t> &free) {
+    if (free.empty()) {
+        slots.emplace_back();
+        return int32_t(slots.size() - 1);
+    }
+    const int32_t handle = free.back();
+    free.pop_back();
+    return handle;
+}
+
 PxQueryFilterData query_filter(const physics_filter &filter, PxQueryFlags flags);
 bool make_geometry(const physics_geometry &from, PxGeometryHolder &to);
 
