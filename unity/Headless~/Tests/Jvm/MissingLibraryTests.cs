@@ -55,6 +55,7 @@ namespace Collektive.Headless.Tests
         {
             foreach (var assembly in Directory.GetFiles(Assemblies, "*.dll")) File.Copy(assembly, Path.Combine(folder, Path.GetFileName(assembly)));
             File.Copy(Path.Combine(Assemblies, Program), Path.Combine(folder, Program));
+            File.Copy(Path.Combine(Assemblies, "libcollektive_physics.so"), Path.Combine(folder, "libcollektive_physics.so"));
             File.Copy(Path.Combine(Assemblies, "stubs/Collektive.Bridge.dll"), Path.Combine(folder, "Collektive.Bridge.dll"), true);
             CheckOneError(Play(where, folder), "this platform has no JVM inside the process");
         }

@@ -86,7 +86,14 @@ namespace Collektive.Headless.Tests.Simulation
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
             sensor.Reach = 3;
-            var mesh = new Mesh { bounds = new Bounds(Vector3.zero, Vector3.one) };
+            // Near side and top of a cube.
+            var mesh = new Mesh();
+            mesh.vertices = new[]
+            {
+                new Vector3(-0.5f, -0.5f, -0.5f), new Vector3(-0.5f, 0.5f, -0.5f), new Vector3(-0.5f, -0.5f, 0.5f), new Vector3(-0.5f, 0.5f, 0.5f),
+                new Vector3(0.5f, 0.5f, -0.5f), new Vector3(0.5f, 0.5f, 0.5f),
+            };
+            mesh.triangles = new[] { 0, 2, 1, 1, 2, 3, 1, 3, 4, 3, 5, 4 };
             for (var i = 0; i < 2; i++)
             {
                 var rock = new GameObject("Rock");
@@ -154,6 +161,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             MakeBox(new Vector3(0, -0.5f, 0));
             var ball = MakeBall(new Vector3(0, 0.49f, 0));
+            ball.sleepThreshold = 0; // a sleeping body's contacts push nothing
             var sensor = ball.gameObject.AddComponent<Contacts>();
             Play(1);
             Assert.That(sensor.Values, Is.Empty, "nothing touched before the first physics step");

@@ -106,7 +106,7 @@ namespace UnityEngine
         public void SetPositionAndRotation(Vector3 position, Quaternion rotation)
         {
             if (!Finite.Accepts(position, "transform.position", this) || !Finite.Accepts(rotation, "transform.rotation", this)) return;
-            Place(position, rotation);
+            Place(position, rotation.normalized);
             Changed();
         }
 
@@ -116,12 +116,18 @@ namespace UnityEngine
             rotation = this.rotation;
         }
 
-        /// Sets the pose without telling physics: for the results of its own step.
-        internal void Place(Vector3 position, Quaternion rotation)
+        /// Sets the pose without telling physics: for the results of its own step. The rotation has length 1.
+        internal void Place(in Vector3 position, in Quaternion rotation)
         {
             hasChanged = true;
-            ownPosition = parentOrNull is null ? position : parentOrNull.InverseTransformPoint(position);
-            ownRotation = (parentOrNull is null ? rotation : Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
+            if (parentOrNull is null)
+            {
+                ownPosition = position;
+                ownRotation = rotation;
+                return;
+            }
+            ownPosition = parentOrNull.InverseTransformPoint(position);
+            ownRotation = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
         /// The scale along the own axes, sheared parts left out.
@@ -242,7 +248,7 @@ namespace UnityEngine
             Attach(int.MaxValue);
             if (worldPositionStays)
             {
-                Place(worldPosition, worldRotation);
+                Place(worldPosition, worldRotation.normalized);
                 var above = parent is null ? Vector3.one : parent.lossyScale;
                 ownScale = new Vector3(worldScale.x / above.x, worldScale.y / above.y, worldScale.z / above.z);
             }

@@ -49,7 +49,8 @@ namespace UnityEngine
             get => ownDirection;
             set
             {
-                if (value < 0 || value > 2) throw new ArgumentOutOfRangeException(nameof(direction), value, "A capsule's direction is 0, 1 or 2: along x, y or z.");
+                if (value < 0 || value > 2)
+                    throw new ArgumentOutOfRangeException(nameof(direction), value, "A capsule's direction is 0, 1 or 2: along x, y or z.");
                 ownDirection = value;
                 ShapeChanged();
             }

@@ -263,9 +263,6 @@ namespace UnityEngine
             Handle = Physx.None;
         }
 
-        /// The world is gone, and PhysX's objects with it.
-        internal void Forget() => Handle = place = Physx.None;
-
         internal override void CopyFrom(Component original)
         {
             var other = (Collider)original;

@@ -47,14 +47,9 @@ namespace UnityEngine
             return world;
         }
 
+        /// All objects are destroyed already.
         public static void ResetState()
         {
-            foreach (var collider in colliders) collider?.Forget();
-            foreach (var body in bodies) body?.Forget();
-            foreach (var joint in Joints) joint.Handle = Physx.None;
-            Joints.Clear();
-            Array.Clear(bodies, 0, bodies.Length);
-            Array.Clear(colliders, 0, colliders.Length);
             Moved.Clear();
             Unpublished.Clear();
             Touching.Clear();

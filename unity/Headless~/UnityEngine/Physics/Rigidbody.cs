@@ -537,13 +537,6 @@ namespace UnityEngine
             asleep = false;
         }
 
-        /// The world is gone, and PhysX's objects with it.
-        internal void Forget()
-        {
-            foreach (var collider in Colliders) collider.Forget();
-            Handle = Physx.None;
-        }
-
         internal void RefreshColliders()
         {
             foreach (var collider in Colliders) collider.Refresh();
