@@ -72,8 +72,11 @@ compile_assembly() {
 library() { once "$(basename "$1")" "$(fingerprint "$1")" copy_library "$1"; }
 
 copy_library() {
+  local copy
+  copy="$CSHARP/$(basename "$1")"
   mkdir -p "$CSHARP"
-  cp "$1" "$CSHARP/"
+  cp "$1" "$copy.part"
+  mv "$copy.part" "$copy"
 }
 
 build_csharp() {
