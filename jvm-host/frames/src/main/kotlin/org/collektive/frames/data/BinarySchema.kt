@@ -15,7 +15,7 @@ import com.google.flatbuffers.reflection.Object as Composite
 
 /**
  * Checks flatc's binary form of a schema, and makes the layouts of its types. With a checked schema, data that pass the check of their
- * layout can be read without an exception, so neither may come from a trusted source.
+ * layout can be read without an exception, so both may come from anybody.
  */
 internal class BinarySchema(bytes: ByteArray) {
     private val schema: Schema
