@@ -28,6 +28,7 @@ val modules = listOf(
     "engine",
     "generator",
     "frames",
+    "testing",
     "host",
     "tools",
     "programs",

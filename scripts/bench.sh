@@ -59,7 +59,7 @@ bench_rounds() {
   java="$(find_jdk)/bin/java"
   # JMH uses what newer JVMs warn of, in each process that it starts.
   "$java" --sun-misc-unsafe-memory-access=allow -version >/dev/null 2>&1 && quiet=(--sun-misc-unsafe-memory-access=allow)
-  "$java" "${quiet[@]}" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
+  "$java" "${quiet[@]}" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$LIBRARY_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
     "$BUILD/bench/rounds.json" "$@"
   say "wrote build/bench/rounds.json"
 }

@@ -2,6 +2,10 @@
 
 SHIM="$BUILD/cmake/native-shim"
 HOST_JAR="$ROOT/jvm-host/host/target/collektive-host.jar"
+# What programs link to and the host does not. Lies beside the host's jar, as in the package.
+LIBRARY_JAR="$ROOT/jvm-host/host/target/collektive-library.jar"
+ADAPTER_JAR="$ROOT/jvm-host/host/target/collektive-adapter.jar"
+TESTING_JAR="$ROOT/jvm-host/testing/target/collektive-testing.jar"
 TOOLS_JAR="$ROOT/jvm-host/tools/target/collektive-tools.jar"
 SAMPLES_JAR="$ROOT/jvm-host/programs/target/collektive-programs.jar"
 GENERATOR_JAR="$ROOT/jvm-host/generator/target/collektive-generator.jar"
@@ -30,7 +34,7 @@ jvm_fingerprint() {
 
 build_jvm() {
   setup_flatc
-  [ -f "$HOST_JAR" ] && [ -f "$TOOLS_JAR" ] && [ -f "$GENERATOR_JAR" ] || rm -f "$BUILD/stamp/jvm-host"
+  [ -f "$HOST_JAR" ] && [ -f "$LIBRARY_JAR" ] && [ -f "$ADAPTER_JAR" ] && [ -f "$TOOLS_JAR" ] && [ -f "$GENERATOR_JAR" ] || rm -f "$BUILD/stamp/jvm-host"
   once jvm-host "$(jvm_fingerprint)" package_jvm -Dmaven.test.skip=true
 }
 

@@ -70,10 +70,11 @@ stage_package() {
   mkdir -p "$unity/Runtime/Plugins/linux-x64" "$unity/Jvm~" "$unity/Tools~/linux-x64"
   cp "$CSHARP/Collektive.FlatBuffers.dll" "$unity/Runtime/Plugins/"
   strip --strip-unneeded -o "$unity/Runtime/Plugins/linux-x64/libcollektive_shim.so" "$SHIM/libcollektive_shim.so"
-  cp "$HOST_JAR" "$unity/Jvm~/collektive-host.jar"
+  cp "$HOST_JAR" "$LIBRARY_JAR" "$ADAPTER_JAR" "$unity/Jvm~/"
   cp "$SAMPLES_JAR" "$unity/Jvm~/collektive-samples.jar"
 
-  cp "$GENERATOR_JAR" "$ROOT/schema/types.fbs" "$unity/Tools~/"
+  cp "$GENERATOR_JAR" "$TESTING_JAR" "$ROOT/schema/types.fbs" "$unity/Tools~/"
+  cp "$LINKS/org/collektive/links/Links.kt" "$unity/Tools~/"
   cp "$COMPILER_PLUGIN" "$unity/Tools~/collektive-compiler-plugin.jar"
   strip --strip-unneeded -o "$unity/Tools~/linux-x64/flatc" "$FLATC"
 

@@ -72,32 +72,64 @@ own_programs() {
   : >"$OWN_PROGRAMS/$(sha256sum <"$1" | cut -d ' ' -f 1)"
 }
 
-# programs_jar SCHEMA PROGRAMS: prints the jar of a folder of Kotlin, compiled when it changed; a jar is printed as it is.
+# programs_jar SCHEMA PROGRAMS [RUNTIME_JARS PLUGIN]: prints the jar of a folder of Kotlin, compiled when it changed; a jar is printed as it is.
+# RUNTIME_JARS is the folder of Collektive's jars, PLUGIN its compiler plugin; without them programs are compiled for the built-in runtime.
 programs_jar() {
-  local schema=$1 programs=$2
+  local schema=$1 programs=$2 jars=${3:-} plugin=${4:-} inputs
   if [ -f "$programs" ]; then printf '%s\n' "$programs"; return 0; fi
   setup_kotlin
-  made "$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR" "$COMPILER_PLUGIN")" programs.jar \
-    compile_programs "$schema" "$programs"
+  inputs=("$LIBRARY_JAR" "$COMPILER_PLUGIN")
+  if [ -n "$jars" ]; then inputs=("$jars" "$plugin" "$LINKS"); fi
+  made "$BUILD/programs/$(fingerprint "$schema" "$programs" "$ROOT/schema" "$HOST_JAR" "$GENERATOR_JAR" "${inputs[@]}")" programs.jar \
+    compile_programs "$schema" "$programs" "$jars" "$plugin"
 }
 
+# What programs know of their links: part of the library of the built-in runtime, compiled with the programs for another one.
+LINKS="$ROOT/jvm-host/links/src/main/kotlin"
+
+# compile_programs SCHEMA PROGRAMS RUNTIME_JARS PLUGIN WORK
 compile_programs() {
-  local schema=$1 programs=$2 work=$3
+  local schema=$1 programs=$2 jars=$3 plugin=$4 work=$5 mark=builtIn sources=() library=$LIBRARY_JAR
   mkdir -p "$work/generated" "$work/classes"
+  if [ -n "$jars" ]; then
+    require_plugin "$plugin"
+    mark="collektive $(runtime_hash "$jars")"
+    library=$(printf '%s:' "$jars"/*.jar)
+    sources=(-P "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true" "$LINKS")
+  fi
   generator "$schema" --jvm "$work/generated"
-  compile_jvm "$work/generated" "$work/classes" "-Xplugin=$COMPILER_PLUGIN" "$programs"
-  "$(find_jdk)/bin/jar" --create --file "$work/programs.jar" -C "$work/classes" .
+  compile_jvm "$library" "$work/generated" "$work/classes" "-Xplugin=${plugin:-$COMPILER_PLUGIN}" "${sources[@]}" "$programs"
+  # The host refuses programs of another runtime by this.
+  printf 'Collektive-Runtime: %s\n' "$mark" >"$work/mark"
+  "$(find_jdk)/bin/jar" --create --file "$work/programs.jar" --manifest "$work/mark" -C "$work/classes" .
 }
 
-# compile_jvm GENERATED CLASSES [OPTION OR SOURCE]...: flatc's Java first, then the generated Kotlin and the sources.
+# runtime_hash FOLDER: SHA-256 of its jars one after the other, by name.
+runtime_hash() { (cd "$1" && printf '%s\0' *.jar | LC_ALL=C sort -z | xargs -0 cat | sha256sum | cut -c1-64); }
+
+# require_plugin JAR: fails unless it is a plugin of the Kotlin compiler, since the compiler ignores what is not one.
+require_plugin() {
+  local jdk entries
+  jdk=$(find_jdk)
+  entries=$("$jdk/bin/jar" --list --file "$1")
+  grep -q '^META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar$' <<<"$entries" ||
+    fail "$1 is no plugin of the Kotlin compiler: name Collektive's compiler-plugin as 'runtimePlugin'"
+}
+
+# compile_jvm LIBRARY GENERATED CLASSES [OPTION OR SOURCE]...: flatc's Java first, then the generated Kotlin and the sources.
 compile_jvm() {
-  local generated=$1 classes=$2 jdk sources
-  shift 2
+  local library=$1 generated=$2 classes=$3 jdk sources code=0
+  shift 3
   jdk=$(find_jdk)
   mapfile -d '' -t sources < <(find "$generated" -name '*.java' -print0)
   "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$classes" "${sources[@]}"
   "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
-    -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$classes" -d "$classes" "$generated" "$@"
+    -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$library:$classes" -d "$classes" "$generated" "$@" || code=$?
+  # The compiler's code for an exception of its own, which is a plugin's more often.
+  if [ "$code" = 2 ]; then
+    fail "the Kotlin compiler $(pom_value kotlin.version) broke off, see above: the compiler plugin may be made for another version of it"
+  fi
+  [ "$code" = 0 ] || return "$code"
   cp -R "$generated/META-INF" "$classes/"
 }
 
@@ -139,12 +171,14 @@ cmd_run() {
   build_native
   build_jvm
   build_csharp
-  local plan schema programs scripts replay pictures jar dll template=()
+  local plan schema programs scripts replay pictures jars plugin jar dll template=()
   plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${reading[@]}")
   schema=$(planned "$plan" schema)
   programs=$(planned "$plan" programs)
   scripts=$(planned "$plan" scripts)
-  jar=$(programs_jar "$schema" "$programs")
+  jars=$(planned "$plan" runtime_jars)
+  plugin=$(planned "$plan" runtime_plugin)
+  jar=$(programs_jar "$schema" "$programs" "$jars" "$plugin")
   dll=$(scripts_dll "$schema" "$scripts")
   replay=$(planned "$plan" replay)
   if [ "$replay" = yes ]; then

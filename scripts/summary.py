@@ -10,7 +10,8 @@ def summary(out: str) -> list[str]:
         ran = json.load(file)
     if ran["outcome"] != "complete":
         return [f"the run is not complete: {ran['outcome']}"]
-    lines = [f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}"]
+    lines = [f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}" +
+             ("" if ran["scenario"]["runtime"] == "BuiltIn" else f" (runtime {ran['scenario']['runtime']})")]
     lines += [f"  {name.replace('_', ' ')}: {ran['start'][name]:.2f} -> {ran['end'][name]:.2f}" for name in ran["end"]]
     lines.append(f"  bridge and rounds {ran['step_ms_median']:.2f} ms a tick (median), whole tick {ran['tick_ms_median']:.2f} ms (median), "
                  f"{ran['tick_ms_p99']:.2f} ms (p99)")

@@ -242,7 +242,7 @@ test_unity() {
   local tests code=0 jars="$1/project/Packages/org.collektive.unity/unity/Jvm~"
   # As in a project with the package: its jars, and a JVM.
   mkdir -p "$jars"
-  ln -s "$HOST_JAR" "$jars/collektive-host.jar"
+  ln -s "$HOST_JAR" "$LIBRARY_JAR" "$ADAPTER_JAR" "$jars/"
   ln -s "$SAMPLES_JAR" "$jars/collektive-samples.jar"
   cd "$1/project"
   JAVA_HOME=$(find_jdk)
@@ -295,7 +295,7 @@ build_roundtrip() {
     # What the tests of frames compare with.
     "$FLATC" --java --gen-object-api --gen-all --no-warnings --java-package-prefix objects -I "$ROOT/schema" -o "$1/generated" "$schema"
   done
-  compile_jvm "$1/generated" "$1"
+  compile_jvm "$LIBRARY_JAR" "$1/generated" "$1"
 }
 
 # export_fuzz JDK: what schema/test/fuzz.py needs. The suite jvm compiles it, or `test fuzz schemas`.

@@ -30,6 +30,10 @@ gradlePlugin {
             id = "org.collektive.flatbuffers"
             implementationClass = "org.collektive.gradle.FlatBuffers"
         }
+        register("host-jars") {
+            id = "org.collektive.host-jars"
+            implementationClass = "org.collektive.gradle.HostJars"
+        }
         register("standalone-jar") {
             id = "org.collektive.standalone-jar"
             implementationClass = "org.collektive.gradle.StandaloneJar"

@@ -15,6 +15,7 @@ val testedModules = listOf(
     "engine",
     "generator",
     "frames",
+    "testing",
     "host",
     "tools",
     "programs",

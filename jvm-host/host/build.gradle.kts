@@ -2,19 +2,21 @@ import org.collektive.gradle.readsRepository
 
 plugins {
     id("org.collektive.kotlin-module")
-    id("org.collektive.standalone-jar")
+    id("org.collektive.host-jars")
 }
 
 dependencies {
     api(project(":frames"))
     api(project(":runtime"))
-    // Not used by the host: programs find these two on the JVM's class path.
+    // Not used by the host: sessions load these from jars beside the host's.
+    api(project(":mailbox"))
     api(project(":links"))
     api(project(":stdlib"))
     // Programs that log with slf4j find it here, bound to java.util.logging.
     implementation(libs.slf4j)
     // The tests generate and compile a user's jar, and dump what programs see of the modules.
     testImplementation(project(":generator"))
+    testImplementation(project(":testing"))
     // Before kotlin-abi, which contains parts of it.
     testImplementation(libs.kotlin.compiler)
     testImplementation(libs.kotlin.abi)
@@ -35,5 +37,6 @@ tasks.test {
         "jvm-host/frames/api",
         "jvm-host/runtime/api",
         "jvm-host/stdlib/api",
+        "jvm-host/testing/api",
     )
 }

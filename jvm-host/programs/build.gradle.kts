@@ -14,7 +14,7 @@ dependencies {
     generatorPath(project(":generator"))
     kotlinCompilerPluginClasspathMain(project(":compiler-plugin"))
     testImplementation(project(":host"))
-    testImplementation(project(":mailbox"))
+    testImplementation(project(":testing"))
 }
 
 val schemaCode = tasks.register<GeneratorJava>("schemaCode") {

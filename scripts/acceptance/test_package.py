@@ -75,9 +75,11 @@ class ThePackage(Packaged):
         # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
         left_out = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
         wanted = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not left_out.fullmatch(path)}
-        built = ["Jvm~/collektive-host.jar", "Jvm~/collektive-samples.jar", "Runtime/Plugins/Collektive.FlatBuffers.dll",
+        built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar", "Jvm~/collektive-samples.jar",
+                 "Runtime/Plugins/Collektive.FlatBuffers.dll",
                  "Runtime/Plugins/linux-x64/libcollektive_shim.so", "Samples~/GradientAscent/Programs/GradientAscent.kt",
-                 "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
+                 "Tools~/Links.kt", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
+                 "Tools~/collektive-testing.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
         wanted |= {"unity/" + path for path in built}
         wanted |= {path + ".meta" for path in metas.assets(self.root)}
         extra = [path for path in self.packed() - wanted if not re.match(r"Documentation~/|unity/Samples~/[^/]*/Programs/", path)]

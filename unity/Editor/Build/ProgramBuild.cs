@@ -1,16 +1,20 @@
 using System.Collections.Generic;
 using System.IO;
+using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
     /// <summary>Makes the jar of a schema's Kotlin programs.</summary>
     internal static class ProgramBuild
     {
+        /// <summary>The Kotlin compiler's exit code for an exception of its own, or of a plugin.</summary>
+        private const int CompilerBroke = 2;
+
         /// <returns>Whether it worked; if not, the console says why and the jar is as before.</returns>
         internal static bool Make(SchemaProject project)
         {
             var jdk = Toolchain.FindJdk();
-            var kotlin = Toolchain.FindKotlin();
+            var kotlin = Toolchain.FindKotlin(project.Runtime.Kind);
             var work = Path.GetFullPath("Library/Collektive/Build/" + project.Name);
             if (Directory.Exists(work)) Directory.Delete(work, true);
             var generated = Path.Combine(work, "generated");
@@ -18,7 +22,7 @@ namespace Collektive.Unity.Editor
             Directory.CreateDirectory(classes);
             return SchemaCode.MakeJvm(project, generated)
                 && CompileJava(jdk, generated, classes)
-                && CompileKotlin(jdk, kotlin, classes, generated, Path.GetFullPath(project.Programs))
+                && CompileKotlin(jdk, kotlin, classes, generated, project)
                 && Pack(jdk, generated, classes, work, project);
         }
 
@@ -29,25 +33,33 @@ namespace Collektive.Unity.Editor
             return Run("javac", Path.Combine(jdk, "bin/javac"), arguments);
         }
 
-        private static bool CompileKotlin(string jdk, string kotlin, string classes, string generated, string programs)
+        private static bool CompileKotlin(string jdk, string kotlin, string classes, string generated, SchemaProject project)
         {
-            return Run("the Kotlin compiler", Path.Combine(jdk, "bin/java"), new List<string>
+            var path = new List<string> { Installation.HostJar };
+            path.AddRange(project.Runtime.Library);
+            path.Add(classes);
+            var arguments = new List<string>
             {
                 "-Xmx1g", "-XX:+UseSerialGC", "-cp", Path.Combine(kotlin, "lib/*"), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
-                "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-Xplugin=" + Toolchain.CompilerPlugin,
-                "-cp", Installation.HostJar + Path.PathSeparator + classes, "-d", classes, generated, programs,
-            });
+                "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", string.Join(Path.PathSeparator.ToString(), path), "-d", classes, generated,
+                Path.GetFullPath(project.Programs),
+            };
+            arguments.AddRange(project.Runtime.Arguments());
+            return Run("the Kotlin compiler", Path.Combine(jdk, "bin/java"), arguments);
         }
 
         private static bool Pack(string jdk, string generated, string classes, string work, SchemaProject project)
         {
             var part = Path.Combine(work, "programs.jar");
+            var mark = Path.Combine(work, "mark");
+            File.WriteAllText(mark, "Collektive-Runtime: " + project.Runtime.Mark + "\n");
             // The schema's service entry and binary form lie beside the generated code.
-            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string> { "--create", "--file", part, "-C", generated, "META-INF", "-C", classes, "." }))
+            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
+                { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;
             if (File.Exists(project.Jar)) File.Delete(project.Jar);
             File.Move(part, project.Jar);
-            project.Made();
+            project.NoteMade();
             return true;
         }
 
@@ -55,6 +67,8 @@ namespace Collektive.Unity.Editor
         {
             var (code, output) = ToolRun.Try(".", program, arguments.ToArray());
             ToolConsole.Show(name, code, output);
+            if (code == CompilerBroke)
+                Debug.LogError(name + " broke off: the compiler plugin may be made for another version of the compiler; use that of the plugin");
             return code == 0;
         }
     }

@@ -10,10 +10,14 @@ namespace Collektive.Unity.Editor
     /// </summary>
     internal sealed class SchemaProject
     {
-        internal SchemaProject(string schema)
+        internal SchemaProject(string schema, ProgramRuntime runtime)
         {
             Schema = schema;
+            Runtime = runtime;
         }
+
+        /// <summary>What its programs are compiled for.</summary>
+        internal ProgramRuntime Runtime { get; }
 
         /// <summary>The schema's path from the project's folder.</summary>
         internal string Schema { get; }
@@ -25,22 +29,24 @@ namespace Collektive.Unity.Editor
         internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
 
         /// <summary>The jar, as the manager's settings name it.</summary>
-        internal string Jar => Installation.JarOf(Name);
+        internal string Jar => Installation.JarOf(Name, Runtime.Kind);
 
         internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
 
-        /// <summary>Names the package's version that made the jar: another one generates other code.</summary>
+        /// <summary>Names the package's version that made the jar, which generates other code than others, and what the jar was made for.</summary>
         private string Maker => Jar + ".version";
 
-        /// <summary>Notes that the jar was made now, by this version of the package.</summary>
-        internal void Made() => File.WriteAllText(Maker, PackageState.Version);
+        private string Made => PackageState.Version + " " + Runtime.Mark;
 
-        /// <summary>Whether the schema or a program was changed after the jar was made, or another version of the package made it.</summary>
+        /// <summary>Notes that the jar was made now, by this version of the package.</summary>
+        internal void NoteMade() => File.WriteAllText(Maker, Made);
+
+        /// <summary>Whether the schema or a program was changed after the jar was made, or another version of the package or runtime made it.</summary>
         internal bool IsStale
         {
             get
             {
-                if (!File.Exists(Jar) || !File.Exists(Maker) || File.ReadAllText(Maker) != PackageState.Version) return true;
+                if (!File.Exists(Jar) || !File.Exists(Maker) || File.ReadAllText(Maker) != Made) return true;
                 var made = File.GetLastWriteTimeUtc(Jar);
                 if (File.GetLastWriteTimeUtc(Schema) > made) return true;
                 foreach (var file in Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories))
@@ -51,15 +57,16 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>All schemas below <c>Assets</c>, by path; folders that Unity ignores are left out.</summary>
+        /// <summary>All schemas below <c>Assets</c>, by path, for the open scene's runtime; folders that Unity ignores are left out.</summary>
         internal static List<SchemaProject> FindAll()
         {
+            var runtime = ProgramRuntime.OfScene();
             var found = new List<SchemaProject>();
             if (!Directory.Exists("Assets")) return found;
             foreach (var schema in Directory.GetFiles("Assets", "*.fbs", SearchOption.AllDirectories))
             {
                 var path = schema.Replace('\\', '/');
-                if (!path.Contains("~/") && !path.Contains("/.")) found.Add(new SchemaProject(path));
+                if (!path.Contains("~/") && !path.Contains("/.")) found.Add(new SchemaProject(path, runtime));
             }
             found.Sort((a, b) => string.CompareOrdinal(a.Schema, b.Schema));
             return found;

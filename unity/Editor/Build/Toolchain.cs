@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
+using Collektive.Bridge;
 
 namespace Collektive.Unity.Editor
 {
@@ -21,6 +22,9 @@ namespace Collektive.Unity.Editor
         internal static string Generator => Shipped("collektive-generator.jar");
 
         internal static string CompilerPlugin => Shipped("collektive-compiler-plugin.jar");
+
+        /// <summary>Source of what programs know of their links: part of the built-in library, compiled with the programs for another one.</summary>
+        internal static string Links => Shipped("Links.kt");
 
         /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
         internal static string SchemaFolder => Path.GetDirectoryName(Shipped("types.fbs"));
@@ -74,8 +78,9 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>Root of the Kotlin compiler: what the settings name, else <c>KOTLIN_HOME</c>, else the one on <c>PATH</c>.</summary>
+        /// <param name="runtime">Collektive's plugin works with a version that is not known here.</param>
         /// <exception cref="ToolException">There is none, or it is of another version.</exception>
-        internal static string FindKotlin()
+        internal static string FindKotlin(AggregateRuntime runtime)
         {
             var candidates = new List<string> { ProjectSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
             foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
@@ -92,7 +97,7 @@ namespace Collektive.Unity.Editor
             if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version))
                 throw new ToolException(home + " is no Kotlin compiler (it has no lib and build.txt): " + wanted);
             var text = File.ReadAllText(version).Trim();
-            if (!text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal))
+            if (runtime == AggregateRuntime.BuiltIn && !text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal))
                 throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
             return home;
         }

@@ -1,3 +1,4 @@
+using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
 
@@ -25,7 +26,7 @@ namespace Collektive.Unity.Editor
             Show(Toolchain.FindJdk);
             settings.kotlin = EditorGUILayout.TextField(new GUIContent("Kotlin compiler",
                 "The folder kotlinc of a Kotlin compiler. Empty: KOTLIN_HOME, else the one on PATH."), settings.kotlin);
-            Show(Toolchain.FindKotlin);
+            Show(() => Toolchain.FindKotlin(AggregateRuntime.BuiltIn));
             settings.buildBeforePlay = EditorGUILayout.Toggle(
                 new GUIContent("Build before Play", "Programs whose Kotlin or schema changed are built when Play is pressed."), settings.buildBeforePlay);
             settings.sourceCheckout = EditorGUILayout.TextField(

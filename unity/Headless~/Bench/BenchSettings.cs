@@ -20,6 +20,9 @@ namespace Collektive.Headless.Bench
 
         internal string HostJar { get; private set; }
 
+        /// <summary>What the rounds without a session link to.</summary>
+        internal string LibraryJar => System.IO.Path.Combine(System.IO.Path.GetDirectoryName(HostJar), "collektive-library.jar");
+
         internal List<string> Jars { get; } = new List<string>();
 
         internal string Out { get; private set; }

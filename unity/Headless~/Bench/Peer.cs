@@ -25,7 +25,8 @@ namespace Collektive.Headless.Bench
         {
             var start = new ProcessStartInfo(Path.Combine(settings.JavaHome, "bin", "java"))
             {
-                Arguments = string.Join(" ", BenchSettings.JvmOptions) + " -cp \"" + settings.HostJar + ":" + string.Join(":", settings.Jars) +
+                Arguments = string.Join(" ", BenchSettings.JvmOptions) + " -cp \"" + settings.HostJar + ":" + settings.LibraryJar + ":" +
+                    string.Join(":", settings.Jars) +
                     "\" org.collektive.bench.tick.ServerKt",
                 RedirectStandardOutput = true,
                 UseShellExecute = false,

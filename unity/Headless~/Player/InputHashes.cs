@@ -13,10 +13,15 @@ namespace Collektive.Headless
     {
         private static readonly Regex Include = new Regex("^\\s*include\\s+\"([^\"]+)\"", RegexOptions.Multiline);
 
-        internal static JObject Of(Scenario scenario) => new JObject(
-            new JProperty("scripts", OfFolder(scenario.Scripts, IsScript)),
-            new JProperty("schema", OfSchema(scenario.Schema)),
-            new JProperty("programs", Directory.Exists(scenario.Programs) ? OfFolder(scenario.Programs, IsProgram) : OfFile(scenario.Programs)));
+        internal static JObject Of(Scenario scenario)
+        {
+            var hashes = new JObject(
+                new JProperty("scripts", OfFolder(scenario.Scripts, IsScript)),
+                new JProperty("schema", OfSchema(scenario.Schema)),
+                new JProperty("programs", Directory.Exists(scenario.Programs) ? OfFolder(scenario.Programs, IsProgram) : OfFile(scenario.Programs)));
+            if (scenario.RuntimeJars.Length > 0) hashes.Add("runtimeJars", OfFolder(scenario.RuntimeJars, IsJar));
+            return hashes;
+        }
 
         internal static string OfFile(string path)
         {
@@ -28,6 +33,8 @@ namespace Collektive.Headless
         private static bool IsScript(string name) => name.EndsWith(".cs", StringComparison.Ordinal) && !name.Contains("/Generated/");
 
         private static bool IsProgram(string name) => name.EndsWith(".kt", StringComparison.Ordinal) || name.EndsWith(".java", StringComparison.Ordinal);
+
+        private static bool IsJar(string name) => name.EndsWith(".jar", StringComparison.Ordinal);
 
         /// <summary>Of the names below the folder and the contents of all files that are meant, in the order of their names.</summary>
         private static string OfFolder(string folder, Predicate<string> isMeant)

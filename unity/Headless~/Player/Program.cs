@@ -68,6 +68,8 @@ namespace Collektive.Headless
             Console.WriteLine("scripts=" + scenario.Scripts);
             Console.WriteLine("schema=" + scenario.Schema);
             Console.WriteLine("programs=" + scenario.Programs);
+            Console.WriteLine("runtime_jars=" + scenario.RuntimeJars);
+            Console.WriteLine("runtime_plugin=" + scenario.RuntimePlugin);
             Console.WriteLine("seed=" + scenario.Settings.seed);
             Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
             Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));

@@ -49,6 +49,12 @@ namespace Collektive.Headless
             Seconds = file.Required<double>(root, "seconds");
             file.Required<string>(root, nameof(SimulationSettings.program));
             file.Fill(Settings, Shared, root, "");
+            if (Settings.runtime == AggregateRuntime.Collektive)
+            {
+                RuntimeJars = Existing(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
+                // Programs that are a jar were compiled already.
+                if (Directory.Exists(Programs)) RuntimePlugin = Existing(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
+            }
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder, trustsJvm);
             var outputs = file.Optional(root, "outputs", new JObject());
             file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "replay", "pictures", "record" });
@@ -78,6 +84,12 @@ namespace Collektive.Headless
         internal string Schema { get; }
 
         internal string Programs { get; }
+
+        /// <summary>Folder of Collektive's jars; empty with the built-in runtime.</summary>
+        internal string RuntimeJars { get; } = "";
+
+        /// <summary>Collektive's compiler plugin; empty with the built-in runtime, and with programs that are compiled.</summary>
+        internal string RuntimePlugin { get; } = "";
 
         internal JObject Fields { get; }
 
@@ -129,6 +141,8 @@ namespace Collektive.Headless
         internal void CopyTo(SimulationSettings settings)
         {
             foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
+            settings.runtimeJars = RuntimeJars;
+            settings.runtimePlugin = RuntimePlugin;
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>

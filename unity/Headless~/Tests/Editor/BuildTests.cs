@@ -15,9 +15,9 @@ namespace Collektive.Headless.Tests.Editor
     /// <summary>Tools &gt; Collektive with the real flatc, generator, javac and Kotlin compiler.</summary>
     public sealed class BuildTests : ProjectFixture
     {
-        private const string Schema = "namespace swarm;\ntable SensorData { intensity: float; }\nstruct ActuatorData { hops: float; }\n";
+        internal const string Schema = "namespace swarm;\ntable SensorData { intensity: float; }\nstruct ActuatorData { hops: float; }\n";
 
-        private const string Kotlin = @"package swarm
+        internal const string Kotlin = @"package swarm
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
@@ -68,11 +68,12 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Write("Assets/Swarm/Programs/Count.kt", Kotlin);
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
             Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.True, string.Join("\n", Log));
-            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.False);
+            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs", ProgramRuntime.OfScene()).IsStale, Is.False);
             Assert.That(IndexOf("Library/Collektive/swarm.jar"), Is.EqualTo("program\tcount\tswarm.SensorData\n"));
             var version = File.ReadAllText("Library/Collektive/swarm.jar.version");
-            File.WriteAllText("Library/Collektive/swarm.jar.version", "0.0.1");
-            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs").IsStale, Is.True, "another version of the package generates other code");
+            File.WriteAllText("Library/Collektive/swarm.jar.version", "0.0.1 builtIn");
+            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs", ProgramRuntime.OfScene()).IsStale, Is.True,
+                "another version of the package generates other code");
             File.WriteAllText("Library/Collektive/swarm.jar.version", version);
 
             var manager = new GameObject("Manager").AddComponent<SimulationManager>();
@@ -140,7 +141,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         public void A_Kotlin_compiler_of_another_version_is_refused()
         {
             UseKotlin("1.9.0");
-            Assert.Throws<ToolException>(() => Toolchain.FindKotlin());
+            Assert.Throws<ToolException>(() => Toolchain.FindKotlin(AggregateRuntime.BuiltIn));
         }
 
         [Test]

@@ -72,6 +72,11 @@ namespace Collektive.Headless.Tests
             Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "what it says is for nobody");
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
+            var jar = Path.Combine(folder, "host.jar");
+            File.WriteAllText(jar, "1");
+            words = new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options;
+            File.WriteAllText(jar, "of another build");
+            Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options, Is.Not.EqualTo(words));
         }
 
         [Test]

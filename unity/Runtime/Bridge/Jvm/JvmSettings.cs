@@ -165,12 +165,17 @@ namespace Collektive.Bridge
 
         private const int FirstWithAutomaticArchive = 19;
 
-        /// <summary>The JVM writes the archive when it ends, and makes a new one when the host or the JVM itself has changed.</summary>
+        /// <summary>
+        /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. With another host jar at the same place it
+        /// would go on without one, so each has its own.
+        /// </summary>
         /// <returns>Why there is none, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var key = 14695981039346656037UL;
-            foreach (var character in javaHome + "\n" + hostJar + "\n" + collector) key = (key ^ character) * 1099511628211UL;
+            var host = new FileInfo(hostJar);
+            var state = host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "";
+            foreach (var character in javaHome + "\n" + hostJar + "\n" + state + "\n" + collector) key = (key ^ character) * 1099511628211UL;
             try
             {
                 Directory.CreateDirectory(cacheFolder);

@@ -31,6 +31,12 @@ namespace Collektive.Bridge
         /// <summary>Path of the file to record all frames in, for <c>./collektive replay</c>; overwritten. Empty: no record.</summary>
         public string Record { get; set; } = "";
 
+        /// <summary>What runs the programs.</summary>
+        public AggregateRuntime Runtime { get; set; }
+
+        /// <summary>Folder of the jars of <see cref="AggregateRuntime.Collektive"/>.</summary>
+        public string RuntimeJars { get; set; } = "";
+
         /// <summary>Limit for opening and closing in milliseconds.</summary>
         public int OpenLimitMs { get; set; } = 30000;
 
@@ -54,7 +60,8 @@ namespace Collektive.Bridge
                 builder.CreateString(Program ?? ""),
                 Frame.Network.CreateNetwork(
                     builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention),
-                builder.CreateString(Record ?? "")).Value);
+                builder.CreateString(Record ?? ""),
+                (Frame.AggregateRuntime)Runtime, builder.CreateString(RuntimeJars ?? "")).Value);
         }
     }
 }

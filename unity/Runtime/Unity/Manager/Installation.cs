@@ -23,6 +23,9 @@ namespace Collektive.Unity
             set => hostJar = value;
         }
 
+        /// <summary>Path of what programs are compiled against beside the host's jar: the DSL and its standard library.</summary>
+        public static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
+
         /// <summary>Root of the JVM for settings that do not say: what was set, else the package's own, else <c>JAVA_HOME</c>, else empty.</summary>
         public static string JavaHome
         {
@@ -44,8 +47,9 @@ namespace Collektive.Unity
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
 
-        /// <summary>The jar that the editor makes of the programs of a schema's file, from the project's folder.</summary>
-        internal static string JarOf(string schemaFile) => "Library/Collektive/" + schemaFile + ".jar";
+        /// <summary>The jar that the editor makes of the programs of a schema's file for a runtime, from the project's folder.</summary>
+        internal static string JarOf(string schemaFile, AggregateRuntime runtime) =>
+            "Library/Collektive/" + schemaFile + (runtime == AggregateRuntime.BuiltIn ? "" : "-collektive") + ".jar";
 
         /// <summary>
         /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own

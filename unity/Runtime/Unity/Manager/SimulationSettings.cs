@@ -23,6 +23,18 @@ namespace Collektive.Unity
         [Tooltip("Jars with programs. Relative paths start at the project's folder. Empty: Library/Collektive/NAME.jar, made of the schema's programs.")]
         public List<string> jars = new List<string>();
 
+        /// <summary>What runs the programs.</summary>
+        [Tooltip("What runs the programs: the package's own runtime, or Collektive itself, from jars of yours.")]
+        public AggregateRuntime runtime = AggregateRuntime.BuiltIn;
+
+        /// <summary>Collektive only: folder with its dsl and stdlib and all that they need. Relative paths start at the project's folder.</summary>
+        [Tooltip("Collektive only: folder with its dsl and stdlib and all that they need, as jars. Relative paths start at the project's folder.")]
+        public string runtimeJars = "";
+
+        /// <summary>Collektive only: jar of its compiler plugin, with which programs are built. Relative paths start at the project's folder.</summary>
+        [Tooltip("Collektive only: jar of its compiler plugin, with which programs are built. Relative paths start at the project's folder.")]
+        public string runtimePlugin = "";
+
         /// <summary>Program of nodes that name none.</summary>
         [Tooltip("Program of nodes that name none.")]
         public string program = "";
@@ -89,10 +101,12 @@ namespace Collektive.Unity
             Jars = JarsFor(schema).ConvertAll(Installation.PathOf),
             Program = program,
             Record = string.IsNullOrWhiteSpace(record) ? "" : Installation.PathOf(record),
+            Runtime = runtime,
+            RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };
 
-        /// <summary>The jars that are named, or else that of <paramref name="schema"/>.</summary>
-        internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File) };
+        /// <summary>The jars that are named, or else that of <paramref name="schema"/> for the runtime.</summary>
+        internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File, runtime) };
 
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
         internal string FindProblem()
@@ -105,6 +119,8 @@ namespace Collektive.Unity
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
+            if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
+                return "runtime is Collektive, and runtime jars is empty: name the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: add it to the settings, or remove the jar";
             var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(deltaTime);

@@ -2,10 +2,7 @@ package gradientascent
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.util.Point2D
-import org.collektive.mailbox.MailboxRuntimes
-import org.collektive.runtime.AggregateRuntimes
 import org.collektive.schema.Vector3Value
-import org.collektive.spi.DeviceRuntimes
 import samples.Swarm
 import kotlin.math.hypot
 import kotlin.random.Random
@@ -16,14 +13,14 @@ import kotlin.test.assertEquals
 class RuntimesTest {
     @Test
     fun `both runtimes compute the same positions for hundreds of ticks`() {
-        val own = run(AggregateRuntimes())
-        assertEquals(own, run(MailboxRuntimes()))
+        val own = run("builtIn")
+        assertEquals(own, run("collektive"))
         assertEquals(TICKS, own.distinct().size, "the swarm moves")
     }
 
     /** All targets of each tick, while nodes move and are added and removed. */
-    private fun run(runtimes: DeviceRuntimes): List<Map<Int, List<Float>>> =
-        Swarm(RANGE, mapOf("step" to "1.0"), { _, place -> sense(place) }, Aggregate<Int>::gradientAscent, runtimes).use { swarm ->
+    private fun run(runtime: String): List<Map<Int, List<Float>>> =
+        Swarm(RANGE, mapOf("step" to "1.0"), { _, place -> sense(place) }, Aggregate<Int>::gradientAscent, runtime).use { swarm ->
             val random = Random(7)
             var nextId = 0
             (1..TICKS).map { number ->

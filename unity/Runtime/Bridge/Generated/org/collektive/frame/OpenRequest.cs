@@ -57,6 +57,15 @@ public struct OpenRequest : IFlatbufferObject
   public ArraySegment<byte>? GetRecordBytes() { return __p.__vector_as_arraysegment(22); }
 #endif
   public byte[] GetRecordArray() { return __p.__vector_as_array<byte>(22); }
+  public org.collektive.frame.AggregateRuntime Runtime { get { int o = __p.__offset(24); return o != 0 ? (org.collektive.frame.AggregateRuntime)__p.bb.Get(o + __p.bb_pos) : org.collektive.frame.AggregateRuntime.BuiltIn; } }
+  /// Folder of Collektive's jars. The built-in runtime needs none.
+  public string RuntimeJars { get { int o = __p.__offset(26); return o != 0 ? __p.__string(o + __p.bb_pos) : null; } }
+#if ENABLE_SPAN_T
+  public Span<byte> GetRuntimeJarsBytes() { return __p.__vector_as_span<byte>(26, 1); }
+#else
+  public ArraySegment<byte>? GetRuntimeJarsBytes() { return __p.__vector_as_arraysegment(26); }
+#endif
+  public byte[] GetRuntimeJarsArray() { return __p.__vector_as_array<byte>(26); }
 
   public static Offset<org.collektive.frame.OpenRequest> CreateOpenRequest(FlatBufferBuilder builder,
       uint protocol = 0,
@@ -68,9 +77,12 @@ public struct OpenRequest : IFlatbufferObject
       VectorOffset typesOffset = default(VectorOffset),
       StringOffset programOffset = default(StringOffset),
       Offset<org.collektive.frame.Network> networkOffset = default(Offset<org.collektive.frame.Network>),
-      StringOffset recordOffset = default(StringOffset)) {
-    builder.StartTable(10);
+      StringOffset recordOffset = default(StringOffset),
+      org.collektive.frame.AggregateRuntime runtime = org.collektive.frame.AggregateRuntime.BuiltIn,
+      StringOffset runtime_jarsOffset = default(StringOffset)) {
+    builder.StartTable(12);
     OpenRequest.AddSeed(builder, seed);
+    OpenRequest.AddRuntimeJars(builder, runtime_jarsOffset);
     OpenRequest.AddRecord(builder, recordOffset);
     OpenRequest.AddNetwork(builder, networkOffset);
     OpenRequest.AddProgram(builder, programOffset);
@@ -79,11 +91,12 @@ public struct OpenRequest : IFlatbufferObject
     OpenRequest.AddJars(builder, jarsOffset);
     OpenRequest.AddThreads(builder, threads);
     OpenRequest.AddProtocol(builder, protocol);
+    OpenRequest.AddRuntime(builder, runtime);
     OpenRequest.AddSchedule(builder, schedule);
     return OpenRequest.EndOpenRequest(builder);
   }
 
-  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(10); }
+  public static void StartOpenRequest(FlatBufferBuilder builder) { builder.StartTable(12); }
   public static void AddProtocol(FlatBufferBuilder builder, uint protocol) { builder.AddUint(0, protocol, 0); }
   public static void AddSeed(FlatBufferBuilder builder, ulong seed) { builder.AddUlong(1, seed, 0); }
   public static void AddThreads(FlatBufferBuilder builder, int threads) { builder.AddInt(2, threads, 1); }
@@ -104,6 +117,8 @@ public struct OpenRequest : IFlatbufferObject
   public static void AddProgram(FlatBufferBuilder builder, StringOffset programOffset) { builder.AddOffset(7, programOffset.Value, 0); }
   public static void AddNetwork(FlatBufferBuilder builder, Offset<org.collektive.frame.Network> networkOffset) { builder.AddOffset(8, networkOffset.Value, 0); }
   public static void AddRecord(FlatBufferBuilder builder, StringOffset recordOffset) { builder.AddOffset(9, recordOffset.Value, 0); }
+  public static void AddRuntime(FlatBufferBuilder builder, org.collektive.frame.AggregateRuntime runtime) { builder.AddByte(10, (byte)runtime, 0); }
+  public static void AddRuntimeJars(FlatBufferBuilder builder, StringOffset runtimeJarsOffset) { builder.AddOffset(11, runtimeJarsOffset.Value, 0); }
   public static Offset<org.collektive.frame.OpenRequest> EndOpenRequest(FlatBufferBuilder builder) {
     int o = builder.EndTable();
     builder.Required(o, 12);  // jars
@@ -129,6 +144,8 @@ static public class OpenRequestVerify
       && verifier.VerifyString(tablePos, 18 /*Program*/, false)
       && verifier.VerifyTable(tablePos, 20 /*Network*/, org.collektive.frame.NetworkVerify.Verify, false)
       && verifier.VerifyString(tablePos, 22 /*Record*/, false)
+      && verifier.VerifyField(tablePos, 24 /*Runtime*/, 1 /*org.collektive.frame.AggregateRuntime*/, 1, false)
+      && verifier.VerifyString(tablePos, 26 /*RuntimeJars*/, false)
       && verifier.VerifyTableEnd(tablePos);
   }
 }

@@ -12,7 +12,8 @@ import kotlin.test.assertTrue
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {
-        val names = listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "host", "tools")
+        val names =
+            listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "testing", "host", "tools")
         for (name in names) {
             assertTrue(classes.any { it.packageName.startsWith("org.collektive.$name") }, name)
         }
@@ -38,7 +39,7 @@ class PackagesTest {
         .should().dependOnClassesThat().haveFullyQualifiedName("com.google.flatbuffers.FlatBufferBuilder").check(classes)
 
     @Test
-    fun `the host and its dependencies do not use the DSL`() = noClasses()
+    fun `the host and its dependencies use neither the DSL nor a runtime`() = noClasses()
         .that().resideInAnyPackage(
             "org.collektive.host..",
             "org.collektive.frames..",
@@ -46,7 +47,12 @@ class PackagesTest {
             "org.collektive.spi..",
             "org.collektive.api..",
         )
-        .should().dependOnClassesThat().resideInAPackage("it.unibo..").check(classes)
+        .should().dependOnClassesThat().resideInAnyPackage(
+            "it.unibo..",
+            "org.collektive.alignment..",
+            "org.collektive.runtime..",
+            "org.collektive.mailbox..",
+        ).check(classes)
 
     private companion object {
         val classes: JavaClasses = ClassFileImporter().withImportOption(

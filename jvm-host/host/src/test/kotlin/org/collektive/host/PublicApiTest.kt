@@ -5,6 +5,7 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.stdlib.util.Maybe
 import org.collektive.api.Program
 import org.collektive.schema.Vector3
+import org.collektive.testing.TestNetwork
 import org.jetbrains.kotlin.abi.tools.AbiFilters
 import org.jetbrains.kotlin.abi.tools.AbiToolsFactory
 import org.junit.jupiter.api.DynamicTest.dynamicTest
@@ -78,11 +79,18 @@ internal class PublicApiTest {
             "stdlib" to Maybe::class,
             "api" to Program::class,
             "frames" to Vector3::class,
+            "testing" to TestNetwork::class,
         )
 
         /** The packages that programs use, and those that the compiler plugin makes them call. */
         val NAMES = AbiFilters(
-            setOf("it.unibo.**", "org.collektive.alignment.**", "org.collektive.api.**", "org.collektive.schema.**"),
+            setOf(
+                "it.unibo.**",
+                "org.collektive.alignment.**",
+                "org.collektive.api.**",
+                "org.collektive.schema.**",
+                "org.collektive.testing.**",
+            ),
             emptySet(),
             emptySet(),
             emptySet(),

@@ -1,6 +1,7 @@
 package org.collektive.host
 
 import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.frame.AggregateRuntime
 import org.collektive.frame.Link
 import org.collektive.frame.LinkId
 import org.collektive.frame.Network
@@ -120,6 +121,7 @@ internal fun openFrame(
     types: Map<String, Long> = ProbeSchema.types,
     network: List<Double>? = null,
     record: String = "",
+    runtime: Int = AggregateRuntime.BuiltIn,
 ): ByteBuffer {
     val builder = FlatBufferBuilder(1024)
     val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
@@ -129,7 +131,7 @@ internal fun openFrame(
         OpenRequest.createOpenRequest(
             builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
             builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
-            builder.createString(program), networkTable, builder.createString(record),
+            builder.createString(program), networkTable, builder.createString(record), runtime, 0,
         ),
     )
     return direct(builder)
@@ -149,7 +151,8 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         types: Map<String, Long> = ProbeSchema.types,
         network: List<Double>? = null,
         record: String = "",
-    ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record))
+        runtime: Int = AggregateRuntime.BuiltIn,
+    ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record, runtime))
 
     fun open(request: ByteBuffer): Long = call(request) { Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
 

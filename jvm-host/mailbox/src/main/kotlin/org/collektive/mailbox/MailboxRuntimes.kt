@@ -7,11 +7,10 @@ import it.unibo.collektive.networking.Mailbox
 import it.unibo.collektive.networking.Message
 import it.unibo.collektive.networking.NeighborsData
 import it.unibo.collektive.networking.OutboundEnvelope
+import it.unibo.collektive.path.FullPathFactory
 import it.unibo.collektive.path.Path
-import it.unibo.collektive.path.tokens
+import it.unibo.collektive.path.PathFactory
 import it.unibo.collektive.state.State
-import org.collektive.alignment.ProgramPlace
-import org.collektive.alignment.withPlace
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.Export
@@ -32,25 +31,30 @@ public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null 
 
 private class MailboxRuntime(private val id: Int, private val rule: SharingRule) :
     DeviceRuntime,
-    Mailbox<Int> {
+    Mailbox<Int>,
+    PathFactory {
     private var inbound = Inbound(emptyList())
     private var state: State = emptyMap()
     private var newState: State = emptyMap()
     private var outbound = Messages(emptyMap(), null)
 
+    // The path of the primitive that ran last: all that the API tells about the place of a failure.
+    private var reached: Path? = null
+
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
         val messages = (0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NOBODY) }
         inbound = Inbound(messages)
+        reached = null
         val round: AggregateResult<Int, Any?> =
-            Collektive.aggregate(localId = id, network = this, previousState = state) { program.run(this, sensors) }
-        round.newState.forEach(::allow)
+            Collektive.aggregate(localId = id, network = this, previousState = state, pathFactory = this) { program.run(this, sensors) }
+        for ((path, value) in round.newState) allow(path, value)
         newState = round.newState
         return round.result
     }
 
     override val exports: Int get() = outbound.message(NOBODY)?.sharedData.orEmpty().size
 
-    override fun placeOf(failure: Throwable): String? = null
+    override fun placeOf(failure: Throwable): String = place(reached)
 
     override fun commit(): Export {
         state = newState
@@ -67,14 +71,24 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {
         val default = outboundMessage.prepareMessageFor(NOBODY)
         val each = inbound.neighbors.associateWith { outboundMessage.prepareMessageFor(it) }
-        for (message in each.values + default) message.sharedData.forEach(::allow)
+        for (message in each.values + default) for ((path, value) in message.sharedData) allow(path, value)
         outbound = Messages(each, default)
     }
 
-    private fun allow(path: Path, value: Any?) {
-        val refusal = rule.refusal(value) ?: path.tokens.firstNotNullOfOrNull(rule::refusal) ?: return
-        throw IllegalArgumentException(withPlace("$refusal; it cannot be shared, kept or a pivot", ProgramPlace(id, path.tokens)))
+    /** The path of [tokens], each of which may be a pivot of the program's. */
+    override fun invoke(tokens: List<Any?>): Path {
+        val path = FullPathFactory(tokens)
+        reached = path
+        for (token in tokens) allow(path, token)
+        return path
     }
+
+    private fun allow(path: Path, value: Any?) {
+        val refusal = rule.refusal(value) ?: return
+        throw IllegalArgumentException("$refusal; it cannot be shared, kept or a pivot [${place(path)}]")
+    }
+
+    private fun place(path: Path?): String = "node $id" + if (path == null) "" else " at ${path.toMultilineString(" > ")}"
 
     /** The messages of one round: one for [each] neighbour of that round, and the [default] one for all others. */
     private class Messages(private val each: Map<Int, Message<Int, *>>, private val default: Message<Int, *>?) : Export() {

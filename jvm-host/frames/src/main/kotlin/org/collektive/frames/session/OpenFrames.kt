@@ -1,8 +1,10 @@
 package org.collektive.frames.session
 
+import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.api.Program
 import org.collektive.frame.FrameLayouts
 import org.collektive.frame.OpenRequest
+import org.collektive.frame.OpenRequestT
 import org.collektive.frame.OpenResponse
 import org.collektive.frame.ParameterInfo
 import org.collektive.frame.ProgramInfo
@@ -18,6 +20,13 @@ import java.nio.ByteBuffer
  */
 public fun openRequest(frame: ByteBuffer): OpenRequest =
     OpenRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.OPEN_REQUEST), frame)
+
+/** The bytes of [request], such as one that was read and changed. */
+public fun openFrame(request: OpenRequestT): ByteBuffer {
+    val builder = FlatBufferBuilder()
+    builder.finish(OpenRequest.pack(builder, request))
+    return builder.dataBuffer()
+}
 
 /** The fingerprints of the user's types, by name. */
 public val OpenRequest.types: Map<String, Long>

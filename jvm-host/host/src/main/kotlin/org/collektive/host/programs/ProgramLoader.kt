@@ -8,8 +8,9 @@ import java.net.URLStreamHandler
 import java.util.Collections
 import java.util.Enumeration
 
-/** The class loader of one session. Searches the host's classes first, then [jars] in order. */
-public class ProgramLoader(private val jars: List<ProgramJar>) : ClassLoader(NAME, ProgramLoader::class.java.classLoader) {
+/** The class loader of one session. Searches the classes of [parent] first, the library's or the host's, then [jars] in order. */
+public class ProgramLoader(private val jars: List<ProgramJar>, parent: ClassLoader = ProgramLoader::class.java.classLoader) :
+    ClassLoader(NAME, parent) {
     override fun findClass(name: String): Class<*> {
         val bytes = find(name.replace('.', '/') + ".class") ?: throw ClassNotFoundException(name)
         return defineClass(name, bytes, 0, bytes.size)

@@ -26,9 +26,14 @@ internal object RoundFailure {
     }
 
     private fun line(failure: Throwable): String {
-        val text = when (failure) {
-            is UnusableAnswer -> failure.message.orEmpty()
-            is StackOverflowError -> "$failure: the recursion does not end"
+        val text = when {
+            failure is UnusableAnswer -> failure.message.orEmpty()
+
+            failure is StackOverflowError -> "$failure: the recursion does not end"
+
+            failure is IncompatibleClassChangeError || failure is NoClassDefFoundError && failure.cause is ClassNotFoundException ->
+                "$failure: a jar is missing or of another version; build the programs again with the jars that run them"
+
             else -> failure.toString()
         }
         return text.take(MAX_MESSAGE).replace('\n', ' ').replace('\r', ' ')

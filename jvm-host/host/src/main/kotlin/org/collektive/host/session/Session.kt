@@ -8,7 +8,6 @@ import org.collektive.engine.TickResult
 import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.data.DataSchema
-import org.collektive.frames.data.ViewRule
 import org.collektive.frames.session.writeOpenResponse
 import org.collektive.frames.tick.StepRequestReader
 import org.collektive.frames.tick.StepResponseWriter
@@ -19,7 +18,7 @@ import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
-import org.collektive.runtime.AggregateRuntimes
+import org.collektive.spi.DeviceRuntimes
 import java.io.IOException
 import java.nio.ByteBuffer
 
@@ -32,12 +31,13 @@ public class Session internal constructor(
     public val schema: DataSchema,
     private val programs: Programs,
     settings: EngineSettings,
+    runtimes: DeviceRuntimes,
     private val shim: ShimCalls,
     private val record: RecordWriter?,
 ) : AutoCloseable {
     private val request = StepRequestReader(programs)
     private val data = UserData(schema, settings.threads)
-    private val engine = Engine(settings, AggregateRuntimes(ViewRule))
+    private val engine = Engine(settings, runtimes)
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val response = StepResponseWriter(data, buffer)
     private val events = TickEvents()

@@ -6,10 +6,14 @@ import org.collektive.engine.Schedule
 import org.collektive.frame.Network
 import org.collektive.frame.OpenRequest
 import org.collektive.frames.data.DataSchema
+import org.collektive.frames.data.ViewRule
 import org.collektive.frames.session.openRequest
 import org.collektive.frames.session.types
 import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
+import org.collektive.host.library.AggregateLibrary
+import org.collektive.host.library.AggregateRuntime
+import org.collektive.host.programs.CompiledFor
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.programs.ProgramFinder
 import org.collektive.host.programs.ProgramJar
@@ -36,14 +40,12 @@ public object SessionOpening {
     }
 
     /**
-     * Opens the session of [request], a verified frame, with the programs of [jars] and without a record.
+     * Opens the session of [request], a verified frame, with the programs of [jars].
      *
-     * @throws HostException when the programs or their schema cannot be loaded, or a setting is out of range.
+     * @param record makes the session's record; called last, so that a failed opening does not overwrite one.
+     * @throws HostException when the library, the programs or their schema cannot be loaded, or a setting is out of range.
      */
-    public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls): Session = open(request, jars, shim) { null }
-
-    /** [record] runs last, so that a failed opening does not overwrite a record. */
-    private fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
+    public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
         val event = if (SessionEvents.wanted) SessionStartEvent() else null
         event?.begin()
         if (request.protocol() != PROTOCOL.toLong()) {
@@ -54,11 +56,13 @@ public object SessionOpening {
         }
         val settings = settings(request)
         val programJars = jars.map(ProgramJar::open)
-        val loader = ProgramLoader(programJars)
+        val library = AggregateLibrary.of(AggregateRuntime.of(request.runtime()), request.runtimeJars().orEmpty())
+        CompiledFor(library).check(programJars)
+        val loader = ProgramLoader(programJars, library.loader)
         val schemas = SchemaFinder.all(loader, programJars)
         val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
         val programs = Programs(ProgramFinder(programJars, loader, schema, schemas).find(), request.program().orEmpty())
-        val session = Session(schema, programs, settings, shim, record())
+        val session = Session(schema, programs, settings, library.runtimes(ViewRule), shim, record())
         event?.let { commit(it, programs, schema, settings) }
         return session
     }

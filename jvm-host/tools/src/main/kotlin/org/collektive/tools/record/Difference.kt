@@ -19,8 +19,11 @@ internal class Difference(private val whose: String, private val field: String, 
     }
 
     companion object {
-        /** Fields without an effect on results. Paths of jars are among them, because jars are compared by content. */
-        private val WITHOUT_EFFECT = setOf("threads", "record", "jars")
+        /**
+         * Fields without an effect on results. Paths of jars are among them, because jars are compared by content, and the runtime, which the
+         * comparison is to show.
+         */
+        private val WITHOUT_EFFECT = setOf("threads", "record", "jars", "runtime", "runtimeJars")
 
         /** Measured times, and the digest, which differs only if another field does. */
         private val MEASURED = setOf("digest", "hostMicros", "roundMicros")

@@ -1,6 +1,7 @@
 package org.collektive.tools.record
 
 import org.collektive.frames.MalformedFrameException
+import org.collektive.host.library.AggregateRuntime
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.shim.HostException
 import java.io.IOException
@@ -13,8 +14,12 @@ private const val EQUAL = 0
 private const val DIFFERENT = 1
 private const val TROUBLE = 2
 
+/** Of `replay`, each with a value. */
+private val OPTIONS = setOf("--programs", "--own", "--runtime", "--runtime-jars", "--out")
+
 /**
- * Runs `replay FILE [--trust] [--own FOLDER]... [--programs JAR]...` or `diff A B` on a plain JVM, without Unity.
+ * Runs `replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] [--out RECORD]` or `diff A B`
+ * on a plain JVM, without Unity.
  *
  * `--own` names a folder with a file for each jar that the user has run, named by its SHA-256: `replay` runs the record's jars only if they
  * are among them, or with `--trust`. `diff` never runs them.
@@ -33,8 +38,13 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
     return try {
         when (arguments.firstOrNull()) {
             "replay" -> replay(arguments.drop(1), report)
+
             "diff" -> diff(arguments.drop(1), report)
-            else -> throw RecordRefused("usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... | diff A B")
+
+            else -> throw RecordRefused(
+                "usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] [--out RECORD] | " +
+                    "diff A B",
+            )
         }
     } catch (e: RecordException) {
         trouble(messages, e)
@@ -51,19 +61,30 @@ private fun replay(arguments: List<String>, report: Report): Int {
     val file = arguments.firstOrNull() ?: throw RecordRefused("replay: name a record")
     val isTrusted = "--trust" in arguments
     val options = (arguments.drop(1) - "--trust").chunked(2).map { option ->
-        if (option.first() !in setOf("--programs", "--own") || option.size < 2) {
+        if (option.first() !in OPTIONS || option.size < 2) {
             throw RecordRefused("replay: '${option.first()}' is no option, or lacks its value")
         }
-        option.first() to option[1]
+        option[0] to option[1]
     }
     val jars = options.filter { it.first == "--programs" }.map { JarBytes.read(it.second) }
+    val last = options.toMap()
     Record.open(path(file)).use { record ->
         report.line(describe(record))
         for (jar in jars) report.line("programs of ${jar.path}, SHA-256 ${sha256(jar)}")
         if (jars.isEmpty() && !isTrusted) OwnPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
-        return code(Replay(record, jars, report).run())
+        val request = record.settings.unpack()
+        last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
+        last["--runtime-jars"]?.let { request.runtimeJars = it }
+        val programs = jars.ifEmpty { record.jars }
+        // What the replay's own record names.
+        request.jars = programs.map(JarBytes::path).toTypedArray()
+        request.record = last["--out"].orEmpty()
+        return code(Replay(record, request, programs, last["--out"], report).run())
     }
 }
+
+private fun runtime(name: String): AggregateRuntime = AggregateRuntime.entries.find { it.key == name }
+    ?: throw RecordRefused("replay: there is no runtime '$name'; there are ${AggregateRuntime.entries.joinToString { it.key }}")
 
 private fun diff(arguments: List<String>, report: Report): Int {
     if (arguments.size != 2) throw RecordRefused("diff: name two records")
@@ -75,7 +96,8 @@ private fun diff(arguments: List<String>, report: Report): Int {
 private fun describe(record: Record): String {
     val settings = record.settings
     val jars = record.jars.joinToString { "${it.path.substringAfterLast('/').substringAfterLast('\\')} (SHA-256 ${sha256(it)})" }
-    val text = "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars; " +
+    val text = "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars, " +
+        "${AggregateRuntime.of(settings.runtime()).title}; " +
         "recorded with ${record.head.trim().replace("\n", ", ")}"
     // A record must not steer the terminal.
     return text.map { if (it.isISOControl()) '?' else it }.joinToString("")

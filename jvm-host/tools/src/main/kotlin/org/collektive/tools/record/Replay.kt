@@ -1,7 +1,12 @@
 package org.collektive.tools.record
 
+import org.collektive.frame.OpenRequestT
+import org.collektive.frames.session.openFrame
+import org.collektive.frames.session.openRequest
 import org.collektive.frames.tick.StepResponseReader
+import org.collektive.host.library.AggregateRuntime
 import org.collektive.host.programs.JarBytes
+import org.collektive.host.record.RecordWriter
 import org.collektive.host.session.Session
 import org.collektive.host.session.SessionOpening
 import org.collektive.host.shim.HostException
@@ -14,20 +19,28 @@ import java.util.concurrent.TimeUnit
 /**
  * Runs the programs of a record, or others, on the recorded requests, and compares the answers with the recorded ones.
  *
- * @param programs jars to use instead of the record's; if empty, the record's are used.
+ * @property request how the session is opened.
+ * @property programs the jars of its programs.
+ * @property out the file that records the replay; `null` for none.
  */
-internal class Replay(private val record: Record, programs: List<JarBytes>, private val report: Report) : ShimCalls {
+internal class Replay(
+    private val record: Record,
+    private val request: OpenRequestT,
+    private val programs: List<JarBytes>,
+    private val out: String?,
+    private val report: Report,
+) : ShimCalls {
     private var answer: ByteBuffer = ByteBuffer.allocate(FIRST_ANSWER_BYTES)
     private var ticks = 0L
     private var failedRounds = 0L
     private var recordedFailedRounds = 0L
 
-    private val jars = programs.ifEmpty { record.jars }
-    private val types by lazy { RecordedTypes.of(record.settings.schema(), jars) }
+    private val types by lazy { RecordedTypes.of(record.settings.schema(), programs) }
 
     /** Runs to the record's end. Returns whether every answer equals the recorded one. */
     fun run(): Boolean {
-        val session = SessionOpening.open(record.settings, jars, this)
+        val frame = openFrame(request)
+        val session = SessionOpening.open(openRequest(frame), programs, this) { out?.let { RecordWriter.create(it, frame, programs) } }
         return try {
             run(session)
         } finally {
@@ -60,7 +73,9 @@ internal class Replay(private val record: Record, programs: List<JarBytes>, priv
             }
         } finally {
             val verdict = if (isEqual) "every digest is that of the record" else "not all as recorded"
-            report.line("$ticks ticks replayed, $verdict; the last digest is ${hex(digest)}")
+            report.line(
+                "$ticks ticks replayed, $verdict; the last digest is ${hex(digest)} (${AggregateRuntime.of(request.runtime).title})",
+            )
             if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; in the record $recordedFailedRounds")
         }
         return isEqual

@@ -62,6 +62,10 @@ class RecordTest {
         wind = if (number % 4 == 0) number.toFloat() else null
     }
 
+    /** Options for the other runtime; the jars that Maven has made stand in for Collektive's. */
+    private val collektive =
+        arrayOf("--runtime", "collektive", "--runtime-jars", Path.of(System.getProperty("collektive.root"), "jvm-host/host/target"))
+
     private class Result(val code: Int, val results: String, val messages: String)
 
     /** The tests trust their records, unless they name what is their own. */
@@ -102,6 +106,42 @@ class RecordTest {
         assertContains(result.results, "tick 4 is the first that differs")
         assertContains(result.results, "node 3, actuators.value: 403 in the record, 404 in the replay")
         assertContains(result.results, "$TICKS ticks replayed, not all as recorded")
+    }
+
+    @Test
+    fun `a record is replayed on the other runtime, and the records of both do not differ`() {
+        val file = record()
+        val other = folder.resolve("other.clkrec")
+        val replayed = run("replay", file, *collektive, "--out", other)
+        assertEquals(0, replayed.code, replayed.results + replayed.messages)
+        assertContains(replayed.results, "built-in runtime; recorded with")
+        assertContains(
+            replayed.results,
+            Regex("every digest is that of the record; the last digest is [0-9a-f]{16} \\(Collektive runtime\\)"),
+        )
+        val compared = run("diff", file, other)
+        assertEquals(0, compared.code, compared.results)
+        assertContains(compared.results, "on two runtimes: the built-in runtime in A, the Collektive runtime in B")
+        assertContains(compared.results, "$TICKS ticks, and none differs")
+        assertContains(run("replay", other).results, "Collektive runtime; recorded with")
+    }
+
+    @Test
+    fun `a difference of the runtimes is found in the records of both`() {
+        val other = folder.resolve("other.clkrec")
+        val programs = summing("sensors.value() + (aggregate.getClass().getName().contains(\"runtime.AggregateDevice\") ? 0 : 1)")
+        val replayed = run("replay", record(jar = programs), *collektive, "--out", other)
+        assertEquals(1, replayed.code, replayed.messages)
+        val compared = run("diff", folder.resolve("a.clkrec"), other)
+        assertEquals(1, compared.code)
+        assertContains(compared.results, "tick 1: output of node 0, actuators.value: 100 in A, 101 in B")
+    }
+
+    @Test
+    fun `an unknown runtime is refused`() {
+        val result = run("replay", record(), "--runtime", "other")
+        assertEquals(2, result.code)
+        assertContains(result.messages, "there is no runtime 'other'; there are builtIn, collektive")
     }
 
     @Test

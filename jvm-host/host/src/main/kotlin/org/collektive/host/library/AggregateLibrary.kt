@@ -1,0 +1,128 @@
+package org.collektive.host.library
+
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.RuntimeProvider
+import org.collektive.spi.SharingRule
+import java.io.IOException
+import java.net.URLClassLoader
+import java.nio.file.Files
+import java.nio.file.NoSuchFileException
+import java.nio.file.Path
+import java.security.MessageDigest
+import java.util.ServiceLoader
+import java.util.zip.ZipFile
+import kotlin.io.path.isDirectory
+import kotlin.io.path.isRegularFile
+import kotlin.io.path.listDirectoryEntries
+import kotlin.io.path.name
+import kotlin.io.path.readBytes
+
+/**
+ * What programs link to and the host does not: the DSL, its standard library, and the runtime that implements them.
+ *
+ * @property runtime what it is.
+ * @property loader the parent of the programs' class loader.
+ */
+public class AggregateLibrary private constructor(
+    public val runtime: AggregateRuntime,
+    public val loader: ClassLoader,
+    private val provider: RuntimeProvider,
+    private val folder: Path?,
+) {
+    /**
+     * SHA-256 of the user's jars one after the other, in the order of their names, as the tools write it into programs' jars; empty for the
+     * built-in runtime.
+     */
+    public val hash: String by lazy { folder?.let { hash(userJars(it)) }.orEmpty() }
+
+    /**
+     * Makes the devices of one session. See [RuntimeProvider.runtimes].
+     *
+     * @throws HostException when the jars lack a class or a function that the runtime needs.
+     */
+    public fun runtimes(rule: SharingRule): DeviceRuntimes = try {
+        provider.runtimes(rule)
+    } catch (e: LinkageError) {
+        throw HostException(
+            HostError.PROGRAM,
+            "the $this does not work: $e. A jar is missing, or of another version than $VERSION: put Collektive's dsl and stdlib, " +
+                "both of that version, and all that they need into that folder",
+            e,
+        )
+    }
+
+    /** Whether programs find the class [name], as in `java/lang/String`. */
+    internal fun has(name: String): Boolean = loader.getResource("$name.class") != null
+
+    override fun toString(): String = runtime.title + if (folder == null) "" else " of $folder"
+
+    public companion object {
+        /** The version of Collektive that the adapter is made for. */
+        public const val VERSION: String = "28.3"
+
+        /** The folder of the host's jar; `null` while the host is a folder of classes, with all libraries on the class path. */
+        private val home: Path? = Path.of(AggregateLibrary::class.java.protectionDomain.codeSource.location.toURI())
+            .takeIf { it.isRegularFile() }?.parent
+
+        private var last: Pair<List<Any>, AggregateLibrary>? = null
+
+        /**
+         * The library of [runtime]. One at a time is kept, so that the next session finds its classes compiled. Not thread-safe.
+         *
+         * @param folder where the jars of [AggregateRuntime.COLLEKTIVE] are.
+         * @throws HostException when a jar is missing or cannot be read.
+         */
+        public fun of(runtime: AggregateRuntime, folder: String): AggregateLibrary {
+            val place = if (runtime == AggregateRuntime.BUILT_IN || home == null) null else place(folder)
+            val jars = listOfNotNull(home?.resolve(runtime.jar)) + place?.let(::userJars).orEmpty()
+            val key = jars.map(::state) + runtime
+            last?.let { (known, library) -> if (known == key) return library }
+            return load(runtime, jars, place).also { last = key to it }
+        }
+
+        private fun load(runtime: AggregateRuntime, jars: List<Path>, folder: Path?): AggregateLibrary {
+            val host = AggregateLibrary::class.java.classLoader
+            val loader = if (jars.isEmpty()) host else URLClassLoader("library", jars.map { it.toUri().toURL() }.toTypedArray(), host)
+            val provider = ServiceLoader.load(RuntimeProvider::class.java, loader).find { it.name == runtime.key }
+                ?: throw HostException(
+                    HostError.HOST,
+                    "${runtime.jar} beside the host's jar does not have the ${runtime.title}; reinstall the package",
+                )
+            return AggregateLibrary(runtime, loader, provider, folder)
+        }
+
+        private fun place(folder: String): Path {
+            if (folder.isEmpty()) throw noJars("the session names no folder of Collektive's jars")
+            val place = Path.of(folder)
+            if (!place.isDirectory()) throw noJars("there is no folder $place")
+            if (userJars(place).isEmpty()) throw noJars("there is no jar in $place")
+            return place
+        }
+
+        private fun noJars(what: String) = HostException(
+            HostError.PROGRAM,
+            "$what: put Collektive's dsl and stdlib, version $VERSION, and all that they need into a folder and name it as 'runtimeJars'",
+        )
+
+        private fun userJars(folder: Path): List<Path> = folder.listDirectoryEntries("*.jar").sortedBy(Path::name)
+
+        private fun hash(jars: List<Path>): String {
+            val digest = MessageDigest.getInstance("SHA-256")
+            for (jar in jars) digest.update(jar.readBytes())
+            return digest.digest().joinToString("") { "%02x".format(it) }
+        }
+
+        /** What changes when [jar] is replaced. */
+        private fun state(jar: Path): Any = try {
+            // Class loaders ignore jars that they cannot read.
+            ZipFile(jar.toFile()).close()
+            Triple(jar, Files.getLastModifiedTime(jar), Files.size(jar))
+        } catch (e: NoSuchFileException) {
+            throw HostException(HostError.HOST, "there is no library jar $jar; reinstall the package", e)
+        } catch (e: IOException) {
+            throw HostException(HostError.PROGRAM, "the library jar $jar cannot be read: $e; replace it by a good one", e)
+        }
+    }
+}

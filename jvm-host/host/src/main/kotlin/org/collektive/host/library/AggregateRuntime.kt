@@ -1,0 +1,23 @@
+package org.collektive.host.library
+
+import org.collektive.host.shim.HostError
+import org.collektive.host.shim.HostException
+
+/**
+ * What runs aggregate programs.
+ *
+ * @property key its name in settings, manifests and records.
+ * @property title its name in messages.
+ * @property jar the jar beside the host's that has its `RuntimeProvider`.
+ */
+public enum class AggregateRuntime(public val key: String, public val title: String, internal val jar: String) {
+    BUILT_IN("builtIn", "built-in runtime", "collektive-library.jar"),
+    COLLEKTIVE("collektive", "Collektive runtime", "collektive-adapter.jar"),
+    ;
+
+    public companion object {
+        /** The runtime with the number [value] of `AggregateRuntime` in `frame.fbs`. */
+        public fun of(value: Int): AggregateRuntime =
+            entries.getOrNull(value) ?: throw HostException(HostError.FRAME, "there is no aggregate runtime $value")
+    }
+}

@@ -1,0 +1,130 @@
+package org.collektive.host
+
+import org.collektive.frame.AggregateRuntime
+import org.collektive.host.shim.HostError
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import org.junit.jupiter.api.io.TempDir
+import java.nio.file.Path
+import java.util.zip.ZipEntry
+import java.util.zip.ZipFile
+import java.util.zip.ZipOutputStream
+import kotlin.io.path.outputStream
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** Programs and the library that they run on. Both libraries are on the class path of the tests. */
+@Timeout(60)
+class LibraryTest {
+    private val shim = TestShim()
+
+    @TempDir
+    lateinit var folder: Path
+
+    @Test
+    fun `programs answer the same on both runtimes`() {
+        val answers = listOf(AggregateRuntime.BuiltIn, AggregateRuntime.Collektive).map { runtime ->
+            val session = TestSession(shim)
+            check(session.open(runtime = runtime) >= 0) { shim.error }
+            val all = (1..5).map { tick -> session.answers(session.ok(step(tick))) }
+            session.close()
+            all
+        }
+        assertEquals(answers.first(), answers.last())
+        assertEquals(3, answers.first().last().size)
+    }
+
+    @Test
+    fun `a jar that was compiled for the other runtime is refused`() {
+        refused(
+            marked("collektive abc"),
+            AggregateRuntime.BuiltIn,
+            "was compiled for the Collektive runtime",
+            "runs on the built-in runtime",
+        )
+        refused(marked("builtIn"), AggregateRuntime.Collektive, "was compiled for the built-in runtime", "runs on the Collektive runtime")
+        refused(marked("other"), AggregateRuntime.BuiltIn, "was compiled for the runtime 'other'")
+    }
+
+    @Test
+    fun `a jar that was compiled with other jars of the same runtime is refused`() =
+        refused(marked("collektive abc"), AggregateRuntime.Collektive, "was compiled with other jars than those of the Collektive runtime")
+
+    @Test
+    fun `a jar that was compiled for the session's runtime is accepted`() {
+        val session = TestSession(shim)
+        assertTrue(session.open(listOf(marked("builtIn"))) >= 0, shim.error)
+        session.close()
+    }
+
+    @Test
+    fun `a jar that links to a class that the library lacks is refused`() {
+        val other = patched("it/unibo/collektive/aggregate/FieldEntry", "it/unibo/collektive/aggregate/FieldOther")
+        refused(other, AggregateRuntime.BuiltIn, "links to it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
+        val plugin = patched("it/unibo/collektive/aggregate/FieldEntry", "org/collektive/alignment/ProgramPlacesOf")
+        refused(
+            plugin,
+            AggregateRuntime.Collektive,
+            "links to org.collektive.alignment.ProgramPlacesOf",
+            "it was compiled for the built-in runtime",
+        )
+    }
+
+    @Test
+    fun `a function that the library lacks costs the round, and the message says why`() {
+        val session = TestSession(shim)
+        check(session.open(listOf(patched("getNeighbors", "getNeighbord"))) >= 0) { shim.error }
+        val error = session.errors(session.ok(step(1))).values.first()
+        session.close()
+        assertContains(error, "NoSuchMethodError")
+        assertContains(error, "build the programs again with the jars that run them")
+    }
+
+    @Test
+    fun `an unknown runtime is refused`() {
+        assertEquals(HostError.FRAME.code.toLong(), TestSession(shim).open(runtime = 7))
+        assertContains(shim.error, "there is no aggregate runtime 7")
+    }
+
+    private fun refused(jar: String, runtime: Int, vararg parts: String) {
+        assertEquals(HostError.PROGRAM.code.toLong(), TestSession(shim).open(listOf(jar), runtime = runtime), shim.error)
+        for (part in listOf(*parts, jar, "Build the programs again")) assertContains(shim.error, part)
+    }
+
+    private fun step(number: Int) = Step(number.toLong()).apply {
+        if (number == 1) {
+            added = List(3) { Step.Added(it) }
+            linked = listOf(0 to 1, 1 to 2, 2 to 0)
+        }
+        due = listOf(0, 1, 2)
+        sensors = due.map { Step.Sensor(10 * number + it) }
+    }
+
+    /** The probe's jar with a mark of the tools that compiled it. */
+    private fun marked(mark: String) = repacked("META-INF/MANIFEST.MF" to "Manifest-Version: 1.0\nCollektive-Runtime: $mark\n\n") { it }
+
+    /** The probe's jar with a name in its class files replaced by one of the same length. */
+    private fun patched(name: String, other: String) = repacked { bytes ->
+        require(name.length == other.length)
+        bytes.toString(Charsets.ISO_8859_1).replace(name, other).toByteArray(Charsets.ISO_8859_1)
+    }
+
+    private fun repacked(vararg added: Pair<String, String>, change: (ByteArray) -> ByteArray): String {
+        val jar = folder.resolve("repacked.jar")
+        ZipFile(ProbeJars.programs.toFile()).use { old ->
+            ZipOutputStream(jar.outputStream()).use { zip ->
+                for (entry in old.entries().asSequence().filterNot { it.isDirectory }) {
+                    zip.putNextEntry(ZipEntry(entry.name))
+                    val bytes = old.getInputStream(entry).readBytes()
+                    zip.write(if (entry.name.startsWith("probe/Programs")) change(bytes) else bytes)
+                }
+                for ((name, text) in added) {
+                    zip.putNextEntry(ZipEntry(name))
+                    zip.write(text.toByteArray())
+                }
+            }
+        }
+        return jar.toString()
+    }
+}

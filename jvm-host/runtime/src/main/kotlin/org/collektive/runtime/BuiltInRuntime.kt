@@ -1,0 +1,12 @@
+package org.collektive.runtime
+
+import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.RuntimeProvider
+import org.collektive.spi.SharingRule
+
+/** The project's own runtime, as the host finds it. */
+public class BuiltInRuntime : RuntimeProvider {
+    override val name: String get() = "builtIn"
+
+    override fun runtimes(rule: SharingRule): DeviceRuntimes = AggregateRuntimes(rule)
+}

@@ -1,0 +1,87 @@
+using System.IO;
+using System.IO.Compression;
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Headless;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Editor
+{
+    /// <summary>
+    /// Tools &gt; Collektive &gt; Rebuild Programs for a scene that runs on Collektive. The package's library and compiler plugin stand in for Collektive's.
+    /// </summary>
+    public sealed class ProgramRuntimeTests : ProjectFixture
+    {
+        private const string Jar = "Library/Collektive/swarm-collektive.jar";
+
+        private SimulationSettings settings;
+
+        [SetUp]
+        public void MakeScene()
+        {
+            Write("Assets/Swarm/swarm.fbs", BuildTests.Schema);
+            Write("Assets/Swarm/Programs/Count.kt", BuildTests.Kotlin);
+            Directory.CreateDirectory("collektive");
+            File.Copy(Installation.LibraryJar, "collektive/library.jar");
+            File.Copy(Installation.PathOf("Packages/org.collektive.unity/Tools~/collektive-compiler-plugin.jar"), "plugin.jar");
+            settings = new GameObject("Manager").AddComponent<SimulationManager>().Settings;
+            settings.runtime = AggregateRuntime.Collektive;
+            settings.runtimeJars = "collektive";
+            settings.runtimePlugin = "plugin.jar";
+        }
+
+        [Test, Category("Slow")]
+        public void Programs_are_built_for_the_runtime_of_the_open_scene()
+        {
+            UseKotlin();
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            Assert.That(File.Exists(Jar), Is.True, string.Join("\n", Log));
+            using (var jar = ZipFile.OpenRead(Jar))
+            using (var manifest = new StreamReader(jar.GetEntry("META-INF/MANIFEST.MF").Open()))
+                Assert.That(manifest.ReadToEnd(), Is.StringContaining("Collektive-Runtime: collektive "));
+            Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.False, "that of the built-in runtime is another one");
+
+            settings.jars.Add(Jar);
+            var first = File.GetLastWriteTimeUtc(Jar);
+            Menus.Load();
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "nothing changed");
+            File.Copy(Path.Combine(Root, "jvm-host/host/target/collektive-adapter.jar"), "collektive/other.jar");
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.GreaterThan(first), "the runtime's jars changed");
+        }
+
+        [Test]
+        public void Missing_jars_are_an_error_that_says_what_to_get()
+        {
+            settings.runtimeJars = "nowhere";
+            Rebuild();
+            Assert.That(Logged("there are no jars of Collektive in 'nowhere'"), Is.StringContaining("dsl and stdlib"));
+        }
+
+        [Test, Category("Slow")]
+        public void A_missing_plugin_is_an_error_that_says_what_to_get()
+        {
+            settings.runtimePlugin = "";
+            Rebuild();
+            Assert.That(Logged("compiled with its compiler plugin"), Is.StringContaining("Runtime Plugin"));
+        }
+
+        [Test, Category("Slow")]
+        public void A_jar_that_is_no_plugin_is_refused()
+        {
+            settings.runtimePlugin = "collektive/library.jar";
+            Rebuild();
+            Assert.That(Logged("is no plugin of the Kotlin compiler"), Is.StringContaining("library.jar"));
+        }
+
+        private static void Rebuild()
+        {
+            UseKotlin();
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            Assert.That(File.Exists(Jar), Is.False);
+        }
+    }
+}
