@@ -24,7 +24,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Path of what programs are compiled against beside the host's jar: the DSL and its standard library.</summary>
-        public static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
+        internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
         /// <summary>Root of the JVM for settings that do not say: what was set, else the package's own, else <c>JAVA_HOME</c>, else empty.</summary>
         public static string JavaHome
