@@ -177,9 +177,14 @@ setup_flatc() {
   once flatc "$(cat "$BUILD/stamp/flatbuffers") $(declare -f cmake_configure | sha256sum)" build_flatc
 }
 
-# The physics of the headless player: PhysX's sources and the library that is built from them.
-setup_physics() {
+# The sources of PhysX.
+setup_physx() {
   once physx "$(fingerprint "$ROOT/tools/physx") $(declare -f fetch_physx | sha256sum)" fetch_physx
+}
+
+# The physics of the headless player, built from them.
+setup_physics() {
+  setup_physx
   once physics "$(cat "$BUILD/stamp/physx") $(fingerprint "$ROOT/unity/Headless~/NativePhysics") $(declare -f build_physics | sha256sum)" build_physics
 }
 

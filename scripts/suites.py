@@ -46,7 +46,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
     newest = jdks[-1:]
     return [
         Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint"], quick=True),
-        Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers"], quick=True),
+        Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers", "setup_physx"], quick=True),
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
         Suite("stress", ["test_stress"], ["build_jvm"]),
         *(Suite("shim", ["test_shim", jdk], ["build_native"], [jdk] == newest, label="shim-on-" + os.path.basename(jdk)) for jdk in jdks),
