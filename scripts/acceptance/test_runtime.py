@@ -5,11 +5,12 @@ The package's own library, DSL and standard library apart, stands in for Collekt
 import glob
 import os
 import re
+import subprocess
 import zipfile
 
 import pytest
 from command import Project, collektive
-from places import ROOT
+from places import COLLEKTIVE, ROOT
 
 LIBRARY = os.path.join(ROOT, "jvm-host/host/target/collektive-library.jar")
 PLUGIN = glob.glob(os.path.join(ROOT, "jvm-host/compiler-plugin/target/compiler-plugin-*[0-9].jar"))
@@ -60,10 +61,11 @@ class Runtimes(Project):
         for word in words:
             self.assertIn(word, result.stderr)
 
-    def recorded_jar(self):
-        """The jar that the last run compiled."""
-        programs = glob.glob(os.path.join(ROOT, "build/programs/*/programs.jar"))
-        return max(programs, key=os.path.getmtime)
+    def collektive_jar(self):
+        """The jar that a run on Collektive has made of the programs as they are now."""
+        command = [COLLEKTIVE, "step", "programs_jar", self.path("project", "light.fbs"), self.path("project", "programs"),
+                   self.path("project", "collektive"), self.path("project", "plugin.jar")]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
     def use_jar(self, jar, change=lambda name, data: data):
         repack(jar, self.path("project", "programs.jar"), change=change)
@@ -112,8 +114,7 @@ class Runtimes(Project):
         self.refused("three is too dark [node 3 at ", "Brightest.kt:")
 
     def test_programs_for_the_other_runtime_are_refused(self):
-        self.completed()
-        self.use_jar(self.recorded_jar())
+        self.use_jar(self.programs_jar())
         self.switch()
         self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
                      "Build the programs again")
@@ -121,14 +122,14 @@ class Runtimes(Project):
     def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self):
         self.switch()
         self.completed()
-        self.use_jar(self.recorded_jar())
+        self.use_jar(self.collektive_jar())
         self.change("lamps.json", ", " + SETTINGS, "")
         self.refused("programs.jar was compiled for the Collektive runtime, and this session runs on the built-in runtime")
 
     def test_jars_that_are_missing_or_of_another_version_are_named(self):
         self.switch()
         self.completed()
-        marked = self.recorded_jar()
+        marked = self.collektive_jar()
         os.remove(self.jar("stdlib"))
         self.use_jar(marked)
         self.refused("programs.jar was compiled with other jars than those of the Collektive runtime of " + self.path("project", "collektive"))

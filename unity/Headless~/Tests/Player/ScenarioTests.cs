@@ -16,6 +16,8 @@ namespace Collektive.Headless.Tests.Player
 
         private readonly string folder = Path.Combine(Path.GetTempPath(), "collektive-scenario-" + Guid.NewGuid());
 
+        private static readonly string[] Paths = { nameof(SimulationSettings.runtimeJars), nameof(SimulationSettings.runtimePlugin) };
+
         [SetUp]
         public void MakeFolder()
         {
@@ -37,6 +39,10 @@ namespace Collektive.Headless.Tests.Player
             }
             Assert.That(other.Keys, Has.Member("threads").And.Member("network").And.Member("stepLimitMs"));
             foreach (var setting in other) root[setting.Key] = setting.Value;
+            // Paths, which must be there.
+            foreach (var key in Paths) other.Remove(key);
+            root[Paths[0]] = ".";
+            root[Paths[1]] = "user.fbs";
             var settings = new SimulationSettings();
             Read(root).CopyTo(settings);
             foreach (var setting in other)
