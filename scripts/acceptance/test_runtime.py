@@ -105,8 +105,11 @@ class Runtimes(Project):
         compared = collektive("diff", record, self.path("b.clkrec"))
         self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
         # The record of the replay names its runtime, its jars and its programs.
-        again = collektive("replay", self.path("b.clkrec"))
+        again = collektive("replay", self.path("b.clkrec"), "--trust")
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        stranger = collektive("replay", self.path("b.clkrec"), "--programs", self.collektive_jar())
+        self.assertEqual(stranger.returncode, 2, stranger.stdout)
+        self.assertIn("names the jars of its runtime", stranger.stderr)
 
     def test_an_error_of_a_round_names_node_and_place(self):
         self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')

@@ -74,7 +74,14 @@ private fun replay(arguments: List<String>, report: Report): Int {
         if (jars.isEmpty() && !isTrusted) OwnPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
         val request = record.settings.unpack()
         last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
-        last["--runtime-jars"]?.let { request.runtimeJars = it }
+        val runtimeJars = last["--runtime-jars"]
+        if (runtimeJars == null && !request.runtimeJars.isNullOrEmpty() && !isTrusted) {
+            throw RecordRefused(
+                "$file names the jars of its runtime, ${request.runtimeJars}, and a replay runs their code with your rights: " +
+                    "name a folder of yours with --runtime-jars FOLDER, or add --trust if you trust whoever made the record",
+            )
+        }
+        runtimeJars?.let { request.runtimeJars = it }
         val programs = jars.ifEmpty { record.jars }
         // What the replay's own record names.
         request.jars = programs.map(JarBytes::path).toTypedArray()
