@@ -22,6 +22,8 @@ val modules = listOf(
     "runtime",
     "mailbox",
     "compiler-plugin",
+    "lifter",
+    "fielded",
     "stdlib",
     "api",
     "links",

@@ -28,7 +28,9 @@ dependencies {
 }
 
 tasks.test {
-    val poms = listOf("pom.xml", "flatbuffers/pom.xml", "architecture/pom.xml") + testedModules.map { "$it/pom.xml" }
+    val poms =
+        listOf("pom.xml", "flatbuffers/pom.xml", "lifter/pom.xml", "fielded/pom.xml", "architecture/pom.xml") +
+            testedModules.map { "$it/pom.xml" }
     readsRepository(
         "docs/architecture.md",
         "gradle.properties",

@@ -4,8 +4,16 @@ plugins {
 
 dependencies {
     api(project(":dsl"))
+    api(project(":fielded"))
     api(libs.arrow.core)
     kotlinCompilerPluginClasspathMain(libs.kotlin.serialization)
     testImplementation(project(":runtime"))
+    // The tests compare the lifted operators with Kotlin's own functions.
+    testImplementation(libs.kotlin.reflect)
     testImplementation(libs.serialization.json)
+}
+
+tasks.test {
+    // Reflection on all of Kotlin's functions on arrays.
+    maxHeapSize = "1g"
 }

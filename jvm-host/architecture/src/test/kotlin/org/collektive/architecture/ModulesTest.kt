@@ -32,6 +32,6 @@ class ModulesTest {
     private fun Element.text(name: String) = getElementsByTagName(name).item(0)?.textContent
 
     private companion object {
-        val BUILD_TOOLS = setOf("generator", "compiler-plugin")
+        val BUILD_TOOLS = setOf("generator", "lifter", "compiler-plugin")
     }
 }

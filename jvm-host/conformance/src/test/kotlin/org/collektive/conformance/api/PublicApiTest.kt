@@ -2,6 +2,7 @@ package org.collektive.conformance.api
 
 import it.unibo.collektive.Collektive
 import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.stdlib.ints.FieldedInts
 import it.unibo.collektive.stdlib.util.Maybe
 import java.io.File
 import java.util.zip.GZIPInputStream
@@ -11,13 +12,24 @@ import kotlin.test.assertEquals
 
 /** Sources written for Collektive 28.3 find each of its public declarations here, with the same names, types and defaults. */
 class PublicApiTest {
-    private val ours = Declarations().apply { MODULES.forEach { read(File(it.java.protectionDomain.codeSource.location.toURI())) } }.all()
-
     @Test
     fun `every declaration of the API and the standard library is here, but for the exceptions`() {
-        val missing = declared("core") - ours
+        val missing = declared("core") - ours(Field::class, Collektive::class, Maybe::class)
         assertEquals(EXCEPTIONS.keys, missing.groupBy(::exceptionFor).keys, missing.filter { exceptionFor(it) == null }.joinToString("\n"))
     }
+
+    @Test
+    fun `the lifted operators are Collektive's, no more and no less`() {
+        val theirs = declared("fielded")
+        val ours = ours(FieldedInts::class)
+        assertEquals(emptySet(), theirs - ours, "missing")
+        assertEquals(emptySet(), ours - theirs, "not Collektive's: Plain.kt of the module lifter lists what is not lifted")
+    }
+
+    /** The declarations of the modules of [samples]. */
+    private fun ours(vararg samples: KClass<*>): Set<String> = Declarations().apply {
+        for (sample in samples) read(File(sample.java.protectionDomain.codeSource.location.toURI()))
+    }.all()
 
     /** The key in [EXCEPTIONS] of the declaration [line], which is the class or the function; `null` if there is none. */
     private fun exceptionFor(line: String): String? {
@@ -33,8 +45,6 @@ class PublicApiTest {
     }
 
     private companion object {
-        val MODULES = listOf<KClass<*>>(Field::class, Collektive::class, Maybe::class)
-
         /** What is not here, and why a user does not miss it. */
         val EXCEPTIONS = mapOf(
             "~.networking.OutboundEnvelope.Companion" to "it is empty: there is nothing to call on it",

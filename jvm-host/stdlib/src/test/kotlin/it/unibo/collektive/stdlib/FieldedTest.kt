@@ -3,210 +3,108 @@ package it.unibo.collektive.stdlib
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.aggregate.toMap
-import it.unibo.collektive.stdlib.booleans.FieldedBooleans
-import it.unibo.collektive.stdlib.doubles.FieldedDoubles
-import it.unibo.collektive.stdlib.floats.FieldedFloats
 import it.unibo.collektive.stdlib.ints.FieldedInts
 import it.unibo.collektive.stdlib.ints.FieldedInts.plus
-import it.unibo.collektive.stdlib.longs.FieldedLongs
+import it.unibo.collektive.stdlib.iterables.FieldedCollectionsExtensions.filterIsInstance
+import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.Test
-import java.lang.reflect.Method
-import kotlin.random.Random
+import org.junit.jupiter.api.TestFactory
+import java.io.File
+import java.lang.reflect.InvocationTargetException
+import java.util.jar.JarFile
+import kotlin.reflect.KFunction
+import kotlin.reflect.full.declaredMemberExtensionFunctions
+import kotlin.reflect.full.extensionReceiverParameter
+import kotlin.reflect.full.valueParameters
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
+import kotlin.test.fail
 
-/** Calls every lifted operator on random fields, and compares each entry with the plain operator. */
+/** Calls every lifted operator on random fields, and compares each entry with Kotlin's own function. */
 class FieldedTest {
-    private val random = Random(3)
-    private val types = listOf("Int", "Long", "Float", "Double")
-
-    private fun number(type: String): Number {
-        val value = random.nextInt(1, 100) * if (random.nextBoolean()) 1 else -1
-        return when (type) {
-            "Int" -> value
-            "Long" -> value * 10_000_000_000
-            "Float" -> value * 0.25f
-            else -> value * 0.1
-        }
-    }
-
-    private fun binary(name: String, a: Number, b: Number): Any {
-        val widest = types.last { it == a::class.simpleName || it == b::class.simpleName }
-        return when (widest) {
-            "Int" -> arithmetic(name, a.toInt(), b.toInt(), Int::plus, Int::minus, Int::times, Int::div, Int::rem)
-            "Long" -> arithmetic(name, a.toLong(), b.toLong(), Long::plus, Long::minus, Long::times, Long::div, Long::rem)
-            "Float" -> arithmetic(name, a.toFloat(), b.toFloat(), Float::plus, Float::minus, Float::times, Float::div, Float::rem)
-            else -> arithmetic(name, a.toDouble(), b.toDouble(), Double::plus, Double::minus, Double::times, Double::div, Double::rem)
-        }
-    }
-
-    private fun <T : Comparable<T>> arithmetic(
-        name: String,
-        a: T,
-        b: T,
-        plus: (T, T) -> T,
-        minus: (T, T) -> T,
-        times: (T, T) -> T,
-        div: (T, T) -> T,
-        rem: (T, T) -> T,
-    ): Any = when (name) {
-        "plus" -> plus(a, b)
-        "minus" -> minus(a, b)
-        "times" -> times(a, b)
-        "div" -> div(a, b)
-        "rem" -> rem(a, b)
-        "compareTo" -> a.compareTo(b)
-        "and", "or", "xor" -> bits(name, a, b)
-        else -> error("unknown operator $name")
-    }
-
-    private fun bits(name: String, a: Any, b: Any): Any = when {
-        a is Int && b is Int -> when (name) {
-            "and" -> a and b
-            "or" -> a or b
-            else -> a xor b
-        }
-
-        a is Long && b is Long -> when (name) {
-            "and" -> a and b
-            "or" -> a or b
-            else -> a xor b
-        }
-
-        else -> error("no bits in $a, $b")
-    }
-
-    private fun unary(name: String, a: Number): Any = when (name) {
-        "unaryPlus" -> a
-
-        "unaryMinus" -> binary("times", a, -1)
-
-        "inc" -> binary("plus", a, 1)
-
-        "dec" -> binary("minus", a, 1)
-
-        "inv" -> if (a is Int) a.inv() else a.toLong().inv()
-
-        "toByte" -> a.toByte()
-
-        "toShort" -> a.toShort()
-
-        "toInt" -> if (a is Double) {
-            a.toInt()
-        } else if (a is Float) {
-            a.toInt()
-        } else {
-            a.toInt()
-        }
-
-        "toLong" -> if (a is Double) {
-            a.toLong()
-        } else if (a is Float) {
-            a.toLong()
-        } else {
-            a.toLong()
-        }
-
-        "toFloat" -> a.toFloat()
-
-        "toDouble" -> a.toDouble()
-
-        else -> error("unknown operator $name")
-    }
-
-    private fun shift(name: String, a: Number, bits: Int): Any = when {
-        a is Int -> when (name) {
-            "shl" -> a shl bits
-            "shr" -> a shr bits
-            else -> a ushr bits
-        }
-
-        else -> a.toLong().let {
-            when (name) {
-                "shl" -> it shl bits
-                "shr" -> it shr bits
-                else -> it ushr bits
-            }
-        }
-    }
-
-    private fun Method.typeNamed(index: Int, receiver: String): String = when {
-        parameterTypes[index] != Field::class.java -> parameterTypes[index].simpleName.replaceFirstChar(Char::uppercase)
-        "Field" in name -> if (index == 0) receiver else name.substringAfterLast("Field")
-        else -> receiver
-    }
-
-    @Test
-    fun `every operator on numbers applies the plain one to each entry`() {
-        val objects = mapOf("Int" to FieldedInts, "Long" to FieldedLongs, "Float" to FieldedFloats, "Double" to FieldedDoubles)
-        val swarm = Swarm(3).line(1.0, 1.0)
-        swarm.round { mapNeighborhood { it } }
-        var called = 0
-        for ((receiver, lifted) in objects) {
-            for (method in lifted.javaClass.declaredMethods.filter {
-                java.lang.reflect.Modifier.isPublic(it.modifiers) && !it.isSynthetic
-            }) {
-                val operator = method.name.substringBefore("Field").removePrefix(receiver.lowercase()).replaceFirstChar(Char::lowercase)
-                swarm.round {
-                    if (localId != 1) return@round mapNeighborhood { it }.let { }
-                    val shape = mapNeighborhood { it }
-                    val kinds = method.parameterTypes.indices.map { method.typeNamed(it, receiver) }
-                    val isShift = operator in setOf("shl", "shr", "ushr")
-                    val arguments = kinds.mapIndexed { index, kind ->
-                        if (method.parameterTypes[index] ==
-                            Field::class.java
-                        ) {
-                            shape.mapValues { number(kind) }
-                        } else if (isShift) {
-                            5
-                        } else {
-                            number(kind)
-                        }
-                    }
-                    fun at(index: Int, id: Int) =
-                        arguments[index].let { if (it is Field<*, *>) (it.all.list.first { e -> e.id == id }.value) else it } as Number
-                    val result = method.invoke(lifted, *arguments.toTypedArray()) as Field<*, *>
-                    for (entry in result.all.list) {
-                        val id = entry.id as Int
-                        val expected = when {
-                            arguments.size == 1 -> unary(operator, at(0, id))
-                            isShift -> shift(operator, at(0, id), at(1, id).toInt())
-                            else -> binary(operator, at(0, id), at(1, id))
-                        }
-                        assertEquals(expected, entry.value, "${method.name} of ${arguments.map { it.toString() }}")
-                    }
-                    called++
+    @TestFactory
+    fun `every function does for each entry what Kotlin's own does`() = objects().map { name ->
+        val lifted = Class.forName(name).kotlin
+        dynamicTest(name.removePrefix("it.unibo.collektive.stdlib.")) {
+            val plain = PlainFunctions(lifted)
+            inRound { shape ->
+                for (function in lifted.declaredMemberExtensionFunctions) {
+                    if (function.typeParameters.any { it.isReified }) continue
+                    compare(checkNotNull(lifted.objectInstance), function, plain.of(function), shape)
                 }
             }
         }
-        assertTrue(called > 250, "only $called operators")
     }
 
-    @Test
-    fun `every operator on truth values applies the plain one to each entry`() {
-        val swarm = Swarm(4)
-        for (id in 0..2) swarm.link(id, 3)
-        swarm.round { mapNeighborhood { it } }
-        swarm.round {
-            val shape = mapNeighborhood { it }
-            if (localId != 3) return@round
-            val a = shape.mapValues { it and 1 == 1 }
-            val b = shape.mapValues { it and 2 == 2 }
-            fun expect(field: Field<Int, Any>, plain: (Boolean, Boolean) -> Any) =
-                assertEquals((0..3).associateWith { plain(it and 1 == 1, it and 2 == 2) }, field.all.toMap())
-            with(FieldedBooleans) {
-                expect(a and b) { x, y -> x && y }
-                expect(a or b) { x, y -> x || y }
-                expect(a xor b) { x, y -> x != y }
-                expect(a and true) { x, _ -> x }
-                expect(a or false) { x, _ -> x }
-                expect(a xor true) { x, _ -> !x }
-                expect(!a) { x, _ -> !x }
-                expect(a.compareTo(b)) { x, y -> x.compareTo(y) }
-                expect(a.compareTo(true)) { x, _ -> x.compareTo(true) }
+    /** Until [function] has succeeded three times, with all kinds of values. */
+    private fun compare(lifted: Any, function: KFunction<*>, plain: (List<Any?>) -> Any?, shape: Field<Int, Int>) {
+        val types = (listOf(checkNotNull(function.extensionReceiverParameter)) + function.valueParameters).map { it.type }
+        val isUnordered = function.name == "shuffled" && types.size == 1
+        fun result(value: Any?) = if (isUnordered) (value as List<*>).groupBy { it } else shown(value)
+        var succeeded = 0
+        for (trial in 0 until 20_000) {
+            fun value(place: Int, id: Int): Any? {
+                val type = types[place]
+                return if (type.classifier == Field::class) {
+                    RandomValues.of(checkNotNull(type.arguments[1].type), 31 * (31 * trial + place) + id + 1)
+                } else {
+                    RandomValues.of(type, 31 * (31 * trial + place))
+                }
             }
+            // Neighbours first, as the field.
+            val expected = runCatching { listOf(0, 2, 1).associateWith { id -> result(plain(types.indices.map { value(it, id) })) } }
+            val found = runCatching {
+                val fields = types.indices.map { place ->
+                    if (types[place].classifier == Field::class) shape.mapValues { value(place, it) } else value(place, 0)
+                }
+                (call(function, lifted, fields) as Field<*, *>).all.list.associate { it.id to result(it.value) }
+            }
+            val areEqual = if (expected.isSuccess) {
+                found == expected
+            } else {
+                found.exceptionOrNull()?.javaClass ==
+                    expected.exceptionOrNull()?.javaClass
+            }
+            // Shown here only: reflection needs milliseconds for the text of a function.
+            if (!areEqual) fail("$function, trial $trial: expected $expected, found $found")
+            if (expected.isSuccess && ++succeeded == 3) return
         }
+        error("$function never succeeded")
+    }
+
+    private fun call(function: KFunction<*>, lifted: Any, values: List<Any?>): Any? = try {
+        function.call(lifted, *values.toTypedArray())
+    } catch (e: InvocationTargetException) {
+        throw e.targetException
+    }
+
+    /** What tells two results apart: the contents of those that have no `equals` of their own. */
+    private fun shown(value: Any?): Any? = when (value) {
+        is BooleanArray -> value.toList()
+        is ByteArray -> value.toList()
+        is CharArray -> value.toList()
+        is Sequence<*> -> value.map(::shown).toList()
+        is Iterator<*> -> value.asSequence().map(::shown).toList()
+        is Grouping<*, *> -> groups(value)
+        is Map<*, *> -> value.mapValues { shown(it.value) } to runCatching { defaulted(value) }.getOrNull()
+        is Map.Entry<*, *> -> value.key to value.value
+        is Set<*> -> value
+        is Collection<*> -> value.map(::shown)
+        is ClosedRange<*> -> value
+        is Iterable<*> -> value.map(::shown)
+        else -> value
+    }
+
+    private fun <T> groups(grouping: Grouping<T, *>) = grouping.sourceIterator().asSequence().map { it to grouping.keyOf(it) }.toList()
+
+    @Suppress("UNCHECKED_CAST")
+    private fun defaulted(map: Map<*, *>) = (map as Map<Int, Any?>).getValue(100)
+
+    @Test
+    fun `a reified type is the caller's`() = inRound { shape ->
+        val values = shape.mapValues { listOf(it, "$it") }
+        assertEquals((0..2).associateWith { listOf("$it") }, values.filterIsInstance<String, Int>().all.toMap())
     }
 
     @Test
@@ -218,5 +116,30 @@ class FieldedTest {
                 (mapNeighborhood { it } + narrow).local
             }
         }
+    }
+
+    /** Runs [check] in a round of a device with the neighbours 0 and 2, with the field of all ids. */
+    private fun inRound(check: (Field<Int, Int>) -> Unit) {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        var runs = 0
+        swarm.rounds(2) {
+            val shape = mapNeighborhood { it }
+            if (localId == 1 && shape.neighborCount == 2) {
+                runs++
+                check(shape)
+            }
+        }
+        assertTrue(runs > 0)
+    }
+
+    /** The names of all objects: each class of the library is one, or is inside of one. */
+    private fun objects(): List<String> {
+        val place = File(FieldedInts::class.java.protectionDomain.codeSource.location.toURI())
+        val files = if (place.isFile) {
+            JarFile(place).use { jar -> jar.entries().toList().map { it.name } }
+        } else {
+            place.walk().map { it.relativeTo(place).invariantSeparatorsPath }.toList()
+        }
+        return files.filter { it.endsWith(".class") && '$' !in it }.map { it.removeSuffix(".class").replace('/', '.') }.sorted()
     }
 }

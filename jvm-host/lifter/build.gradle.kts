@@ -1,0 +1,7 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
+
+dependencies {
+    implementation(libs.kotlin.reflect)
+}
