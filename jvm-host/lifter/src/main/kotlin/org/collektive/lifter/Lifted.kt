@@ -23,13 +23,16 @@ internal class Lifted private constructor(private val plain: Plain, private val 
             listOf("public", "inline".takeIf { hasReified() }, "operator".takeIf { plain.isOperator }, "infix".takeIf { plain.isInfix })
         val head = (modifiers.filterNotNull() + "fun").joinToString(" ")
         val jvmName = if (isNamed) "@JvmName(\"${plain.name}${types.indices.joinToString("", transform = ::letters)}\")\n" else ""
-        return "$jvmName$head ${generics.joinToString(prefix = "<", postfix = ">")} ${type(0)}.${plain.name}($parameters): " +
+        val resolved = if (isNamed && takesFunction()) RESOLVED_BY_LAMBDA else ""
+        return "$jvmName$resolved$head ${generics.joinToString(prefix = "<", postfix = ">")} ${type(0)}.${plain.name}($parameters): " +
             "Field<ID, ${plain.result.source()}> =\n    ${body()}"
     }
 
     private fun type(place: Int) = types[place].source().let { if (place in fields) "Field<ID, $it>" else it }
 
     private fun letters(place: Int) = type(place).replace("ID", "").filter(Char::isLetterOrDigit)
+
+    private fun takesFunction() = types.indices.any { it !in fields && "Function" in type(it) }
 
     private fun hasReified() = plain.typeParameters.any { it.isReified }
 
@@ -58,6 +61,9 @@ internal class Lifted private constructor(private val plain: Plain, private val 
             return (1 until (1 shl places.size)).map { set -> Lifted(plain, places.filterIndexed { index, _ -> set shr index and 1 == 1 }) }
                 .filter { 0 in it.fields || plain.parameters.size + 1 == places.size }
         }
+
+        /** As Kotlin's own overloads have it: the result of a lambda chooses between `Iterable` and `Sequence`. */
+        private const val RESOLVED_BY_LAMBDA = "@OverloadResolutionByLambdaReturnType\n"
 
         private val IMPORTED = Regex("^kotlin\\.(collections\\.|ranges\\.|sequences\\.)?(?=[A-Z])")
 

@@ -6,6 +6,7 @@ import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.stdlib.ints.FieldedInts
 import it.unibo.collektive.stdlib.ints.FieldedInts.plus
 import it.unibo.collektive.stdlib.iterables.FieldedCollectionsExtensions.filterIsInstance
+import it.unibo.collektive.stdlib.iterables.FieldedCollectionsExtensions.flatMap
 import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
@@ -105,6 +106,14 @@ class FieldedTest {
     fun `a reified type is the caller's`() = inRound { shape ->
         val values = shape.mapValues { listOf(it, "$it") }
         assertEquals((0..2).associateWith { listOf("$it") }, values.filterIsInstance<String, Int>().all.toMap())
+    }
+
+    @Test
+    fun `the result of a lambda chooses the overload`() = inRound { shape ->
+        val values = shape.mapValues { listOf(it) }
+        val expected = (0..2).associateWith { listOf(it, it) }
+        assertEquals(expected, values.flatMap { listOf(it, it) }.all.toMap())
+        assertEquals(expected, values.flatMap { sequenceOf(it, it) }.all.toMap())
     }
 
     @Test
