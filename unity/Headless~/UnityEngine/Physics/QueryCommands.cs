@@ -98,7 +98,7 @@ namespace UnityEngine
             {
                 ref var command = ref all[index];
                 var query = command.queryParameters;
-                var count = Math.Min(maxHits, Queries.Overlaps(command.point, command.radius, found, query.layerMask, query.hitTriggers));
+                var count = Math.Min(maxHits, Physics.OverlapSphereNonAlloc(command.point, command.radius, found, query.layerMask, query.hitTriggers));
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 for (var place = 0; place < count; place++) hits[place].collider = found[place];
                 if (count < maxHits) hits[count] = default;

@@ -36,7 +36,7 @@ public class HostJars : Plugin<Project> {
     }
 
     private companion object {
-        val LIBRARY_MODULES = listOf("dsl", "runtime", "links", "stdlib")
+        val LIBRARY_MODULES = listOf("dsl", "runtime", "links", "stdlib", "fielded")
         val LIBRARY_GROUPS = listOf("org.jetbrains.kotlinx", "io.arrow-kt")
         const val ADAPTER_MODULE = "mailbox"
     }
