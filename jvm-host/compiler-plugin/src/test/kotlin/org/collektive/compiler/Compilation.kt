@@ -61,8 +61,8 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             val folder = Files.createTempDirectory("compilation")
             Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
             val text = source.trimIndent()
-            // File annotations come before imports, which share the first line so that lines count as written.
-            val firstCode = if (text.startsWith("@file:")) text.indexOf('\n') else 0
+            // A file annotation or a package comes before imports, which share the first line so that lines count as written.
+            val firstCode = if (text.startsWith("@file:") || text.startsWith("package ")) text.indexOf('\n') else 0
             val file = folder.resolve("$FILE.kt").toFile()
             file.writeText(text.substring(0, firstCode) + " " + IMPORTS + text.substring(firstCode))
             val reports = mutableListOf<Report>()
