@@ -3,6 +3,7 @@
 package org.collektive.compiler
 
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.ints.FieldedInts
 import it.unibo.collektive.stdlib.util.Point2D
 import kotlinx.serialization.KSerializer
 import org.collektive.api.Program
@@ -73,6 +74,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
                     listOf(
                         Aggregate::class,
                         Point2D::class,
+                        FieldedInts::class,
                         Program::class,
                         KSerializer::class,
                         Unit::class,
