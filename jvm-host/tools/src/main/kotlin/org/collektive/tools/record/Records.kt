@@ -42,8 +42,8 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
             "diff" -> diff(arguments.drop(1), report)
 
             else -> throw RecordRefused(
-                "usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] [--out RECORD] | " +
-                    "diff A B",
+                "usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] " +
+                    "[--out RECORD] | diff A B",
             )
         }
     } catch (e: RecordException) {
