@@ -22,6 +22,16 @@ struct Outside final : PxQueryFilterCallback {
     }
 };
 
+// The same for all hits of a ray: with eNO_BLOCK, PhysX keeps those that the filter leaves out.
+struct AllOutside final : PxQueryFilterCallback {
+    PxQueryHitType::Enum preFilter(const PxFilterData &, const PxShape *, const PxRigidActor *, PxHitFlags &) override {
+        return PxQueryHitType::eTOUCH;
+    }
+    PxQueryHitType::Enum postFilter(const PxFilterData &, const PxQueryHit &hit, const PxShape *, const PxRigidActor *) override {
+        return static_cast<const PxLocationHit &>(hit).hadInitialOverlap() ? PxQueryHitType::eNONE : PxQueryHitType::eTOUCH;
+    }
+};
+
 physics_hit to_hit(const PxLocationHit &from, const PxShape &shape) {
     const bool mesh = shape.getGeometry().getType() == PxGeometryType::eTRIANGLEMESH;
     return {int32_t(intptr_t(shape.userData)), mesh ? int32_t(from.faceIndex) : PHYSICS_NONE, vec(from.position), vec(from.normal),
@@ -86,10 +96,10 @@ void physics_raycast(physics_world *world, const physics_ray *rays, int32_t coun
 
 int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const physics_filter *filter, physics_hit *hits,
                             int32_t capacity) {
-    Outside outside;
+    AllOutside outside;
     PxRaycastBuffer found(room<PxRaycastHit>(capacity), PxU32(capacity));
     world->scene->raycast(vec(ray->origin), vec(ray->direction), std::min(ray->distance, FARTHEST), found, HIT,
-                          query_filter(*filter, ALL | PxQueryFlag::ePOSTFILTER | PxQueryFlag::eNO_BLOCK), &outside);
+                          query_filter(*filter, ALL | PxQueryFlag::ePOSTFILTER), &outside);
     for (PxU32 index = 0; index < found.nbTouches; index++) hits[index] = to_hit(found.touches[index]);
     return int32_t(found.nbTouches);
 }
