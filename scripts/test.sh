@@ -328,7 +328,7 @@ compile_fuzzed() {
   csc "$folder/TestSchemas.dll" "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll" "@$folder/sources.rsp"
   cp "$CSHARP"/{RoundTrip.exe,Collektive.FlatBuffers.dll,Collektive.Bridge.dll} "$folder"
   mkdir -p "$folder/classes"
-  compile_jvm "$folder/jvm" "$folder/classes"
+  compile_jvm "$LIBRARY_JAR" "$folder/jvm" "$folder/classes"
 }
 
 # The suites below use other commands, which lock build/ themselves.

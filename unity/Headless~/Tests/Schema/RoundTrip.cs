@@ -43,7 +43,7 @@ namespace Collektive.Headless.Tests.Schema
                     var globalOffset = -1;
                     if (globals != null)
                     {
-                        var draft = (Draft)globals.GetType().GetField("Data").GetValue(globals);
+                        var draft = (Draft)Inner(globals, "Data");
                         random.Fill(draft);
                         text.Append(Dump.Of(draft)).Append('\n');
                         globalOffset = globals.Write(builder);
@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Schema
         private static void Fill(SensorBuffer sensors, RandomData random, int count, StringBuilder text)
         {
             sensors.EnsureCapacity(count);
-            var items = (Array)sensors.GetType().GetField("Items").GetValue(sensors);
+            var items = (Array)Inner(sensors, "Items");
             for (var i = 0; i < count; i++)
             {
                 sensors.Clear(i);
@@ -68,6 +68,10 @@ namespace Collektive.Headless.Tests.Schema
                 text.Append(Dump.Of(items.GetValue(i))).Append('\n');
             }
         }
+
+        private static object Inner(object buffer, string field) => buffer.GetType()
+            .GetField(field, System.Reflection.BindingFlags.Public | System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)
+            .GetValue(buffer);
 
         private static object Mirror(RandomData random, Type type) => typeof(RandomData)
             .GetMethod(nameof(RandomData.Mirror), System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)
