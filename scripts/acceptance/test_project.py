@@ -78,7 +78,7 @@ class AForeignProject(Project):
 
     def test_no_start_waits_for_the_events_of_a_recorder_that_nobody_asked_for(self):
         self.change("lamps.json", '"-Xss2m"', '"-Xlog:class+load:file=classes.txt"')
-        result = self.run_it()
+        result = self.run_it("--trust-jvm")
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.path("classes.txt")) as file:
             classes = file.read()
