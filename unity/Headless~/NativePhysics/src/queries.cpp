@@ -10,25 +10,17 @@ namespace {
 const float FARTHEST = 1e8f; // metres: what PhysX accepts for sweeps
 const PxHitFlags HIT = PxHitFlag::ePOSITION | PxHitFlag::eNORMAL;
 
-// Leaves out what a ray or sweep starts in, and one actor.
+// Leaves out what a ray or sweep starts in, and one actor. With eNO_BLOCK, PhysX keeps what postFilter leaves out: a ray that
+// asks for all hits has `found` say that they touch.
 struct Outside final : PxQueryFilterCallback {
     const PxRigidActor *self = nullptr;
+    PxQueryHitType::Enum found = PxQueryHitType::eBLOCK;
 
     PxQueryHitType::Enum preFilter(const PxFilterData &, const PxShape *, const PxRigidActor *actor, PxHitFlags &) override {
-        return actor == self ? PxQueryHitType::eNONE : PxQueryHitType::eBLOCK;
+        return actor == self ? PxQueryHitType::eNONE : found;
     }
     PxQueryHitType::Enum postFilter(const PxFilterData &, const PxQueryHit &hit, const PxShape *, const PxRigidActor *) override {
-        return static_cast<const PxLocationHit &>(hit).hadInitialOverlap() ? PxQueryHitType::eNONE : PxQueryHitType::eBLOCK;
-    }
-};
-
-// The same for all hits of a ray: with eNO_BLOCK, PhysX keeps those that the filter leaves out.
-struct AllOutside final : PxQueryFilterCallback {
-    PxQueryHitType::Enum preFilter(const PxFilterData &, const PxShape *, const PxRigidActor *, PxHitFlags &) override {
-        return PxQueryHitType::eTOUCH;
-    }
-    PxQueryHitType::Enum postFilter(const PxFilterData &, const PxQueryHit &hit, const PxShape *, const PxRigidActor *) override {
-        return static_cast<const PxLocationHit &>(hit).hadInitialOverlap() ? PxQueryHitType::eNONE : PxQueryHitType::eTOUCH;
+        return static_cast<const PxLocationHit &>(hit).hadInitialOverlap() ? PxQueryHitType::eNONE : found;
     }
 };
 
@@ -96,7 +88,8 @@ void physics_raycast(physics_world *world, const physics_ray *rays, int32_t coun
 
 int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const physics_filter *filter, physics_hit *hits,
                             int32_t capacity) {
-    AllOutside outside;
+    Outside outside;
+    outside.found = PxQueryHitType::eTOUCH;
     PxRaycastBuffer found(room<PxRaycastHit>(capacity), PxU32(capacity));
     world->scene->raycast(vec(ray->origin), vec(ray->direction), std::min(ray->distance, FARTHEST), found, HIT,
                           query_filter(*filter, ALL | PxQueryFlag::ePOSTFILTER), &outside);

@@ -40,9 +40,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         process.outputStream.close()
         val messages = process.inputStream.bufferedReader().readText().trim()
         val code = process.waitFor()
-        if (code >
-            SIGNAL
-        ) {
+        if (code > SIGNAL) {
             throw GeneratorException(
                 "${schema.fileName}:1: flatc cannot read this file: it ended with signal ${code - SIGNAL}; make it simpler",
             )

@@ -49,7 +49,7 @@ internal class Kotlin(private val schema: UserSchema) {
         "fields" to type.fields.map { mapOf("member" to member(it), "type" to kotlin(type, it), "default" to default(type, it)) },
     )
 
-    private fun documentation(text: String) = SchemaText.withoutLineEnds(text).replace("*/", "*&#47;").replace("/*", "/&#42;")
+    private fun documentation(text: String) = SchemaText.withoutCommentEnds(text)
 
     private fun kotlin(owner: Composite, field: Field): String = kotlin(field.type) + if (isNullable(owner, field)) "?" else ""
 

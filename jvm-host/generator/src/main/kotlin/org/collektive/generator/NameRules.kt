@@ -49,9 +49,7 @@ internal class NameRules(
                 "the namespace ${namespace.joinToString(".")} is that of a library, or a name in generated code; rename the namespace",
             )
         }
-        if (name.length >
-            MAX_NAME
-        ) {
+        if (name.length > MAX_NAME) {
             refuse(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
         }
     }

@@ -79,9 +79,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private fun root(name: String): Composite? {
         val found = objects().filter { simple(it.second.name()) == name }
-        if (found.size >
-            1
-        ) {
+        if (found.size > 1) {
             throw error("$name is defined twice: ${found.joinToString(" and ") { it.second.name() }}", found[1].second.name())
         }
         return found.firstOrNull()?.let { composite(it.first) }
@@ -244,9 +242,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         fun visit(type: Composite, outer: List<Composite>) {
             if (outer.size > MAX_DEPTH) throw error(TOO_DEEP, "${type.name}")
             for (field in type.fields) {
-                if (++ways >
-                    MAX_WAYS
-                ) {
+                if (++ways > MAX_WAYS) {
                     throw error(
                         "types contain each other in more than $MAX_WAYS ways; use fewer or flatter ones",
                         "${outer.first().name}",
@@ -258,9 +254,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
         for (root in user.roots) visit(root, listOf(root))
         for (struct in user.structs) {
-            if (slots(struct) >
-                MAX_PARAMETERS
-            ) {
+            if (slots(struct) > MAX_PARAMETERS) {
                 throw error("it has more numbers than a call can pass, $MAX_PARAMETERS; use a table", "${struct.name}")
             }
         }

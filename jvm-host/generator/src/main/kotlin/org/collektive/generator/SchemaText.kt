@@ -67,9 +67,7 @@ internal class SchemaText(private val text: String) {
         }
         if (part == "{" || part == "(") depth++
         if (part == "}" || part == ")") depth--
-        if (part == ";" && depth == 0 &&
-            words.contains("namespace")
-        ) {
+        if (part == ";" && depth == 0 && words.contains("namespace")) {
             namespace = words.toList().drop(words.indexOf("namespace") + 1).joinToString("")
         }
         if (part in END_OF_STATEMENT) words.clear()
@@ -101,9 +99,12 @@ internal class SchemaText(private val text: String) {
         /** A comment of one line without what ends a comment, or starts one, in Java, Kotlin or C#. */
         private fun harmless(comment: String): String {
             val content = comment.indexOfFirst { it != '/' }.coerceIn(2, 3).coerceAtMost(comment.length)
-            val text = withoutLineEnds(comment.substring(content)).replace("\\", "&#92;").replace("*/", "*&#47;").replace("/*", "/&#42;")
+            val text = withoutCommentEnds(comment.substring(content)).replace("\\", "&#92;")
             return comment.substring(0, content) + if (text.startsWith("/")) "&#47;" + text.drop(1) else text
         }
+
+        /** [text] on one line, without what ends or starts a block comment. */
+        fun withoutCommentEnds(text: String): String = withoutLineEnds(text).replace("*/", "*&#47;").replace("/*", "/&#42;")
 
         /** [text] with spaces for all that ends a line in some language, and for what writes from right to left. */
         fun withoutLineEnds(text: String): String = text.map {

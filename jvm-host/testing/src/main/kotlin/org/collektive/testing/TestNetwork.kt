@@ -168,10 +168,9 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             val found = ServiceLoader.load(RuntimeProvider::class.java).toList()
             val provider = if (name == null) found.find { it.name == "builtIn" } ?: found.firstOrNull() else found.find { it.name == name }
             checkNotNull(provider) {
-                "the runtime ${name.orEmpty()} is not on the class path, which has ${found.map(
-                    RuntimeProvider::name,
-                )}: add collektive-library.jar " +
-                    "for the built-in one, or collektive-adapter.jar and Collektive's own jars"
+                val names = found.map(RuntimeProvider::name)
+                "${if (name == null) "a runtime" else "the runtime $name"} is not on the class path, which has $names: add " +
+                    "collektive-library.jar for the built-in one, or collektive-adapter.jar and Collektive's own jars"
             }
             return provider.runtimes(ViewRule)
         }

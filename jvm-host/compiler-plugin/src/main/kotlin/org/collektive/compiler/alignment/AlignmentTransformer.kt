@@ -125,9 +125,7 @@ internal class AlignmentTransformer(
         val outerRegion = region
         val outerEntry = entry
         source = sourceIn(declaration) ?: outerSource
-        if (outerSource == null && source != null &&
-            declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
-        ) {
+        if (outerSource == null && source != null && declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA) {
             entry = declaration
         }
         if (declaration in alignedBodies) region = Region(outerRegion)

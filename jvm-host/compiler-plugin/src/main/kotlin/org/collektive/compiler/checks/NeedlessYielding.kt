@@ -15,9 +15,7 @@ import org.jetbrains.kotlin.text
 internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {
-        if (expression.callee?.callableId?.classId != DslNames.yieldingContext ||
-            expression.calleeReference.name != DslNames.yielding
-        ) {
+        if (expression.callee?.callableId?.classId != DslNames.yieldingContext || expression.calleeReference.name != DslNames.yielding) {
             return
         }
         val lambda = expression.lambda ?: return

@@ -117,9 +117,7 @@ fun Aggregate<Int>.branchWhen(s: Senses): Any? {
 }
 fun Aggregate<Int>.branchShared(s: Senses): Any? {
     val k = neighboring(s.flag).neighbors.values.list.count { it }
-    return if (k >
-        1
-    ) {
+    return if (k > 1) {
         share(0) { f -> f.neighbors.size + f.neighbors.values.max(0) % 7 }
     } else {
         -1
@@ -316,9 +314,7 @@ fun Aggregate<Int>.breakLoop(s: Senses): Any? {
     var r = 0
     for (i in 0..4) {
         alignedOn(i) { r += helper(s.number) }
-        if (i >=
-            s.number % 3
-        ) {
+        if (i >= s.number % 3) {
             break
         }
     }

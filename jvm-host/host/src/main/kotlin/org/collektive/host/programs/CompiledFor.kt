@@ -43,17 +43,9 @@ internal class CompiledFor(private val library: AggregateLibrary) {
             if (!entry.endsWith(".class")) continue
             for (name in ClassLinks.of(bytes)) {
                 if (PREFIXES.none(name::startsWith) || !known.add(name) || "$name.class" in own || library.has(name)) continue
-                throw refused(
-                    "the jar ${jar.path} links to ${name.replace('/', '.')}, which the $library does not have: " +
-                        if (name.startsWith(
-                                PLUGIN,
-                            )
-                        ) {
-                            "it was compiled for the built-in runtime"
-                        } else {
-                            "one of its jars is missing or of another version"
-                        },
-                )
+                val isOurs = name.startsWith(PLUGIN)
+                val reason = if (isOurs) "it was compiled for the built-in runtime" else "one of its jars is missing or of another version"
+                throw refused("the jar ${jar.path} links to ${name.replace('/', '.')}, which the $library does not have: $reason")
             }
         }
     }

@@ -46,9 +46,7 @@ class ErrorsTest {
             graph.now += 2
             val results = route.round(graph, listOf(0, 1, 2)) {
                 val count = call("count", 1) { evolve(0) { it + 1 } }
-                if (fails &&
-                    localId == 1
-                ) {
+                if (fails && localId == 1) {
                     call("helper", 7) { program() }
                 } else {
                     count to call("near", 2) { neighboring(count).neighbors.list.size }
