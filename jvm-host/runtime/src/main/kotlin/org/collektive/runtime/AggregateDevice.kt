@@ -99,13 +99,11 @@ internal class AggregateDevice<ID : Any>(
     }
 
     private fun clash(path: PathNode, value: Any?): AlignmentClashException {
-        val sent = running.sentAt(path)
-        val previous = if (sent ===
-            RoundRecord.Nothing
-        ) {
-            null
-        } else {
-            PayloadRepresentation((sent as? Field<*, *>)?.localValue ?: sent, InMemory)
+        val previous = when (val sent = running.sentAt(path)) {
+            RoundRecord.Nothing -> null
+            is Field<*, *> -> PayloadRepresentation(sent.localValue, InMemory)
+            is AllButOne -> PayloadRepresentation(sent.others, InMemory)
+            else -> PayloadRepresentation(sent, InMemory)
         }
         return AlignmentClashException(FullPath(tokens()), previous, SharedData<ID, Any?>(value), place)
     }
@@ -153,26 +151,38 @@ internal class AggregateDevice<ID : Any>(
     /** The value on link [index] for this device at [path], or [RoundRecord.Nothing]. */
     private fun received(inbox: Inbox, index: Int, path: PathNode): Any? {
         val export = inbox.export(index) as RoundRecord? ?: return RoundRecord.Nothing
-        val value = export.sentAt(path)
-        if (value !is Field<*, *>) return value
-        @Suppress("UNCHECKED_CAST")
-        val field = value as Field<ID, Any?>
-        return if (inbox.wasKnown(index)) field.getOrLocal(localId) else field.localValue
+        return when (val sent = export.sentAt(path)) {
+            is AllButOne -> if (sent.id == localId && inbox.wasKnown(index)) sent.value else sent.others
+
+            is Field<*, *> -> {
+                @Suppress("UNCHECKED_CAST")
+                val field = sent as Field<ID, Any?>
+                if (inbox.wasKnown(index)) field.getOrLocal(localId) else field.localValue
+            }
+
+            else -> sent
+        }
     }
 
     override fun <T> send(path: PathNode, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
-        val default = values.localValue
-        var isConstant = true
+        val others = values.localValue
+        var one = -1
+        var exceptions = 0
         if (!values.isConstant) {
             for (index in 0 until values.neighborCount) {
                 val value = values.neighborValue(index)
-                if (value === default) continue
-                isConstant = false
+                if (value === others) continue
+                one = index
+                exceptions++
                 allow(value)
             }
         }
-        // A constant saves each receiver the search for its value.
-        running.send(path, if (isConstant) default else values)
+        val sent = when (exceptions) {
+            0 -> others
+            1 -> AllButOne(values.neighborId(one), values.neighborValue(one), others)
+            else -> values
+        }
+        running.send(path, sent)
     }
 
     override fun <T> sendToAll(path: PathNode, value: T, sharing: DataSharingMethod<T>) {

@@ -1,6 +1,5 @@
 package org.collektive.runtime
 
-import it.unibo.collektive.aggregate.Field
 import org.collektive.spi.Export
 
 /** The outcome of one round of a device: at each path the value stored and the value sent. */
@@ -19,7 +18,7 @@ internal class RoundRecord : Export() {
     private var count = 0
 
     // The type check loads the value's header.
-    override fun touch(): Int = if (sent0 is Field<*, *> || sent1 is Field<*, *>) 1 else 0
+    override fun touch(): Int = if (sent0 is AllButOne || sent1 is AllButOne) 1 else 0
 
     fun clear() {
         path0 = null
@@ -70,7 +69,7 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** Sends [value]; a `Field` is one value per receiver. */
+    /** Sends [value]; a `Field` or [AllButOne] holds a value per receiver. */
     fun send(path: PathNode, value: Any?) {
         if (path === path0) {
             sent0 = value

@@ -93,21 +93,34 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     fun run(source: Boolean, local: V, sharing: DataSharingMethod<PathValue<ID, V, D>?>): V = metric.context.aligned("gradientCast") {
         metric.context.exchanging<PathValue<ID, V, D>?, V>(null, sharing) { received ->
             if (source) {
-                received.mapToConstant(PathValue(bottom, local, HopPath.empty<ID>())).yielding { local }
+                received.mapToConstant(atSource(local, received.local.value)).yielding { local }
             } else {
                 spread(received).yielding { this.local.value.let { if (it == null) local else it.data } }
             }
         }
     }
 
+    /** What a source offers. Returns [former] itself if nothing changed. */
+    private fun atSource(local: V, former: PathValue<ID, V, D>?): PathValue<ID, V, D> =
+        former?.takeIf { it.length == 0 && it.distance == bottom && it.data == local } ?: PathValue(bottom, local, HopPath.empty<ID>())
+
     /** The field to send; its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
-        val offers = offers(received)
-        val myself = received.context.localId
-        val best = nextCoherent(offers, myself) ?: return received.mapToConstant(null)
+        val choice = received.context.aligned("choice") {
+            received.context.evolve<Choice<ID, V, D>?>(null) { former -> choose(offers(received), received.context.localId, former) }
+        }
+        val best = choice?.best ?: return received.mapToConstant(null)
         val taken = take(best, received.local.value)
-        val other = nextCoherent(offers, myself)?.let { take(it, null) }
-        return received.map { if (it.id == best.id) other else taken }
+        return received.map { if (it.id == best.id) choice.returned else taken }
+    }
+
+    /** The choice among [offers]. Takes it over from the [former] round when the offers are the same, without a look at their paths. */
+    private fun choose(offers: List<Offer<ID, V, D>>, myself: ID, former: Choice<ID, V, D>?): Choice<ID, V, D> {
+        val settled = former?.takeIf { it.isAmong(offers, maxDiameter) }
+        val best = if (settled != null) settled.best else nextCoherent(offers, myself)
+        val second = if (settled != null) settled.second else best?.let { nextCoherent(offers, myself) }
+        val returned = second?.let { take(it, former?.returned) }
+        return settled?.takeIf { it.returned === returned } ?: Choice(settled?.offers ?: offers, maxDiameter, best, second, returned)
     }
 
     /** What each neighbour offers, in the field's order. */
@@ -171,6 +184,27 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 }
 
+/**
+ * What a device chose in a round among [offers] of at most [maxDiameter] hops: the [best] one for itself and all neighbours but the one
+ * that made it, which gets [returned] by way of the [second] best.
+ */
+private class Choice<ID : Any, V, D : Comparable<D>>(
+    val offers: List<Offer<ID, V, D>>,
+    val maxDiameter: Int,
+    val best: Offer<ID, V, D>?,
+    val second: Offer<ID, V, D>?,
+    val returned: PathValue<ID, V, D>?,
+) {
+    /** Whether this is the choice among [others] too: they are the same as the [offers]. */
+    fun isAmong(others: List<Offer<ID, V, D>>, othersMaxDiameter: Int): Boolean {
+        if (othersMaxDiameter != maxDiameter || others.size != offers.size) return false
+        for (index in others.indices) {
+            if (!others[index].isSameAs(offers[index])) return false
+        }
+        return true
+    }
+}
+
 /** What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here. */
 private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, V, D>?) :
     Comparable<Offer<ID, V, D>> {
@@ -187,6 +221,10 @@ private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val
         val others = other.path ?: return false
         return mine.size <= others.size && compareTo(other) != 0 && !mine.agreesWith(id, others, other.id)
     }
+
+    /** Whether the [other] is the same offer. Values are compared by identity: settled devices of this process send the same object. */
+    fun isSameAs(other: Offer<ID, V, D>): Boolean =
+        value === other.value && id == other.id && step == other.step && distance == other.distance
 
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)
 }

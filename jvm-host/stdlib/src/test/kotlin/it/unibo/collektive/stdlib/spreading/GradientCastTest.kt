@@ -118,4 +118,31 @@ class GradientCastTest {
         val seen = swarm.round { hopGradientCast(localId == 0, boxes[localId]) }
         assertTrue(seen.values.all { it === boxes[0] })
     }
+
+    @Test
+    fun `a settled network takes up what changes although all offers stay`() = perturbed { swarm, atOnce, random ->
+        val source = swarm.ids.random(random)
+        val lengths = swarm.shortestPaths(listOf(source)).mapValues { (_, path) -> path.first }
+        for ((stretch, unit) in listOf(1.0 to 1.0, 2.0 to 1.0, 2.0 to 4.0)) {
+            val seen = swarm.rounds(2 * swarm.size, atOnce) {
+                gradientCast(
+                    localId == source,
+                    0.0,
+                    with(swarm) { lengths() },
+                    accumulateData = { fromSource, toNeighbor, _ -> unit * (fromSource / stretch + toNeighbor) },
+                    accumulateDistance = { fromSource, toNeighbor -> fromSource + stretch * toNeighbor },
+                )
+            }
+            assertEquals(swarm.ids.associateWith { unit * (lengths[it] ?: 0.0) }, seen, "stretched by $stretch, in units of $unit")
+        }
+    }
+
+    @Test
+    fun `a settled network takes up another maxDiameter`() {
+        val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
+        for (limit in listOf(Int.MAX_VALUE, 1, 2)) {
+            val seen = swarm.rounds(10) { hopGradientCast(localId == 0, localId == 0, limit) }
+            assertEquals(swarm.ids.associateWith { it == 0 || it - 1 <= limit }, seen)
+        }
+    }
 }
