@@ -19,6 +19,6 @@ val lift = tasks.register<JavaExec>("lift") {
     outputs.dir(sources)
 }
 
-kotlin.sourceSets.main {
+kotlin.sourceSets.named("main") {
     kotlin.srcDir(lift)
 }
