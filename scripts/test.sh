@@ -338,9 +338,11 @@ test_page() {
   "$ROOT/collektive" demo --nodes 60 --seconds 10 --out "$BUILD/page-demo" --overwrite
   assembly SampleReplay.exe "$ROOT/unity/Headless~/SampleReplay" "$ROOT/unity/Headless~/Replay" -- "-r:$NEWTONSOFT" -target:exe
   mkdir -p "$sample"
-  mono-sgen "$CSHARP/SampleReplay.exe" "$BUILD/replay.html" "$sample/replay.html"
+  mono-sgen "$CSHARP/SampleReplay.exe" "$BUILD/replay.html" "$sample/replay.html" 60 200
+  mono-sgen "$CSHARP/SampleReplay.exe" "$BUILD/replay.html" "$sample/large.html" 10000 60
   page_tests "$1/demo.xml" "$BUILD/page-demo/replay.html"
   page_tests "$1/sample.xml" "$sample/replay.html" "$sample/replay.html.expected.json"
+  page_tests "$1/large.xml" "$sample/large.html" "$sample/large.html.expected.json"
 }
 
 # page_tests RESULTS.xml PAGE [EXPECTED.json]

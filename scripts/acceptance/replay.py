@@ -9,68 +9,73 @@ import struct
 def read(path):
     """Metadata, and a list of frames: (time, {id: (x, y, z, scalar or None)}, set of links)."""
     text = open(path, encoding="utf-8").read()
-    data = gzip.decompress(base64.b64decode(re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1)))
-    assert data[:4] == b"CLKR", "magic"
-    version, length = struct.unpack_from("<II", data, 4)
-    assert version == 1
-    metadata = json.loads(data[12:12 + length])
-    at = 12 + length
-    frames, slots, links = [], [], set()
-    while True:
-        (size,) = struct.unpack_from("<I", data, at)
-        at += 4
-        if size == 0:
-            assert at == len(data), "nothing follows the end"
-            return metadata, frames
-        frames.append(_frame(data[at:at + size], slots, links))
-        at += size
+    lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
+    header = json.loads(_unpack(lines[0]))
+    assert header["version"] == 2
+    assert header["length"] == sum(1 + len(line) for line in lines[1:])
+    times, frames = iter(header["times"]), []
+    for line in lines[1:]:
+        segment = _Segment(_unpack(line), header)
+        while segment.at < len(segment.data):
+            frames.append((next(times), *segment.frame()))
+    assert len(frames) == len(header["times"])
+    return header["metadata"], frames
 
 
-def _frame(data, slots, links):
-    (time,) = struct.unpack_from("<d", data, 0)
-    (new,) = struct.unpack_from("<I", data, 8)
-    slots.extend(struct.unpack_from(f"<{new}i", data, 12))
-    at = 12 + 4 * new
-    bits = data[at:at + (len(slots) + 7) // 8]
-    at += len(bits)
-    present = [slot for slot in range(len(slots)) if bits[slot >> 3] >> (slot & 7) & 1]
-    low = struct.unpack_from("<4f", data, at)
-    high = struct.unpack_from("<4f", data, at + 16)
-    at += 32
-    axes = []
-    for axis in range(4):
-        steps = 65535 if axis < 3 else 65534
-        quanta = struct.unpack_from(f"<{len(present)}H", data, at)
-        at += 2 * len(present)
-        axes.append([None if axis == 3 and q == 65535 else low[axis] + q * (high[axis] - low[axis]) / steps for q in quanta])
-    removed, at = _pairs(data, at)
-    added, at = _pairs(data, at)
-    assert at == len(data), "the frame's length"
-    links -= set(removed)
-    links |= set(added)
-    nodes = {slots[slot]: values for slot, *values in zip(present, *axes)}
-    return time, {node: tuple(values) for node, values in nodes.items()}, {(slots[a], slots[b]) for a, b in links}
+def _unpack(text):
+    return gzip.decompress(base64.b64decode(text))
 
 
-def _pairs(data, at):
-    (count,) = struct.unpack_from("<I", data, at)
-    at += 4
-    pairs, a, b = [], -1, 0
-    for _ in range(count):
-        step, at = _varint(data, at)
-        rise, at = _varint(data, at)
-        b = b + rise if step == 0 else a + step + rise
-        a += step
-        pairs.append((a, b))
-    return pairs, at
+class _Segment:
+    def __init__(self, data, header):
+        self.data, self.at = data, 8
+        self.low, self.high = struct.unpack_from("<2f", data)
+        self.ids, self.step = header["ids"], header["positionStep"]
+        self.last = [[0] * len(self.ids) for _ in range(4)]
+        self.motion = [[0] * len(self.ids) for _ in range(4)]
+        self.seen, self.links = set(), set()
+
+    def frame(self):
+        slots = self.number()
+        bits = self.data[self.at:self.at + (slots + 7) // 8]
+        self.at += len(bits)
+        present = [slot for slot in range(slots) if bits[slot >> 3] >> (slot & 7) & 1]
+        for last, motion in zip(self.last, self.motion):
+            for slot in present:
+                coded = self.number()
+                moved = _wrapped(motion[slot] + (coded >> 1 ^ -(coded & 1)))
+                last[slot] = _wrapped(last[slot] + moved)
+                if slot in self.seen:
+                    motion[slot] = moved
+        self.seen.update(present)
+        nodes = {self.ids[slot]: (*(axis[slot] * self.step for axis in self.last[:3]), self.scalar(self.last[3][slot])) for slot in present}
+        self.number()  # how many links there are in all
+        self.links -= set(self.pairs())
+        self.links |= set(self.pairs())
+        return nodes, {(self.ids[a], self.ids[b]) for a, b in self.links}
+
+    def scalar(self, steps):
+        return None if steps == 0 else self.low + (steps - 1) * (self.high - self.low) / 65534
+
+    def pairs(self):
+        pairs, a, b = [], -1, 0
+        for _ in range(self.number()):
+            step = self.number()
+            b = (b if step == 0 else a + step) + self.number()
+            a += step
+            pairs.append((a, b))
+        return pairs
+
+    def number(self):
+        value = shift = 0
+        while True:
+            byte = self.data[self.at]
+            self.at += 1
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
 
 
-def _varint(data, at):
-    value = shift = 0
-    while True:
-        byte = data[at]
-        at += 1
-        value |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
-            return value, at
+def _wrapped(value):
+    return (value + 0x80000000) % 0x100000000 - 0x80000000

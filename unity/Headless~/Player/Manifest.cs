@@ -75,6 +75,9 @@ namespace Collektive.Headless
         /// <summary>From the start of the process to the end of the first tick.</summary>
         internal void AddFirstTick(TimeSpan time) => Root.Add("first_tick_ms", Math.Round(time.TotalMilliseconds));
 
+        /// <summary>What recording frames for the replay page took of the run, and writing the page.</summary>
+        internal void AddReplay(double milliseconds) => Root.Add("replay_ms", Math.Round(milliseconds));
+
         internal void Write() => WholeFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
 
         private static JObject Metrics(SceneBuilder scene, IReadOnlyList<double> values)

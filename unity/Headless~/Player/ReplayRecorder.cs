@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using Collektive.Bridge;
+using System.Diagnostics;
 using Collektive.Unity;
 using UnityEngine;
 using UnityEngine.SceneManagement;
@@ -10,15 +10,24 @@ namespace Collektive.Headless
     /// <summary>Records the scene's nodes, links and standing shapes for the replay page.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
+        /// <summary>Frames of a simulated second, at most; ticks in between are left out.</summary>
+        private const double MostFrames = 10;
+
+        /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
+        private const double MostNodes = 50000;
+
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
         private readonly SimulationManager manager;
-        private readonly List<LinkRecord> links = new List<LinkRecord>();
+        private readonly bool shaded;
+        private readonly Stopwatch clock = new Stopwatch();
+        private double due;
 
         internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, SimulationManager manager)
         {
             this.scene = scene;
             this.manager = manager;
+            shaded = scene.ShadeName != null;
             var metadata = new ReplayMetadata
             {
                 Title = scenario.Settings.program,
@@ -30,22 +39,45 @@ namespace Collektive.Headless
             writer = new ReplayWriter(scratchPath, metadata);
         }
 
+        /// <summary>What the replay has cost the run so far, in milliseconds.</summary>
+        internal double Milliseconds => clock.Elapsed.TotalMilliseconds;
+
         public void Dispose() => writer.Dispose();
 
+        /// <summary>Records a frame if one is due, between ticks.</summary>
+        /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
-            writer.BeginFrame(time);
-            foreach (var node in manager.Nodes)
+            if (time < due - 1e-6) return;
+            clock.Start();
+            due = time + Math.Max(1 / MostFrames, manager.Nodes.Count / MostNodes);
+            writer.BeginFrame(time, CountLinks());
+            var nodes = manager.Nodes;
+            for (var i = 0; i < nodes.Count; i++)
             {
-                var position = node.transform.position;
-                writer.Node(node.Id, position.x, position.y, position.z, scene.ShadeName == null ? node.Id : scene.Shade(node));
+                var position = nodes[i].transform.position;
+                writer.Node(nodes[i].Id, position.x, position.y, position.z, shaded ? scene.Shade(nodes[i]) : nodes[i].Id);
             }
-            manager.CopyLinks(links);
-            foreach (var link in links) writer.Link(link.From, link.To);
+            foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
+                if (pair.IsHeld) writer.Link(pair.Low, pair.High);
             writer.EndFrame();
+            clock.Stop();
         }
 
-        internal void Finish(string template, string path) => writer.Finish(template, path);
+        internal void Finish(string template, string path)
+        {
+            clock.Start();
+            writer.Finish(template, path);
+            clock.Stop();
+        }
+
+        private int CountLinks()
+        {
+            var count = 0;
+            foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
+                if (pair.IsHeld) count++;
+            return count;
+        }
 
         private void Describe(ReplayMetadata metadata)
         {

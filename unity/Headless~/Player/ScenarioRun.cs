@@ -16,9 +16,6 @@ namespace Collektive.Headless
     /// <summary>One run of a scenario: builds its scene, plays it for its time, writes its outputs.</summary>
     internal sealed class ScenarioRun
     {
-        /// <summary>Replay frames per simulated second; ticks in between are left out.</summary>
-        private const double ReplayRate = 10;
-
         private readonly Scenario scenario;
         private readonly Options options;
         private readonly Interrupt interrupt = new Interrupt();
@@ -133,7 +130,6 @@ namespace Collektive.Headless
                 metrics.EndSecond(0, 0);
                 var start = new List<double>(metrics.Values);
                 replay?.Add(0);
-                var replayed = 0.0;
                 var second = 0;
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished; frame++)
                 {
@@ -143,11 +139,7 @@ namespace Collektive.Headless
                     // A script has paused or disabled the manager.
                     if (done == before) continue;
                     parameters = parameters ?? ParameterValues.Of(manager);
-                    if (manager.SimulatedTime - replayed >= 1 / ReplayRate - 1e-6)
-                    {
-                        replayed = manager.SimulatedTime;
-                        replay?.Add(replayed);
-                    }
+                    replay?.Add(manager.SimulatedTime);
                     if (manager.SimulatedTime >= second + 1 - 1e-6) metrics.EndSecond(++second, manager.LinkCount);
                     if (progress.Due || frame == ticks) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
                 }
@@ -157,6 +149,7 @@ namespace Collektive.Headless
                 manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
+                if (replay != null) manifest.AddReplay(replay.Milliseconds);
             }
             scenario.Former?.TellDifferences(manifest, "versions");
             if (interrupt.Requested)

@@ -1,6 +1,5 @@
 using System;
 using System.Globalization;
-using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
@@ -41,6 +40,7 @@ namespace Collektive.Headless
             if (!(minX < maxX && minY <= maxY && minZ < maxZ))
                 throw new ArgumentException("The replay's arena must have its least corner first and a floor of some size.");
             arena = Arena(minX, minY, minZ, maxX, maxY, maxZ);
+            ArenaSide = Math.Max((double)maxX - minX, Math.Max((double)maxY - minY, (double)maxZ - minZ));
         }
 
         /// <summary>A static box, turned by the unit quaternion; height 0 makes a plane.</summary>
@@ -64,13 +64,16 @@ namespace Collektive.Headless
             markers.Add(new JObject { ["name"] = Text(name), ["position"] = Numbers(x, y, z) });
         }
 
-        internal string ToJson()
+        /// <summary>The longest side of the arena.</summary>
+        internal double ArenaSide { get; private set; } = 20;
+
+        internal JObject ToJson()
         {
             var scalar = new JObject { ["name"] = Text(ScalarName) };
             if (ScalarUnit != null) scalar["unit"] = ScalarUnit;
             if (ScalarMin.HasValue) scalar["min"] = Number(ScalarMin.Value);
             if (ScalarMax.HasValue) scalar["max"] = Number(ScalarMax.Value);
-            var all = new JObject
+            return new JObject
             {
                 ["title"] = Text(Title),
                 // Greater than what JavaScript's numbers hold exactly.
@@ -82,7 +85,6 @@ namespace Collektive.Headless
                 ["shapes"] = shapes,
                 ["markers"] = markers,
             };
-            return all.ToString(Formatting.None);
         }
 
         private static JObject Arena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ) =>

@@ -21,8 +21,8 @@ try {
     return window.replay.frames;
   });
   for (const [name, frame] of [['start', 0], ['middle', Math.floor((frames - 1) / 2)], ['end', frames - 1]]) {
-    await tab.evaluate((i) => {
-      window.replay.seek(i);
+    await tab.evaluate(async (i) => {
+      await window.replay.seek(i);
       window.replay.draw();
     }, frame);
     const picture = resolve(out, `${name}.png`);

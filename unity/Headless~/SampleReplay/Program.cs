@@ -8,36 +8,37 @@ namespace Collektive.Headless.Samples
     /// <summary>
     /// Writes a made-up run for the test of the page, which reads it back: nodes walk at random, come and go; each has links to the next two.
     /// Beside it lies OUTPUT.html.expected.json, what some of its frames must show.
-    /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html
+    /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html NODES FRAMES
     /// </summary>
     internal static class SampleReplay
     {
-        private const int Nodes = 60, Frames = 200, Checked = 37;
+        private const int Checked = 37;
         private const double Step = 0.1;
 
         private static void Main(string[] args)
         {
+            int nodeCount = int.Parse(args[2]), frames = int.Parse(args[3]);
             var metadata = new ReplayMetadata { Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, ScalarName = "brightness" };
             metadata.SetArena(-50, 0, -30, 50, 5, 30);
             metadata.AddBox(9, 1.5f, -9, 1, 3, 5);
             metadata.AddSphere(-9, 1, 9, 1);
             metadata.AddMarker("lamp \"A\"", 25, 0, 0);
             var random = new Random(42);
-            var places = new float[2 * Nodes];
+            var places = new float[2 * nodeCount];
             for (var i = 0; i < places.Length; i++) places[i] = 50 * (float)random.NextDouble() - 25;
             var expected = new List<object>();
             using (var writer = new ReplayWriter(args[1] + ".scratch", metadata))
             {
-                for (var frame = 0; frame < Frames; frame++)
+                for (var frame = 0; frame < frames; frame++)
                 {
                     for (var i = 0; i < places.Length; i++) places[i] += (float)random.NextDouble() - 0.5f;
                     var nodes = new List<float?[]>();
                     var links = new List<int[]>();
                     writer.BeginFrame(frame * Step);
-                    for (var id = 0; id < Nodes; id++) if (Exists(id, frame)) nodes.Add(Write(writer, id, places));
-                    for (var link = 0; link < 2 * Nodes; link++)
+                    for (var id = 0; id < nodeCount; id++) if (Exists(id, frame)) nodes.Add(Write(writer, id, places));
+                    for (var link = 0; link < 2 * nodeCount; link++)
                     {
-                        int a = link / 2, b = (a + 1 + link % 2) % Nodes;
+                        int a = link / 2, b = (a + 1 + link % 2) % nodeCount;
                         if (!Exists(a, frame) || !Exists(b, frame)) continue;
                         writer.Link(a, b);
                         links.Add(new[] { a, b });

@@ -10,21 +10,18 @@ export const gradient = `linear-gradient(to right, ${Array.from({ length: 10 }, 
 /** CSS colour of a node without a value. */
 export const NO_VALUE = '#9aa3ad';
 
-/** Turns scalars into linear RGB; `write` sets three floats of `into`. */
+/** Turns scalars into rows of `table`, linear RGBA. */
 export class ColourScale {
   constructor(min, max) {
     this.min = min;
     this.factor = max > min ? (STEPS - 1) / (max - min) : 0;
-    this.table = new Float32Array((STEPS + 1) * 3);
-    for (let i = 0; i < STEPS; i++) new Color(interpolateViridis(i / (STEPS - 1))).toArray(this.table, 3 * i);
-    new Color(NO_VALUE).toArray(this.table, 3 * STEPS);
+    this.table = new Float32Array((STEPS + 1) * 4).fill(1);
+    for (let i = 0; i < STEPS; i++) new Color(interpolateViridis(i / (STEPS - 1))).toArray(this.table, 4 * i);
+    new Color(NO_VALUE).toArray(this.table, 4 * STEPS);
   }
 
-  write(value, into, at) {
+  indexOf(value) {
     const share = (value - this.min) * this.factor;
-    const from = 3 * (Number.isNaN(share) ? STEPS : Math.round(Math.min(Math.max(share, 0), STEPS - 1)));
-    into[at] = this.table[from];
-    into[at + 1] = this.table[from + 1];
-    into[at + 2] = this.table[from + 2];
+    return Number.isNaN(share) ? STEPS : Math.round(Math.min(Math.max(share, 0), STEPS - 1));
   }
 }

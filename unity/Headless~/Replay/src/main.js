@@ -1,6 +1,6 @@
 // Joins the recording, the view and the controls, and offers `window.replay` to scripts.
 import { ColourScale, gradient, NO_VALUE } from './colours.js';
-import { decode, NodeState } from './recording.js';
+import { open } from './recording.js';
 import { View } from './view.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
@@ -10,13 +10,8 @@ const element = (id) => document.getElementById(id);
 class Player {
   constructor(recording) {
     this.recording = recording;
-    const slots = recording.ids.length;
-    this.state = new NodeState(slots);
-    this.next = new NodeState(slots);
-    this.positions = new Float32Array(3 * slots);
-    this.pairs = new Int32Array(2 * recording.maxLinks);
-    this.linkCount = 0;
-    this.linkFrame = -1;
+    this.here = null; // the frame on show
+    this.waits = 0;
     this.time = recording.times[0];
     this.speed = 1;
     this.playing = false;
@@ -25,8 +20,8 @@ class Player {
 
     const { metadata } = recording;
     const { min = recording.scalarMin, max = recording.scalarMax } = metadata.scalar;
-    this.scale = new ColourScale(min, max);
-    this.view = new View(element('canvas'), element('labels'), metadata, slots, recording.maxLinks);
+    const scale = new ColourScale(min, max);
+    this.view = new View(element('canvas'), element('labels'), metadata, recording.ids.length, recording.maxLinks, scale);
     this.view.onFrame = (now) => this.tick(now);
     this.fillLegend(min, max);
     this.bind();
@@ -34,82 +29,86 @@ class Player {
     this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 3));
   }
 
-  get frame() {
-    return this.state.frame;
-  }
-
   get lastTime() {
     return this.recording.times[this.recording.count - 1];
   }
 
-  /** Shows the moment `time`: nodes between two frames are drawn between their places, everything else is the earlier frame's. */
+  /**
+   * Shows the moment `time`: nodes between two frames are drawn between their places, everything else is the earlier frame's. The promise
+   * is fulfilled when it is on show, or a later wish is.
+   */
   show(time) {
+    this.time = Math.min(Math.max(time, this.recording.times[0]), this.lastTime);
+    if (this.refresh()) return undefined;
+    const arrival = this.arrive(this.time);
+    arrival.catch(() => {}); // said on the page
+    return arrival;
+  }
+
+  async arrive(time) {
     const { recording } = this;
-    this.time = Math.min(Math.max(time, recording.times[0]), this.lastTime);
-    const frame = recording.frameAt(this.time);
-    if (this.state.frame !== frame) {
-      if (this.next.frame === frame) [this.state, this.next] = [this.next, this.state];
-      else recording.readNodes(frame, this.state);
-    }
-    const share = frame + 1 < recording.count ? (this.time - recording.times[frame]) / (recording.times[frame + 1] - recording.times[frame]) : 0;
-    if (share > 0 && this.next.frame !== frame + 1) recording.readNodes(frame + 1, this.next);
-    this.place(share);
-    if (this.linkFrame !== frame) {
-      this.linkCount = recording.readLinks(frame, this.pairs);
-      this.linkFrame = frame;
-    }
-    this.refresh();
-  }
-
-  place(share) {
-    const { state, next, positions } = this;
-    for (let i = 0; i < state.count; i++) {
-      const slot = state.slots[i];
-      const part = share > 0 && next.present[slot] ? share : 0;
-      positions[3 * slot] = state.x[slot] + (part && part * (next.x[slot] - state.x[slot]));
-      positions[3 * slot + 1] = state.y[slot] + (part && part * (next.y[slot] - state.y[slot]));
-      positions[3 * slot + 2] = state.z[slot] + (part && part * (next.z[slot] - state.z[slot]));
+    const frame = recording.frameAt(time);
+    this.waits++;
+    try {
+      await Promise.all([recording.load(frame), recording.load(Math.min(frame + 1, recording.count - 1))]);
+      if (this.time === time) this.refresh();
+    } catch (error) {
+      this.pause();
+      showMessage(error.message);
+      throw error;
+    } finally {
+      this.waits--;
     }
   }
 
+  /** Shows this moment if its frames are there. */
   refresh() {
-    const { state, view } = this;
-    const selected = this.selected >= 0 && state.present[this.selected] ? this.selected : -1;
-    view.show({
-      count: state.count, slots: state.slots, positions: this.positions, scalars: state.scalar, scale: this.scale,
-      pairs: this.pairs, linkCount: this.linkCount, linksVisible: this.linksVisible, selected, factor: this.factor,
-    });
-    const total = this.recording.count;
-    element('scrub').value = state.frame;
+    const { recording, view } = this;
+    const frame = recording.frameAt(this.time);
+    const last = recording.count - 1;
+    const here = recording.frame(frame);
+    const next = recording.frame(Math.min(frame + 1, last));
+    if (!here || !next) return false;
+    // What plays on finds its frames there.
+    if (this.here !== here) for (const near of [frame, frame + 1, frame + recording.framesPerSegment]) recording.load(Math.min(near, last)).catch(() => {});
+    this.here = here;
+    const share = here === next ? 0 : (this.time - recording.times[frame]) / (recording.times[frame + 1] - recording.times[frame]);
+    const selected = this.selected >= 0 && here.present[this.selected] ? this.selected : -1;
+    view.show({ here, next, share, linksVisible: this.linksVisible, selected, factor: this.factor });
+    const links = here.pairs.length / 2;
+    element('scrub').value = frame;
     element('scrub').setAttribute('aria-valuetext', `${this.time.toFixed(1)} seconds`);
-    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · frame ${state.frame + 1} / ${total}`;
+    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · frame ${frame + 1} / ${recording.count}`;
     element('clock').textContent = `t = ${this.time.toFixed(1)} s`;
-    element('node-count').textContent = plural(state.count, 'node');
-    element('link-count').textContent = plural(this.linkCount, 'link');
+    element('node-count').textContent = plural(here.slots.length, 'node');
+    element('link-count').textContent = (here.linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(here.linksInAll, 'link');
     this.describeSelection();
+    return true;
   }
 
   describeSelection() {
     element('selection').hidden = this.selected < 0;
     if (this.selected < 0) return;
-    const { selected, state, positions } = this;
+    const { selected, here: frame } = this;
     const { ids, metadata } = this.recording;
     element('selected-name').textContent = `Node ${ids[selected]}`;
-    const here = state.present[selected] === 1;
-    const value = state.scalar[selected];
+    const here = frame.present[selected] === 1;
+    const value = frame.scalars[selected];
     const told = Number.isNaN(value) ? 'has no value' : withUnit(value, metadata);
     element('selected-scalar').textContent = here ? `${metadata.scalar.name} ${told}` : 'not there at this time';
-    element('selected-position').textContent = here ? `at ${[0, 1, 2].map((axis) => positions[3 * selected + axis].toFixed(2)).join(', ')} m` : '';
+    element('selected-position').textContent = here ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : '';
     const neighbours = here ? this.neighbours(selected) : [];
     const listed = neighbours.length ? `: ${neighbours.join(', ')}` : '';
-    element('selected-neighbours').textContent = here ? `${plural(neighbours.length, 'neighbour')}${listed}` : '';
+    const some = frame.linksInAll > frame.pairs.length / 2 ? ' by the links shown' : '';
+    element('selected-neighbours').textContent = here ? `${plural(neighbours.length, 'neighbour')}${some}${listed}` : '';
   }
 
   neighbours(slot) {
     const found = [];
-    for (let i = 0; i < 2 * this.linkCount; i += 2) {
-      if (this.pairs[i] === slot) found.push(this.recording.ids[this.pairs[i + 1]]);
-      else if (this.pairs[i + 1] === slot) found.push(this.recording.ids[this.pairs[i]]);
+    const { pairs } = this.here;
+    for (let i = 0; i < pairs.length; i += 2) {
+      if (pairs[i] === slot) found.push(this.recording.ids[pairs[i + 1]]);
+      else if (pairs[i + 1] === slot) found.push(this.recording.ids[pairs[i]]);
     }
     return found.sort((a, b) => a - b);
   }
@@ -118,12 +117,13 @@ class Player {
     if (!this.playing) return;
     const passed = Math.min((now - this.lastTick) / 1000, 0.25); // a sleeping tab must not jump
     this.lastTick = now;
-    this.show(this.time + passed * this.speed);
+    if (this.waits > 0) this.view.request();
+    else this.show(this.time + passed * this.speed);
     if (this.time >= this.lastTime) this.pause();
   }
 
   seek(frame) {
-    this.show(this.recording.times[Math.min(Math.max(Math.round(frame), 0), this.recording.count - 1)]);
+    return this.show(this.recording.times[Math.min(Math.max(Math.round(frame), 0), this.recording.count - 1)]);
   }
 
   play() {
@@ -242,8 +242,7 @@ class Player {
     canvas.addEventListener('pointerup', (event) => {
       // A click, not the end of a turn.
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
-      const { count, slots } = this.state;
-      this.select(this.view.pick(event.clientX, event.clientY, { count, slots, positions: this.positions, factor: this.factor }));
+      this.select(this.view.pick(event.clientX, event.clientY));
     });
   }
 
@@ -282,7 +281,7 @@ class Player {
 
   step(frames) {
     this.pause();
-    this.seek(this.frame + frames);
+    this.seek(this.recording.frameAt(this.time) + frames);
   }
 
   changeSpeed(by) {
@@ -311,8 +310,9 @@ function showMessage(text) {
 
 async function start() {
   const holder = element('replay');
-  const recording = await decode(holder.textContent);
-  holder.remove(); // the text is of no more use, and large
+  const recording = await open(holder.textContent.trim());
+  await recording.load(0);
+  holder.remove(); // the page needs its text no more
   const probe = document.createElement('canvas');
   if (!probe.getContext('webgl2')) {
     throw new Error('This browser shows no 3D graphics (WebGL 2). Switch on hardware acceleration in its settings, or open the page in another browser.');
@@ -327,7 +327,9 @@ const ready = started.then(
     Object.assign(window.replay, {
       frames: recording.count,
       metadata: recording.metadata,
+      /** Both return a promise where the frame must be read first. */
       seek: (frame) => player.seek(frame),
+      show: (time) => player.show(time),
       play: () => player.play(),
       pause: () => player.pause(),
       setSpeed: (speed) => player.setSpeed(speed),
@@ -338,16 +340,16 @@ const ready = started.then(
       view: (from) => player.view.frame(from),
       /** The frame on show, in Unity's axes, as recorded. */
       state: () => {
-        const { state, pairs, linkCount } = player;
+        const { here } = player;
         const { ids } = recording;
         return {
-          frame: state.frame,
+          frame: here.index,
           time: player.time,
           playing: player.playing,
-          nodes: Array.from(state.slots.subarray(0, state.count), (s) => ({
-            id: ids[s], x: state.x[s], y: state.y[s], z: state.z[s], scalar: state.scalar[s],
+          nodes: Array.from(here.slots, (s) => ({
+            id: ids[s], x: here.places[4 * s], y: here.places[4 * s + 1], z: here.places[4 * s + 2], scalar: here.scalars[s],
           })),
-          links: Array.from({ length: linkCount }, (_, i) => [ids[pairs[2 * i]], ids[pairs[2 * i + 1]]]),
+          links: Array.from({ length: here.pairs.length / 2 }, (_, i) => [ids[here.pairs[2 * i]], ids[here.pairs[2 * i + 1]]]),
         };
       },
       /** Draws the frame on show now, for a picture right after. */

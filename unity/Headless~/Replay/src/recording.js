@@ -1,24 +1,39 @@
-// Reads a recording (FORMAT.md). Any frame is reached directly: nodes are absolute in each frame, and each link is kept as
-// one interval of frames, so that the links of a frame are those whose interval holds it.
+// Reads a recording (FORMAT.md). Its header is read at once, a segment of frames when it is first looked at.
 
-const MAGIC = 0x524b4c43; // "CLKR"
-const VERSION = 1;
-const BLOCK = 1024; // intervals that are passed over together when all have ended
+const VERSION = 2;
+const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each
+export const TEXELS = 1024; // nodes in a row of a frame's texture
 
 /** The page's data is missing, damaged or of another version; the message is for the reader of the page. */
 export class ReplayError extends Error {}
 
-export async function decode(base64) {
-  if (base64.startsWith('@@')) throw new ReplayError('This is the empty page template: it holds no run yet.');
+export async function open(text) {
+  if (text.startsWith('@@')) throw new ReplayError('This is the empty page template: it holds no run yet.');
   if (typeof DecompressionStream === 'undefined') {
     throw new ReplayError('This browser is too old for the page (it has no DecompressionStream). Any current Chrome, Edge, Firefox or Safari opens it.');
   }
+  const end = text.indexOf('\n');
+  return orDamaged(async () => {
+    const header = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(await unpack(end < 0 ? text : text.slice(0, end))));
+    if (header.version !== VERSION) {
+      throw new ReplayError(`The recording has version ${header.version}, this page reads version ${VERSION}: build page and recording from one release.`);
+    }
+    if (text.length - end !== header.length) throw new Error('a wrong length');
+    return new Recording(header, text.slice(end + 1).split('\n'));
+  });
+}
+
+async function orDamaged(read) {
   try {
-    return new Recording(await gunzip(fromBase64(base64.trim())));
+    return await read();
   } catch (error) {
     if (error instanceof ReplayError) throw error;
     throw new ReplayError(`The data of this page is damaged or cut short (${error.message}). Copy the file again, or run the simulation again.`);
   }
+}
+
+function unpack(base64) {
+  return new Response(new Blob([fromBase64(base64)]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
 function fromBase64(text) {
@@ -29,49 +44,19 @@ function fromBase64(text) {
   return bytes;
 }
 
-function gunzip(bytes) {
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-}
-
-/** Nodes of one frame, by slot. */
-export class NodeState {
-  constructor(slots) {
-    this.frame = -1;
-    this.count = 0;
-    this.slots = new Int32Array(slots); // the first `count` are the slots that are present
-    this.present = new Uint8Array(slots);
-    this.x = new Float32Array(slots);
-    this.y = new Float32Array(slots);
-    this.z = new Float32Array(slots);
-    this.scalar = new Float32Array(slots); // NaN: no value
-  }
-}
-
 class Recording {
-  constructor(buffer) {
-    this.data = new DataView(buffer);
-    const { data } = this;
-    if (data.getUint32(0, true) !== MAGIC) throw new ReplayError('The data of this page is not a recording.');
-    const version = data.getUint32(4, true);
-    if (version !== VERSION) {
-      throw new ReplayError(`The recording has version ${version}, this page reads version ${VERSION}: build page and recording from one release.`);
-    }
-    const metadataLength = data.getUint32(8, true);
-    this.metadata = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(new Uint8Array(buffer, 12, metadataLength)));
-    this.times = [];
-    this.ids = [];
-    this.frames = []; // { nodes, slots }: where the present bits begin, and how many slots there are
-    this.maxLinks = 0;
-    this.scalarMin = Infinity;
-    this.scalarMax = -Infinity;
-    this.someWithoutScalar = false;
-    this.readFrames(12 + metadataLength);
-    if (!(this.scalarMin <= this.scalarMax)) this.scalarMin = this.scalarMax = 0;
+  constructor(header, texts) {
+    Object.assign(this, header); // times, ids, metadata, ... as in FORMAT.md
+    if (texts.length !== Math.ceil(this.times.length / this.framesPerSegment)) throw new Error('a wrong number of segments');
+    this.texts = texts;
+    this.kept = Math.max(4, Math.floor(KEPT_NODES / (this.framesPerSegment * Math.max(this.ids.length, TEXELS))));
+    this.segments = new Map(); // number -> promise of a segment, the one used last at the end
+    this.open = new Map(); // number -> segment, those of `segments` that are there
     this.slotOfId = new Map(this.ids.map((id, slot) => [id, slot]));
   }
 
   get count() {
-    return this.frames.length;
+    return this.times.length;
   }
 
   /** The last frame at or before a time; the first one for earlier times. */
@@ -86,129 +71,152 @@ class Recording {
     return low;
   }
 
-  /** Fills `state` with the nodes of a frame. */
-  readNodes(frame, state) {
-    const { data } = this;
-    const { nodes, slots } = this.frames[frame];
-    state.frame = frame;
-    state.count = 0;
-    state.present.fill(0);
-    for (let slot = 0; slot < slots; slot++) {
-      if ((data.getUint8(nodes + (slot >> 3)) >> (slot & 7)) & 1) {
-        state.present[slot] = 1;
-        state.slots[state.count++] = slot;
-      }
-    }
-    const ranges = nodes + ((slots + 7) >> 3);
-    let at = ranges + 32;
-    for (const [axis, values] of [state.x, state.y, state.z, state.scalar].entries()) {
-      const min = data.getFloat32(ranges + 4 * axis, true);
-      const steps = axis === 3 ? 65534 : 65535;
-      const scale = (data.getFloat32(ranges + 16 + 4 * axis, true) - min) / steps;
-      for (let i = 0; i < state.count; i++, at += 2) {
-        const q = data.getUint16(at, true);
-        values[state.slots[i]] = q > steps ? NaN : min + q * scale;
-      }
-    }
+  /** The frame if its segment is there, else null: `load` it first. */
+  frame(index) {
+    const segment = this.open.get(Math.floor(index / this.framesPerSegment));
+    return segment ? segment.frame(index % this.framesPerSegment) : null;
   }
 
-  /** Fills `pairs` with the slots of the links of a frame, two for each; returns the number of links. */
-  readLinks(frame, pairs) {
-    const { linkA, linkB, linkStart, linkEnd, blockEnd } = this;
-    let count = 0;
-    for (let i = 0; i < linkA.length && linkStart[i] <= frame; i++) {
-      if (i % BLOCK === 0 && blockEnd[i / BLOCK] <= frame) {
-        i += BLOCK - 1;
-      } else if (linkEnd[i] > frame) {
-        pairs[2 * count] = linkA[i];
-        pairs[2 * count + 1] = linkB[i];
-        count++;
-      }
-    }
-    return count;
-  }
-
-  readFrames(start) {
-    const { data } = this;
-    const intervals = { a: [], b: [], start: [], end: [] };
-    const open = new Map(); // link -> its interval that has no end yet
-    let at = start;
-    for (let length; (length = data.getUint32(at, true)) !== 0; at += 4 + length) {
-      this.readFrame(at + 4, at + 4 + length, intervals, open);
-    }
-    if (at + 4 !== data.byteLength) throw new Error('bytes after the end');
-    if (this.count === 0) throw new ReplayError('The recording holds no frame.');
-    for (const interval of open.values()) intervals.end[interval] = this.count;
-    this.linkA = Int32Array.from(intervals.a);
-    this.linkB = Int32Array.from(intervals.b);
-    this.linkStart = Int32Array.from(intervals.start);
-    this.linkEnd = Int32Array.from(intervals.end);
-    this.blockEnd = new Int32Array(Math.ceil(this.linkA.length / BLOCK));
-    this.linkEnd.forEach((end, i) => {
-      const block = Math.floor(i / BLOCK);
-      this.blockEnd[block] = Math.max(this.blockEnd[block], end);
+  /** Makes a frame available; a damaged segment gives a ReplayError. */
+  load(index) {
+    const number = Math.floor(index / this.framesPerSegment);
+    let segment = this.segments.get(number);
+    this.segments.delete(number);
+    segment ??= orDamaged(async () => {
+      const first = number * this.framesPerSegment;
+      const loaded = new Segment(await unpack(this.texts[number]), this, first, Math.min(this.framesPerSegment, this.count - first));
+      if (this.segments.has(number)) this.open.set(number, loaded);
     });
+    this.segments.set(number, segment);
+    for (const oldest of this.segments.keys()) {
+      if (this.segments.size <= this.kept) break;
+      this.segments.delete(oldest);
+      this.open.delete(oldest);
+    }
+    return segment;
+  }
+}
+
+/** Frames that are coded by their differences: each is read after those before it, once. */
+class Segment {
+  constructor(buffer, recording, first, count) {
+    this.bytes = new Uint8Array(buffer);
+    const data = new DataView(buffer);
+    const [min, max] = [data.getFloat32(0, true), data.getFloat32(4, true)];
+    this.scalarMin = min;
+    this.scalarStep = (max - min) / 65534;
+    this.at = 8;
+    this.recording = recording;
+    this.first = first;
+    this.count = count;
+    this.frames = [];
+    const slots = recording.ids.length;
+    this.seen = new Uint8Array(slots);
+    this.last = Array.from({ length: 4 }, () => new Int32Array(slots));
+    this.motion = Array.from({ length: 4 }, () => new Int32Array(slots));
+    this.links = new Float64Array(0); // a * 2^24 + b, sorted
   }
 
-  readFrame(start, end, intervals, open) {
-    const { data, ids } = this;
-    const frame = this.count;
-    const time = data.getFloat64(start, true);
-    if (!(time > (this.times[frame - 1] ?? -Infinity))) throw new Error(`frame ${frame} is out of order`);
-    const newIds = data.getUint32(start + 8, true);
-    let at = start + 12;
-    for (let i = 0; i < newIds; i++, at += 4) ids.push(data.getInt32(at, true));
-    this.times.push(time);
-    this.frames.push({ nodes: at, slots: ids.length });
-
-    let present = 0;
-    for (let i = 0; i < (ids.length + 7) >> 3; i++, at++) {
-      for (let bits = data.getUint8(at); bits !== 0; bits &= bits - 1) present++;
-    }
-    const scalars = at + 32 + 6 * present;
-    let valued = 0;
-    for (let i = 0; i < present; i++) if (data.getUint16(scalars + 2 * i, true) !== 65535) valued++;
-    if (valued < present) this.someWithoutScalar = true;
-    if (valued > 0) {
-      this.scalarMin = Math.min(this.scalarMin, data.getFloat32(at + 12, true));
-      this.scalarMax = Math.max(this.scalarMax, data.getFloat32(at + 28, true));
-    }
-    at += 32 + 8 * present;
-
-    at = this.readPairs(at, (key) => {
-      intervals.end[open.get(key)] = frame;
-      if (!open.delete(key)) throw new Error(`frame ${frame} removes a link that is not there`);
-    });
-    at = this.readPairs(at, (key, a, b) => {
-      if (b >= ids.length) throw new Error(`frame ${frame} links a node that is not there`);
-      open.set(key, intervals.a.length);
-      intervals.a.push(a);
-      intervals.b.push(b);
-      intervals.start.push(frame);
-      intervals.end.push(0);
-    });
-    this.maxLinks = Math.max(this.maxLinks, open.size);
-    if (at !== end) throw new Error(`frame ${frame} has a wrong length`);
+  frame(index) {
+    while (this.frames.length <= index) this.frames.push(this.read());
+    return this.frames[index];
   }
 
-  readPairs(start, each) {
-    const { data } = this;
-    let at = start + 4;
-    const varint = () => {
-      for (let value = 0, unit = 1; ; unit *= 128) {
-        const part = data.getUint8(at++);
-        value += (part & 127) * unit;
-        if (part < 128) return value;
-      }
+  read() {
+    const frame = {
+      index: this.first + this.frames.length,
+      ...this.readPresence(),
+      places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.ids.length / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
+      scalars: new Float32Array(this.recording.ids.length), // NaN: no value
     };
+    const { slots, places, scalars } = frame;
+    const { positionStep } = this.recording;
+    const columns = this.last;
+    for (let column = 0; column < 4; column++) this.readColumn(slots, columns[column], this.motion[column]);
+    for (let i = 3; i < places.length; i += 4) places[i] = -1;
+    for (const slot of slots) {
+      this.seen[slot] = 1;
+      places[4 * slot] = columns[0][slot] * positionStep;
+      places[4 * slot + 1] = columns[1][slot] * positionStep;
+      places[4 * slot + 2] = columns[2][slot] * positionStep;
+      places[4 * slot + 3] = 0;
+      const steps = columns[3][slot];
+      scalars[slot] = steps === 0 ? NaN : this.scalarMin + (steps - 1) * this.scalarStep;
+    }
+    frame.linksInAll = this.readNumber();
+    this.links = changed(this.links, this.readPairs(), this.readPairs());
+    frame.pairs = new Int32Array(2 * this.links.length); // slots, two for each link
+    this.links.forEach((key, i) => {
+      frame.pairs[2 * i] = key / 0x1000000;
+      frame.pairs[2 * i + 1] = key % 0x1000000;
+    });
+    if (this.frames.length === this.count - 1 && this.at !== this.bytes.length) throw new Error('bytes after the end');
+    return frame;
+  }
+
+  readPresence() {
+    const present = new Uint8Array(this.recording.ids.length);
+    const slots = new Int32Array(present.length);
+    let count = 0;
+    const first = this.at;
+    const known = this.readNumber();
+    if (known > present.length) throw new Error(`frame at ${first} has too many nodes`);
+    for (let slot = 0; slot < known; slot++) {
+      present[slot] = (this.bytes[this.at + (slot >> 3)] >> (slot & 7)) & 1;
+      if (present[slot]) slots[count++] = slot;
+    }
+    this.at += (known + 7) >> 3;
+    return { present, slots: slots.subarray(0, count) };
+  }
+
+  readColumn(slots, last, motion) {
+    const { seen } = this;
+    for (const slot of slots) {
+      const coded = this.readNumber();
+      const step = (motion[slot] + ((coded >>> 1) ^ -(coded & 1))) | 0;
+      last[slot] += step;
+      if (seen[slot]) motion[slot] = step;
+    }
+  }
+
+  readPairs() {
+    const keys = new Float64Array(this.readNumber());
     let a = -1;
     let b = 0;
-    for (let left = data.getUint32(start, true); left > 0; left--) {
-      const step = varint();
+    for (let i = 0; i < keys.length; i++) {
+      const step = this.readNumber();
       a += step;
-      b = (step === 0 ? b : a) + varint();
-      each(a * 0x4000000 + b, a, b);
+      b = (step === 0 ? b : a) + this.readNumber();
+      keys[i] = a * 0x1000000 + b;
     }
-    return at;
+    return keys;
   }
+
+  readNumber() {
+    const { bytes } = this;
+    let part = bytes[this.at++];
+    let value = part & 127;
+    for (let shift = 7; part > 127; shift += 7) {
+      part = bytes[this.at++];
+      value |= (part & 127) << shift;
+    }
+    return value >>> 0;
+  }
+}
+
+/** A sorted set of links without some of it, with others. */
+function changed(links, removed, added) {
+  const result = new Float64Array(links.length - removed.length + added.length);
+  let count = 0;
+  let gone = 0;
+  let next = 0;
+  for (const link of links) {
+    if (link === removed[gone]) gone++;
+    else {
+      while (next < added.length && added[next] < link) result[count++] = added[next++];
+      result[count++] = link;
+    }
+  }
+  while (next < added.length) result[count++] = added[next++];
+  return result;
 }

@@ -1,12 +1,12 @@
 // The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
 import {
-  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
-  EdgesGeometry, Group, HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, Mesh,
-  MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry, Scene, ShadowMaterial, SphereGeometry,
-  Spherical, Vector3, WebGLRenderer,
+  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, Group, HemisphereLight,
+  LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry,
+  Scene, ShadowMaterial, SphereGeometry, Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { CSS2DObject, CSS2DRenderer } from 'three/examples/jsm/renderers/CSS2DRenderer.js';
+import { Swarm } from './swarm.js';
 
 const THEMES = {
   light: {
@@ -19,11 +19,10 @@ const THEMES = {
   },
 };
 const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
-const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
 
 export class View {
-  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
-  constructor(canvas, labels, metadata, slots, maxLinks) {
+  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given, `scale` colours the nodes. */
+  constructor(canvas, labels, metadata, slots, maxLinks, scale) {
     this.canvas = canvas;
     this.labels = new CSS2DRenderer({ element: labels });
     this.arena = {
@@ -35,7 +34,6 @@ export class View {
     this.onFrame = () => {};
     this.pending = null;
     this.framed = 'above'; // the ready view that the camera has, null once the user has moved it
-    this.detailed = slots <= DETAILED_NODES;
 
     // The buffer is kept so that scripts can read the canvas at any time.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
@@ -60,6 +58,7 @@ export class View {
       outline: new MeshBasicMaterial({ side: BackSide }),
       link: new LineBasicMaterial({ transparent: true, depthWrite: false }),
       accent: new MeshBasicMaterial({ side: DoubleSide }),
+      markerLine: new LineBasicMaterial(),
       accentLine: new LineBasicMaterial(),
       halo: new MeshBasicMaterial({ side: BackSide }),
     };
@@ -67,9 +66,7 @@ export class View {
     this.addFloor();
     for (const shape of metadata.shapes) this.addShape(shape);
     for (const marker of metadata.markers) this.addMarker(marker);
-    this.addNodes(slots);
-    this.links = this.addLines(maxLinks, this.materials.link, 1);
-    this.ownLinks = this.addLines(0, this.materials.accentLine, 2);
+    this.swarm = new Swarm(this.scene, slots, maxLinks, scale, this.materials);
   }
 
   addLights() {
@@ -132,7 +129,7 @@ export class View {
       ring.position.set(x, y + 2 * LINE_GAP, -z);
       this.scene.add(ring);
     }
-    this.scene.add(lines([x, y, -z, top.x, top.y, top.z], this.materials.accentLine));
+    this.scene.add(lines([x, y, -z, top.x, top.y, top.z], this.materials.markerLine));
     const label = document.createElement('div');
     label.className = 'marker';
     label.textContent = name;
@@ -142,40 +139,13 @@ export class View {
     this.scene.add(object);
   }
 
-  addNodes(slots) {
-    const sphere = this.detailed ? new SphereGeometry(1, 20, 12) : new SphereGeometry(1, 10, 7);
-    const instances = Math.max(slots, 1);
-    this.nodes = new InstancedMesh(sphere, new MeshLambertMaterial(), instances);
-    this.nodes.instanceMatrix.setUsage(DynamicDrawUsage);
-    this.nodes.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * instances), 3).setUsage(DynamicDrawUsage);
-    this.nodes.castShadow = this.detailed;
-    const shell = sphere.clone().scale(1.16, 1.16, 1.16);
-    this.outlines = new InstancedMesh(shell, this.materials.outline, instances);
-    this.outlines.instanceMatrix = this.nodes.instanceMatrix;
-    this.halos = new InstancedMesh(sphere.clone().scale(1.5, 1.5, 1.5), this.materials.halo, instances);
-    this.halos.instanceMatrix.setUsage(DynamicDrawUsage);
-    for (const mesh of [this.nodes, this.outlines, this.halos]) {
-      mesh.frustumCulled = false;
-      mesh.count = 0;
-      this.scene.add(mesh);
-    }
-  }
-
-  addLines(capacity, material, order) {
-    const object = new LineSegments(new BufferGeometry(), material);
-    object.frustumCulled = false;
-    object.renderOrder = order;
-    this.scene.add(object);
-    reserve(object, capacity);
-    return object;
-  }
-
   setTheme(name) {
     const theme = THEMES[name];
     this.theme = theme;
     this.scene.background = new Color(theme.background);
     for (const key of ['floor', 'grid', 'border', 'shape', 'edge', 'outline', 'link', 'accent']) this.materials[key].color.set(theme[key]);
     this.materials.accentLine.color.set(theme.accent);
+    this.materials.markerLine.color.set(theme.accent);
     this.materials.halo.color.set(theme.accent);
     this.materials.shadow.opacity = theme.shadow;
     this.materials.link.opacity = theme.linkOpacity;
@@ -255,62 +225,39 @@ export class View {
     return (this.radius * this.height) / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
   }
 
-  /**
-   * Shows nodes and links. `count` nodes of `slots` at `positions` (by slot, three each, Unity's axes), coloured by `scale`
-   * from `scalars`; `linkCount` links of `pairs`; `selected` is a slot or -1.
-   */
-  show({ count, slots, positions, scalars, scale, pairs, linkCount, linksVisible, selected, factor }) {
-    const radius = this.radius * factor;
-    const matrices = this.nodes.instanceMatrix.array;
-    const colours = this.nodes.instanceColor.array;
-    for (let i = 0; i < count; i++) {
-      writeMatrix(matrices, i, positions, slots[i], radius);
-      scale.write(scalars[slots[i]], colours, 3 * i);
-    }
-    this.nodes.count = this.outlines.count = count;
-    upload(this.nodes.instanceMatrix, 16 * count);
-    upload(this.nodes.instanceColor, 3 * count);
-
-    this.links.visible = linksVisible;
+  /** Shows the moment that is `share` of the way from the frame `here` to `next`; `selected` is a slot or -1, `factor` the nodes' size. */
+  show({ here, next, share, linksVisible, selected, factor }) {
+    const { swarm } = this;
+    const changed = swarm.here !== here;
+    swarm.show(here, next, share);
+    swarm.radius = this.radius * factor;
+    if (changed || this.selected !== selected) swarm.select(selected);
+    this.selected = selected;
+    swarm.links.visible = linksVisible;
     this.materials.link.opacity = this.theme.linkOpacity * (selected < 0 ? 1 : 0.4);
-    if (linksVisible) writeLines(this.links, pairs, linkCount, positions);
-    this.showSelection(selected, pairs, linkCount, positions, radius);
     this.request();
   }
 
-  showSelection(selected, pairs, linkCount, positions, radius) {
-    const own = [];
-    if (selected >= 0) {
-      for (let i = 0; i < 2 * linkCount; i += 2) if (pairs[i] === selected || pairs[i + 1] === selected) own.push(pairs[i], pairs[i + 1]);
-      writeMatrix(this.halos.instanceMatrix.array, 0, positions, selected, radius * 1.2);
-      for (let i = 0; i < own.length; i += 2) {
-        writeMatrix(this.halos.instanceMatrix.array, 1 + i / 2, positions, own[i] === selected ? own[i + 1] : own[i], radius * 0.92);
-      }
-    }
-    this.halos.count = selected < 0 ? 0 : 1 + own.length / 2;
-    upload(this.halos.instanceMatrix, 16 * this.halos.count);
-    reserve(this.ownLinks, own.length / 2);
-    writeLines(this.ownLinks, own, own.length / 2, positions);
-  }
-
   /** The slot of the node nearest to a point of the canvas, within reach of a finger; -1 if there is none. */
-  pick(x, y, { count, slots, positions, factor }) {
+  pick(x, y) {
+    const { here, uniforms } = this.swarm;
+    const place = [0, 0, 0];
     const point = new Vector3();
     const unit = this.height / (2 * Math.tan((this.camera.fov * Math.PI) / 360));
     let best = -1;
     let bestScore = Infinity;
-    for (let i = 0; i < count; i++) {
-      point.fromArray(positions, 3 * slots[i]);
+    for (const slot of here.slots) {
+      point.fromArray(this.swarm.placeOf(slot, place));
       point.z = -point.z;
       const depth = point.distanceTo(this.camera.position);
       point.project(this.camera);
       if (point.z > 1) continue;
       const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
-      const reach = Math.max((this.radius * factor * unit) / depth, 9);
+      const reach = Math.max((uniforms.radius.value * unit) / depth, 9);
       // Inside a node's disc the one in front wins, else the nearest on the screen.
       const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
       if (score < bestScore) {
-        best = slots[i];
+        best = slot;
         bestScore = score;
       }
     }
@@ -344,40 +291,4 @@ function lines(points, material) {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
   return new LineSegments(geometry, material);
-}
-
-function reserve(object, count) {
-  const position = object.geometry.getAttribute('position');
-  if (position && position.count >= 2 * count) return;
-  object.geometry.dispose();
-  object.geometry = new BufferGeometry();
-  object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(6 * Math.max(count, 16)), 3).setUsage(DynamicDrawUsage));
-}
-
-function writeLines(object, pairs, count, positions) {
-  const attribute = object.geometry.getAttribute('position');
-  for (let i = 0; i < 2 * count; i++) {
-    const from = 3 * pairs[i];
-    attribute.array[3 * i] = positions[from];
-    attribute.array[3 * i + 1] = positions[from + 1];
-    attribute.array[3 * i + 2] = -positions[from + 2];
-  }
-  object.geometry.setDrawRange(0, 2 * count);
-  upload(attribute, 6 * count);
-}
-
-function writeMatrix(matrices, index, positions, slot, radius) {
-  const at = 16 * index;
-  matrices[at] = matrices[at + 5] = matrices[at + 10] = radius;
-  matrices[at + 12] = positions[3 * slot];
-  matrices[at + 13] = positions[3 * slot + 1];
-  matrices[at + 14] = -positions[3 * slot + 2];
-  matrices[at + 15] = 1;
-}
-
-function upload(attribute, length) {
-  attribute.clearUpdateRanges();
-  if (length === 0) return;
-  attribute.addUpdateRange(0, length);
-  attribute.needsUpdate = true;
 }

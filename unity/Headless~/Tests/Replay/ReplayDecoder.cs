@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.IO.Compression;
 using System.Text;
+using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless.Tests
 {
@@ -19,59 +20,89 @@ namespace Collektive.Headless.Tests
             public double Time;
             public readonly Dictionary<int, Node> Nodes = new Dictionary<int, Node>();
             public readonly HashSet<(int, int)> Links = new HashSet<(int, int)>(); // lesser id first
-            public int LinksChanged;
+            public int LinksInAll, LinksChanged;
         }
 
-        public readonly string Json;
+        public readonly JObject Header;
         public readonly List<Frame> Frames = new List<Frame>();
+
+        private readonly double step;
+        private readonly int[] ids;
+        private readonly double[] times;
 
         public ReplayDecoder(string html, string before, string after)
         {
             if (!html.StartsWith(before, StringComparison.Ordinal) || !html.EndsWith(after, StringComparison.Ordinal))
                 throw new InvalidDataException("the template is not kept");
-            var gzip = Convert.FromBase64String(html.Substring(before.Length, html.Length - before.Length - after.Length));
-            var bytes = new MemoryStream();
-            using (var stream = new GZipStream(new MemoryStream(gzip), CompressionMode.Decompress)) stream.CopyTo(bytes);
-            bytes.Position = 0;
-            var reader = new BinaryReader(bytes);
-            if (Encoding.ASCII.GetString(reader.ReadBytes(4)) != "CLKR") throw new InvalidDataException("magic");
-            if (reader.ReadUInt32() != 1) throw new InvalidDataException("version");
-            Json = Encoding.UTF8.GetString(reader.ReadBytes(reader.ReadInt32()));
-
-            var ids = new List<int>();
-            var links = new HashSet<(int, int)>();
-            for (int length; (length = reader.ReadInt32()) != 0;)
-            {
-                var end = bytes.Position + length;
-                Frames.Add(ReadFrame(reader, ids, links));
-                if (bytes.Position != end) throw new InvalidDataException("frame length");
-            }
-            if (bytes.Position != bytes.Length) throw new InvalidDataException("bytes after the end");
+            var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
+            var lines = text.Split('\n');
+            Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
+            if ((int)Header["version"] != 2) throw new InvalidDataException("version");
+            if ((int)Header["length"] != text.Length - lines[0].Length) throw new InvalidDataException("length");
+            step = (double)Header["positionStep"];
+            ids = Header["ids"].ToObject<int[]>();
+            times = Header["times"].ToObject<double[]>();
+            var perSegment = (int)Header["framesPerSegment"];
+            if (lines.Length - 1 != (times.Length + perSegment - 1) / perSegment) throw new InvalidDataException("number of segments");
+            for (var i = 1; i < lines.Length; i++) ReadSegment(Unpack(lines[i]), Math.Min(i * perSegment, times.Length));
         }
 
-        private static Frame ReadFrame(BinaryReader reader, List<int> ids, HashSet<(int, int)> links)
+        private static byte[] Unpack(string base64)
         {
-            var frame = new Frame { Time = reader.ReadDouble() };
-            for (var count = reader.ReadInt32(); count > 0; count--) ids.Add(reader.ReadInt32());
-            var bits = reader.ReadBytes((ids.Count + 7) / 8);
-            var present = new List<int>();
-            for (var slot = 0; slot < ids.Count; slot++)
-                if ((bits[slot >> 3] >> (slot & 7) & 1) != 0) present.Add(slot);
-            var ranges = new float[8];
-            for (var i = 0; i < 8; i++) ranges[i] = reader.ReadSingle();
-            var columns = new float[4][];
-            for (var column = 0; column < 4; column++)
-            {
-                columns[column] = new float[present.Count];
-                for (var i = 0; i < present.Count; i++)
-                {
-                    int q = reader.ReadUInt16(), steps = column == 3 ? 65534 : 65535;
-                    columns[column][i] = q > steps ? float.NaN : (float)(ranges[column] + q * ((double)ranges[column + 4] - ranges[column]) / steps);
-                }
-            }
-            for (var i = 0; i < present.Count; i++)
-                frame.Nodes.Add(ids[present[i]], new Node { X = columns[0][i], Y = columns[1][i], Z = columns[2][i], Scalar = columns[3][i] });
+            var bytes = new MemoryStream();
+            using (var stream = new GZipStream(new MemoryStream(Convert.FromBase64String(base64)), CompressionMode.Decompress)) stream.CopyTo(bytes);
+            return bytes.ToArray();
+        }
 
+        private void ReadSegment(byte[] bytes, int end)
+        {
+            var reader = new BinaryReader(new MemoryStream(bytes));
+            float min = reader.ReadSingle(), max = reader.ReadSingle();
+            var last = new int[4, ids.Length];
+            var motion = new int[4, ids.Length];
+            var seen = new HashSet<int>();
+            var links = new HashSet<(int, int)>();
+            while (Frames.Count < end)
+            {
+                var frame = new Frame { Time = times[Frames.Count] };
+                var present = ReadPresence(reader);
+                for (var column = 0; column < 4; column++)
+                {
+                    foreach (var slot in present)
+                    {
+                        var coded = ReadNumber(reader);
+                        var moved = unchecked(motion[column, slot] + ((int)(coded >> 1) ^ -(int)(coded & 1)));
+                        last[column, slot] = unchecked(last[column, slot] + moved);
+                        if (seen.Contains(slot)) motion[column, slot] = moved;
+                    }
+                }
+                seen.UnionWith(present);
+                foreach (var slot in present)
+                {
+                    var q = last[3, slot];
+                    var scalar = q == 0 ? float.NaN : (float)(min + (q - 1) * ((double)max - min) / 65534);
+                    float Metres(int axis) => (float)(last[axis, slot] * step);
+                    frame.Nodes.Add(ids[slot], new Node { X = Metres(0), Y = Metres(1), Z = Metres(2), Scalar = scalar });
+                }
+                ReadLinks(reader, frame, links);
+                Frames.Add(frame);
+            }
+            if (reader.BaseStream.Position != bytes.Length) throw new InvalidDataException("bytes after the end");
+        }
+
+        private static List<int> ReadPresence(BinaryReader reader)
+        {
+            var slots = (int)ReadNumber(reader);
+            var bits = reader.ReadBytes((slots + 7) / 8);
+            var present = new List<int>();
+            for (var slot = 0; slot < slots; slot++)
+                if ((bits[slot >> 3] >> (slot & 7) & 1) != 0) present.Add(slot);
+            return present;
+        }
+
+        private void ReadLinks(BinaryReader reader, Frame frame, HashSet<(int, int)> links)
+        {
+            frame.LinksInAll = (int)ReadNumber(reader);
             foreach (var pair in ReadPairs(reader))
             {
                 frame.LinksChanged++;
@@ -87,31 +118,30 @@ namespace Collektive.Headless.Tests
                 if (!frame.Nodes.ContainsKey(ids[a]) || !frame.Nodes.ContainsKey(ids[b])) throw new InvalidDataException("link of an absent node");
                 frame.Links.Add((Math.Min(ids[a], ids[b]), Math.Max(ids[a], ids[b])));
             }
-            return frame;
         }
 
         private static List<(int, int)> ReadPairs(BinaryReader reader)
         {
             var pairs = new List<(int, int)>();
             int a = -1, b = 0;
-            for (var count = reader.ReadInt32(); count > 0; count--)
+            for (var count = ReadNumber(reader); count > 0; count--)
             {
-                var step = ReadVarint(reader);
-                b = (step == 0 ? b : a + step) + ReadVarint(reader);
-                a += step;
+                var further = (int)ReadNumber(reader);
+                b = (further == 0 ? b : a + further) + (int)ReadNumber(reader);
+                a += further;
                 if (a >= b) throw new InvalidDataException("pair out of order");
                 pairs.Add((a, b));
             }
             return pairs;
         }
 
-        private static int ReadVarint(BinaryReader reader)
+        private static uint ReadNumber(BinaryReader reader)
         {
-            var value = 0;
+            uint value = 0;
             for (var shift = 0; ; shift += 7)
             {
                 var part = reader.ReadByte();
-                value |= (part & 0x7f) << shift;
+                value |= (uint)(part & 0x7f) << shift;
                 if (part < 0x80) return value;
             }
         }

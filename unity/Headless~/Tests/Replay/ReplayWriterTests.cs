@@ -2,7 +2,9 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using System.Threading;
+using Newtonsoft.Json;
 using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
@@ -10,6 +12,9 @@ namespace Collektive.Headless.Tests
     [TestFixture]
     public sealed class ReplayWriterTests
     {
+        /// <summary>Of the default arena of 20 m.</summary>
+        private const double Step = 20.0 / 65535;
+
         private const string Before = "<html><script>", After = "</script> ü </html>";
 
         private string folder;
@@ -65,7 +70,7 @@ namespace Collektive.Headless.Tests
             Assert.AreEqual(0, replay.Frames[2].Links.Count);
             Assert.AreEqual(0, replay.Frames[3].Nodes.Count);
             CollectionAssert.AreEquivalent(new[] { (-3, 100) }, replay.Frames[4].Links);
-            Assert.AreEqual(6f, replay.Frames[4].Nodes[100].Y);
+            Assert.AreEqual(6f, replay.Frames[4].Nodes[100].Y, Step / 2 + 1e-6);
         }
 
         [Test]
@@ -121,17 +126,137 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void TheGreatestFloatsSurvive()
+        public void AScalarOfTheGreatestFloatsSurvives()
         {
             var replay = Record(writer =>
             {
                 writer.BeginFrame(0);
-                writer.Node(1, float.MinValue, float.Epsilon, 0, 0);
-                writer.Node(2, float.MaxValue, 0, 0, 0);
+                writer.Node(1, 0, 0, 0, float.MinValue);
+                writer.Node(2, 0, 0, 0, float.MaxValue);
                 writer.EndFrame();
             });
-            Assert.AreEqual(float.MinValue, replay.Frames[0].Nodes[1].X);
-            Assert.AreEqual(float.MaxValue, replay.Frames[0].Nodes[2].X);
+            Assert.AreEqual(float.MinValue, replay.Frames[0].Nodes[1].Scalar);
+            Assert.AreEqual(float.MaxValue, replay.Frames[0].Nodes[2].Scalar);
+        }
+
+        [Test]
+        public void ABodyThatLeavesTheArenaCostsTheOthersNoPrecision()
+        {
+            var far = (float)(Step * (1 << 30));
+            var replay = Record(writer =>
+            {
+                for (var time = 0; time < 5; time++)
+                {
+                    writer.BeginFrame(time);
+                    writer.Node(1, 1.2345f, 0, 0, 0);
+                    writer.Node(2, time % 2 == 0 ? float.MinValue : float.MaxValue, -1e6f * time, 0, 0);
+                    writer.EndFrame();
+                }
+            });
+            for (var time = 0; time < 5; time++)
+            {
+                Assert.AreEqual(1.2345f, replay.Frames[time].Nodes[1].X, Step / 2 + 1e-6);
+                Assert.AreEqual(time % 2 == 0 ? -far : far, replay.Frames[time].Nodes[2].X, "the farthest that can be told");
+                Assert.AreEqual(Math.Max(-1e6f * time, -far), replay.Frames[time].Nodes[2].Y, 1);
+            }
+        }
+
+        [Test]
+        public void LinksAboveTheBudgetAreASteadyShareOfAll()
+        {
+            const int Nodes = 400;
+            var replay = Record(writer =>
+            {
+                for (var time = 0; time < 3; time++)
+                {
+                    writer.BeginFrame(time, Nodes * (Nodes - 1) / 2);
+                    for (var id = 0; id < Nodes; id++) writer.Node(id, id, 0, 0, 0);
+                    for (var a = 0; a < Nodes; a++)
+                        for (var b = 0; b < a; b++) writer.Link(a, b);
+                    writer.EndFrame();
+                }
+            });
+            foreach (var frame in replay.Frames)
+            {
+                Assert.AreEqual(Nodes * (Nodes - 1) / 2, frame.LinksInAll);
+                Assert.AreEqual(ReplayWriter.LinkBudget, frame.Links.Count, 0.02 * ReplayWriter.LinkBudget);
+                Assert.IsTrue(frame.Links.SetEquals(replay.Frames[0].Links), "other links than in the first frame");
+            }
+            var ofNode = new int[Nodes];
+            foreach (var (a, b) in replay.Frames[0].Links)
+            {
+                ofNode[a]++;
+                ofNode[b]++;
+            }
+            Assert.Greater(ofNode.Min(), 90, "each node keeps its share of 150 of 399");
+        }
+
+        [Test]
+        public void FewLinksAreAllKept()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0, 3);
+                for (var id = 0; id < 4; id++) writer.Node(id, id, 0, 0, 0);
+                for (var id = 1; id < 4; id++) writer.Link(0, id);
+                writer.EndFrame();
+            });
+            Assert.AreEqual(3, replay.Frames[0].Links.Count);
+            Assert.AreEqual(3, replay.Frames[0].LinksInAll);
+        }
+
+        [Test]
+        public void AMovingNodeTakesFewBytes()
+        {
+            const int Nodes = 1000, Frames = 100;
+            var random = new Random(1);
+            var places = new double[4 * Nodes]; // x, z and velocities
+            for (var i = 0; i < places.Length; i++) places[i] = i % 4 < 2 ? 20 * random.NextDouble() - 10 : random.NextDouble() - 0.5;
+            Record(writer =>
+            {
+                for (var frame = 0; frame < Frames; frame++)
+                {
+                    writer.BeginFrame(0.2 * frame);
+                    for (var id = 0; id < Nodes; id++)
+                    {
+                        int x = 4 * id, z = x + 1;
+                        for (var axis = x; axis <= z; axis++)
+                        {
+                            // Bodies turn slowly.
+                            places[axis + 2] += 0.02 * (random.NextDouble() - 0.5);
+                            places[axis] += 0.2 * places[axis + 2];
+                        }
+                        var distance = Math.Sqrt(places[x] * places[x] + places[z] * places[z]);
+                        writer.Node(id, (float)places[x], 0.25f, (float)places[z], (float)distance);
+                    }
+                    writer.EndFrame();
+                }
+            });
+            var size = 0.75 * (new FileInfo(page).Length - Before.Length - After.Length);
+            Assert.Less(size / (Nodes * Frames), 4.5, "bytes a node and frame, before base64");
+        }
+
+        [Test]
+        public void OnceTheGreatestFrameWasSeenAFrameAllocatesNothing()
+        {
+            using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
+            {
+                void Write(int from, int to)
+                {
+                    for (var time = from; time < to; time++)
+                    {
+                        writer.BeginFrame(time, 100);
+                        for (var id = 0; id < 100; id++) writer.Node(id, id + 0.01f * time, 0, 0, id);
+                        for (var id = 1; id < 100; id++) writer.Link(0, id);
+                        writer.EndFrame();
+                    }
+                }
+                // Frames of one segment: what compresses it is made anew for each.
+                Write(0, 2 * ReplayWriter.FramesPerSegment + 1);
+                var before = GC.GetAllocatedBytesForCurrentThread();
+                Write(2 * ReplayWriter.FramesPerSegment + 1, 3 * ReplayWriter.FramesPerSegment - 1);
+                Assert.AreEqual(0, GC.GetAllocatedBytesForCurrentThread() - before);
+            }
         }
 
         [TestCase(1)]
@@ -148,11 +273,18 @@ namespace Collektive.Headless.Tests
             var given = new List<ReplayDecoder.Frame>();
             var replay = Record(writer =>
             {
-                var frames = random.Next(1, 40);
+                var frames = random.Next(1, 70);
                 for (var i = 0; i < frames; i++) given.Add(RandomFrame(writer, random, i));
             });
             Assert.AreEqual(given.Count, replay.Frames.Count);
-            for (var i = 0; i < given.Count; i++) AssertSame(given[i], replay.Frames[i]);
+            for (var i = 0; i < given.Count; i++)
+            {
+                // Scalars are told within the range of their segment.
+                var segment = given.Skip(i / ReplayWriter.FramesPerSegment * ReplayWriter.FramesPerSegment).Take(ReplayWriter.FramesPerSegment);
+                var scalars = segment.SelectMany(frame => frame.Nodes.Values).Select(node => (double)node.Scalar).Where(value => !double.IsNaN(value)).ToList();
+                var range = scalars.Count == 0 ? 0 : scalars.Max() - scalars.Min();
+                AssertSame(given[i], replay.Frames[i], range / 65534 / 2 + 1e-7 * range);
+            }
         }
 
         [Test]
@@ -179,7 +311,7 @@ namespace Collektive.Headless.Tests
                     "\"shapes\":[{\"kind\":\"box\",\"centre\":[1.0,2.0,3.0],\"size\":[4.0,5.0,6.0],\"rotation\":[0.0,0.0,0.0,1.0]}," +
                     "{\"kind\":\"sphere\",\"centre\":[1.5,0.0,0.0],\"radius\":2.0}]," +
                     "\"markers\":[{\"name\":\"source\",\"position\":[25.0,0.0,0.0]}]}",
-                    replay.Json);
+                    replay.Header["metadata"].ToString(Formatting.None));
             }
             finally
             {
@@ -304,24 +436,22 @@ namespace Collektive.Headless.Tests
 
         private static float Coordinate(Random random, double extent) => (float)((random.NextDouble() - 0.5) * extent);
 
-        private static void AssertSame(ReplayDecoder.Frame expected, ReplayDecoder.Frame actual)
+        private static void AssertSame(ReplayDecoder.Frame expected, ReplayDecoder.Frame actual, double scalarTolerance)
         {
             Assert.AreEqual(expected.Time, actual.Time);
             Assert.AreEqual(expected.Nodes.Count, actual.Nodes.Count);
             Assert.IsTrue(expected.Links.SetEquals(actual.Links), "the links differ"); // AreEquivalent takes minutes
-            float extent = 0;
-            foreach (var node in expected.Nodes.Values)
-                extent = Math.Max(extent,
-                    Math.Max(Math.Abs(node.X), Math.Max(Math.Abs(node.Y), Math.Max(Math.Abs(node.Z), float.IsNaN(node.Scalar) ? 0 : Math.Abs(node.Scalar)))));
-            var tolerance = 2 * extent / 65534;
+            var tolerance = Step / 2 + 1e-6;
             foreach (var pair in expected.Nodes)
             {
                 var node = actual.Nodes[pair.Key];
-                Assert.AreEqual(pair.Value.X, node.X, tolerance);
-                Assert.AreEqual(pair.Value.Y, node.Y, tolerance);
-                Assert.AreEqual(pair.Value.Z, node.Z, tolerance);
+                // A float of that size has no finer steps itself.
+                void AssertNear(float wanted, float found) => Assert.AreEqual(wanted, found, tolerance + Math.Abs(wanted) * 1e-7);
+                AssertNear(pair.Value.X, node.X);
+                AssertNear(pair.Value.Y, node.Y);
+                AssertNear(pair.Value.Z, node.Z);
                 if (float.IsNaN(pair.Value.Scalar)) Assert.IsNaN(node.Scalar);
-                else Assert.AreEqual(pair.Value.Scalar, node.Scalar, tolerance);
+                else Assert.AreEqual(pair.Value.Scalar, node.Scalar, scalarTolerance);
             }
         }
     }

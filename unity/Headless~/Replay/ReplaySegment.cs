@@ -1,0 +1,171 @@
+using System;
+
+namespace Collektive.Headless
+{
+    /// <summary>Frames that are coded together, each by what it differs from the one before (FORMAT.md, Segment).</summary>
+    internal sealed class ReplaySegment
+    {
+        private const int Columns = 4; // x, y, z, scalar
+        private const int ScalarSteps = 65534;
+        private const int MostBytesOfNumber = 5;
+
+        private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
+        private readonly int[][] last = { new int[0], new int[0], new int[0], new int[0] };
+        private readonly int[][] motion = { new int[0], new int[0], new int[0], new int[0] };
+        private bool[] seen = new bool[0];
+        private byte[] bytes = new byte[1 << 12];
+        private int length;
+
+        /// <summary>Frames that were added since the last <see cref="Encode"/>.</summary>
+        internal int Count { get; private set; }
+
+        /// <summary>The next frame, empty.</summary>
+        /// <param name="slots">Slots in use before it.</param>
+        internal ReplayFrame Add(int slots)
+        {
+            var frame = frames[Count] = frames[Count] ?? new ReplayFrame();
+            Count++;
+            frame.Begin(slots);
+            return frame;
+        }
+
+        /// <summary>Codes the frames and forgets them.</summary>
+        /// <param name="coded">Holds the segment; valid until the next call.</param>
+        /// <returns>Length of the segment in bytes.</returns>
+        internal int Encode(out byte[] coded)
+        {
+            length = 0;
+            Reset(frames[Count - 1].Slots);
+            FindScalars(out var min, out var max);
+            Reserve(8);
+            WriteFloat(min);
+            WriteFloat(max);
+            // In double: the extent of two floats may be no float.
+            var scale = max > min ? ScalarSteps / ((double)max - min) : 0;
+            for (var i = 0; i < Count; i++)
+            {
+                var frame = frames[i];
+                WritePresence(frame);
+                for (var axis = 0; axis < 3; axis++) WriteColumn(frame, frame.Positions[axis], last[axis], motion[axis]);
+                frame.QuantiseScalars(min, scale);
+                WriteColumn(frame, frame.ScalarSteps, last[3], motion[3]);
+                for (var slot = 0; slot < frame.Slots; slot++) seen[slot] |= frame.Has(slot);
+                WriteLinks(i == 0 ? null : frames[i - 1], frame);
+            }
+            Count = 0;
+            coded = bytes;
+            return length;
+        }
+
+        private void Reset(int slots)
+        {
+            if (seen.Length < slots)
+            {
+                seen = new bool[slots];
+                for (var column = 0; column < Columns; column++)
+                {
+                    last[column] = new int[slots];
+                    motion[column] = new int[slots];
+                }
+            }
+            Array.Clear(seen, 0, slots);
+            for (var column = 0; column < Columns; column++)
+            {
+                Array.Clear(last[column], 0, slots);
+                Array.Clear(motion[column], 0, slots);
+            }
+        }
+
+        private void FindScalars(out float min, out float max)
+        {
+            min = float.PositiveInfinity;
+            max = float.NegativeInfinity;
+            for (var i = 0; i < Count; i++) frames[i].WidenScalars(ref min, ref max);
+            if (min > max) min = max = 0;
+        }
+
+        private void WritePresence(ReplayFrame frame)
+        {
+            Reserve(MostBytesOfNumber + frame.Slots / 8 + 1);
+            WriteNumber((uint)frame.Slots);
+            for (var first = 0; first < frame.Slots; first += 8)
+            {
+                var bits = 0;
+                for (var slot = first; slot < frame.Slots && slot < first + 8; slot++)
+                    if (frame.Has(slot)) bits |= 1 << (slot - first);
+                bytes[length++] = (byte)bits;
+            }
+        }
+
+        /// <summary>What each value differs from where its motion would have taken it. All sums wrap around.</summary>
+        private void WriteColumn(ReplayFrame frame, int[] values, int[] last, int[] motion)
+        {
+            Reserve(MostBytesOfNumber * frame.Slots);
+            unchecked
+            {
+                for (var slot = 0; slot < frame.Slots; slot++)
+                {
+                    if (!frame.Has(slot)) continue;
+                    var step = values[slot] - last[slot];
+                    var surprise = step - motion[slot];
+                    WriteNumber((uint)(surprise << 1 ^ surprise >> 31));
+                    last[slot] = values[slot];
+                    if (seen[slot]) motion[slot] = step;
+                }
+            }
+        }
+
+        private void WriteLinks(ReplayFrame before, ReplayFrame frame)
+        {
+            Reserve(MostBytesOfNumber * (3 + 2 * (frame.LinkCount + (before?.LinkCount ?? 0))));
+            WriteNumber((uint)frame.Links);
+            // Each set is told by its size first.
+            WritePairs(before, frame);
+            WritePairs(frame, before);
+        }
+
+        /// <summary>The links of one frame that another does not have.</summary>
+        private void WritePairs(ReplayFrame of, ReplayFrame without)
+        {
+            WriteNumber((uint)WalkPairs(of, without, false));
+            WalkPairs(of, without, true);
+        }
+
+        private int WalkPairs(ReplayFrame of, ReplayFrame without, bool write)
+        {
+            if (of == null) return 0;
+            int others = without?.LinkCount ?? 0, other = 0, count = 0, a = -1, b = 0;
+            for (var i = 0; i < of.LinkCount; i++)
+            {
+                var key = of.LinkKeys[i];
+                while (other < others && without.LinkKeys[other] < key) other++;
+                if (other < others && without.LinkKeys[other] == key) continue;
+                count++;
+                if (!write) continue;
+                int nextA = (int)(key >> 32), nextB = (int)key;
+                WriteNumber((uint)(nextA - a));
+                WriteNumber((uint)(nextB - (nextA == a ? b : nextA)));
+                a = nextA;
+                b = nextB;
+            }
+            return count;
+        }
+
+        private void WriteNumber(uint value)
+        {
+            for (; value >= 0x80; value >>= 7) bytes[length++] = (byte)(value | 0x80);
+            bytes[length++] = (byte)value;
+        }
+
+        private void WriteFloat(float value)
+        {
+            var bits = BitConverter.SingleToInt32Bits(value);
+            for (var shift = 0; shift < 32; shift += 8) bytes[length++] = (byte)(bits >> shift);
+        }
+
+        private void Reserve(int more)
+        {
+            if (length + more > bytes.Length) Array.Resize(ref bytes, Math.Max(length + more, bytes.Length * 2));
+        }
+    }
+}

@@ -1,0 +1,209 @@
+// Nodes and links of the picture. The places of two recorded frames lie in textures, one texel for each slot; the vertex shaders look
+// them up and draw each node between them, so that a picture costs the script the same whatever the number of nodes.
+import {
+  BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
+  LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,
+} from 'three';
+import { TEXELS } from './recording.js';
+
+const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
+const OUTLINE = 1.16; // times the node's radius
+
+const PLACES = /* glsl */`
+uniform sampler2D here, next, palette;
+uniform float share, radius;
+vec4 texelOf(float slot) {
+  ivec2 at = ivec2(int(slot) % ${TEXELS}, int(slot) / ${TEXELS});
+  vec4 from = texelFetch(here, at, 0), to = texelFetch(next, at, 0);
+  // Unity's z is mirrored. A node that is not there in the next frame stays where it is.
+  return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
+}
+`;
+// Shapes face the eye: half a sphere is enough.
+const NODE = /* glsl */`
+attribute float slot;
+varying vec3 tint;
+vec3 facing(vec3 v) { return v * mat3(viewMatrix); }
+`;
+
+export class Swarm {
+  /** `slots` and `links` are the most that `show` will be given; `materials` those of the theme: `outline`, `halo`, `link`, `accentLine`. */
+  constructor(scene, slots, links, scale, materials) {
+    this.scale = scale;
+    this.detailed = slots <= DETAILED_NODES;
+    const rows = Math.max(Math.ceil(slots / TEXELS), 1);
+    this.textures = [0, 1].map(() => new DataTexture(null, TEXELS, rows, RGBAFormat, FloatType));
+    this.palette = new DataTexture(scale.table, scale.table.length / 4, 1, RGBAFormat, FloatType);
+    this.palette.needsUpdate = true;
+    this.uniforms = {
+      here: { value: null }, next: { value: null }, palette: { value: this.palette }, share: { value: 0 }, radius: { value: 1 },
+    };
+
+    const body = new MeshLambertMaterial();
+    for (const material of [body, materials.outline, materials.halo]) this.placeNodes(material);
+    for (const material of [materials.link, materials.accentLine]) this.placeLines(material);
+    const slotsShown = new InstancedBufferAttribute(new Float32Array(Math.max(slots, 1)), 1).setUsage(DynamicDrawUsage);
+    const shape = this.detailed ? new SphereGeometry(1, 20, 12) : dome();
+    this.nodes = new Mesh(instanced(shape, slotsShown), body);
+    if (this.detailed) {
+      this.nodes.castShadow = true;
+      this.nodes.customDepthMaterial = this.placeNodes(new MeshDepthMaterial());
+    }
+    if (!this.detailed) materials.outline.side = FrontSide;
+    const outline = this.detailed ? shape.clone().scale(OUTLINE, OUTLINE, OUTLINE) : disc();
+    this.outlines = new Mesh(instanced(outline, slotsShown), materials.outline);
+    const halo = (size) => new Mesh(
+      instanced(new SphereGeometry(1.5 * size, 20, 12), new InstancedBufferAttribute(new Float32Array(0), 1)), materials.halo);
+    this.selectedHalo = halo(1.2);
+    this.neighbourHalos = halo(0.92);
+    this.links = linesOf(materials.link, links, 1);
+    this.selectedLinks = linesOf(materials.accentLine, 0, 2);
+    for (const object of [this.nodes, this.outlines, this.selectedHalo, this.neighbourHalos, this.links, this.selectedLinks]) {
+      object.frustumCulled = false;
+      scene.add(object);
+    }
+  }
+
+  set radius(radius) {
+    this.uniforms.radius.value = radius;
+  }
+
+  /** Shows the moment that is `share` of the way from one frame to the next. */
+  show(here, next, share) {
+    const { uniforms } = this;
+    uniforms.share.value = share;
+    if (this.here !== here || this.next !== next) {
+      const [from, to] = this.load(here, next);
+      uniforms.here.value = from;
+      uniforms.next.value = to;
+    }
+    if (this.here !== here) {
+      setSlots(this.nodes, here.slots);
+      this.outlines.geometry.instanceCount = here.slots.length;
+      setLines(this.links, here.pairs);
+    }
+    this.here = here;
+    this.next = next;
+  }
+
+  /** Marks a node, with its links of the frame on show; -1: none. */
+  select(slot) {
+    const pairs = [];
+    const neighbours = [];
+    if (slot >= 0) {
+      for (let i = 0; i < this.here.pairs.length; i += 2) {
+        const [a, b] = [this.here.pairs[i], this.here.pairs[i + 1]];
+        if (a !== slot && b !== slot) continue;
+        pairs.push(a, b);
+        neighbours.push(a === slot ? b : a);
+      }
+    }
+    setSlots(this.selectedHalo, slot < 0 ? [] : [slot]);
+    setSlots(this.neighbourHalos, neighbours);
+    setLines(this.selectedLinks, pairs);
+  }
+
+  /** Where a slot is drawn, in Unity's axes; written to `place`. */
+  placeOf(slot, place) {
+    const [from, to] = [this.here.places, this.next.places];
+    const share = this.next.present[slot] ? this.uniforms.share.value : 0;
+    for (let axis = 0; axis < 3; axis++) place[axis] = from[4 * slot + axis] + share * (share && to[4 * slot + axis] - from[4 * slot + axis]);
+    return place;
+  }
+
+  /** The textures of two frames; what the graphics card has already stays there. */
+  load(here, next) {
+    const find = (frame) => this.textures.find((texture) => texture.frame === frame);
+    const free = (kept) => this.textures.find((texture) => texture !== kept);
+    const from = find(here) ?? this.write(free(find(next)), here);
+    return [from, find(next) ?? this.write(free(from), next)];
+  }
+
+  write(texture, frame) {
+    texture.frame = frame;
+    texture.image.data = frame.places;
+    for (const slot of frame.slots) frame.places[4 * slot + 3] = this.scale.indexOf(frame.scalars[slot]);
+    texture.needsUpdate = true;
+    return texture;
+  }
+
+  placeNodes(material) {
+    return this.patch(material, (shader) => {
+      shader.vertexShader = (PLACES + NODE + shader.vertexShader)
+        .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = facing(normal);')
+        .replace('#include <begin_vertex>', `vec4 texel = texelOf(slot);
+          tint = texelFetch(palette, ivec2(int(texel.w), 0), 0).rgb;
+          vec3 transformed = texel.xyz + facing(radius * position);`);
+      if (material.isMeshLambertMaterial) {
+        shader.fragmentShader = `varying vec3 tint;\n${shader.fragmentShader}`.replace('#include <color_fragment>', 'diffuseColor.rgb *= tint;');
+      }
+    });
+  }
+
+  placeLines(material) {
+    return this.patch(material, (shader) => {
+      // A line's ends have their slots in the place of x.
+      shader.vertexShader = (PLACES + shader.vertexShader).replace('#include <begin_vertex>', 'vec3 transformed = texelOf(position.x).xyz;');
+    });
+  }
+
+  patch(material, change) {
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.uniforms);
+      change(shader);
+    };
+    material.customProgramCacheKey = () => change.toString();
+    return material;
+  }
+}
+
+/** The half of a sphere that the eye sees, and a little more for the sides of the picture. */
+function dome() {
+  return new SphereGeometry(1, 12, 3, 0, 2 * Math.PI, 0, 0.58 * Math.PI).rotateX(Math.PI / 2);
+}
+
+function disc() {
+  return new CircleGeometry(OUTLINE, 12).translate(0, 0, -0.3);
+}
+
+function instanced(shape, slots) {
+  const geometry = new InstancedBufferGeometry();
+  geometry.index = shape.index;
+  geometry.setAttribute('position', shape.getAttribute('position'));
+  geometry.setAttribute('normal', shape.getAttribute('normal'));
+  geometry.setAttribute('slot', slots);
+  geometry.instanceCount = 0;
+  return geometry;
+}
+
+function linesOf(material, capacity, order) {
+  const object = new LineSegments(new BufferGeometry(), material);
+  object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(2 * capacity), 1).setUsage(DynamicDrawUsage));
+  object.geometry.boundingSphere = new Sphere(); // none can be made of slots
+  object.renderOrder = order;
+  return object;
+}
+
+function setSlots(mesh, slots) {
+  write(mesh, 'slot', slots, InstancedBufferAttribute);
+  mesh.geometry.instanceCount = slots.length;
+}
+
+function setLines(object, pairs) {
+  write(object, 'position', pairs, BufferAttribute);
+  object.geometry.setDrawRange(0, pairs.length);
+}
+
+function write(object, name, values, Attribute) {
+  let attribute = object.geometry.getAttribute(name);
+  if (attribute.array.length < values.length) {
+    object.geometry.dispose();
+    attribute = new Attribute(new Float32Array(2 * values.length), 1).setUsage(DynamicDrawUsage);
+    object.geometry.setAttribute(name, attribute);
+  }
+  attribute.array.set(values);
+  attribute.clearUpdateRanges();
+  if (values.length === 0) return;
+  attribute.addUpdateRange(0, values.length);
+  attribute.needsUpdate = true;
+}
