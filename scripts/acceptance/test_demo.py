@@ -73,6 +73,10 @@ class TheDemo(Folder):
         self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
         self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
 
+    def test_the_replay_page_costs_a_tenth_of_the_run_at_most(self):
+        self.assertLessEqual(self.whole["replay_ms"], 0.1 * 1000 * self.whole["wall_seconds"])
+        self.assertLess(os.path.getsize(os.path.join(self.out, "replay.html")), 3e6, "bytes")
+
     def test_pictures_are_there_and_named_in_the_output(self):
         for name in ["start.png", "middle.png", "end.png", "replay.html", "metrics.csv", "manifest.json"]:
             self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 200)

@@ -55,6 +55,14 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("100 million", last_error(result))
 
+    def test_a_replay_ends_where_the_run_ends(self):
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')
+        result = self.run_it("--seconds", "0.3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        _, frames = replay.read(self.path("out", "replay.html"))
+        self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
+
     def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self):
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
         digests = set()

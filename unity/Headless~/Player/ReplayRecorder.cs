@@ -21,7 +21,7 @@ namespace Collektive.Headless
         private readonly SimulationManager manager;
         private readonly bool shaded;
         private readonly Stopwatch clock = new Stopwatch();
-        private double due;
+        private double last = double.NegativeInfinity;
 
         internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, SimulationManager manager)
         {
@@ -48,9 +48,22 @@ namespace Collektive.Headless
         /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
-            if (time < due - 1e-6) return;
+            if (time >= last + Math.Max(1 / MostFrames, manager.Nodes.Count / MostNodes) - 1e-6) Record(time);
+        }
+
+        /// <summary>Writes the page, which ends with this moment.</summary>
+        internal void Finish(string template, string path)
+        {
+            if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
             clock.Start();
-            due = time + Math.Max(1 / MostFrames, manager.Nodes.Count / MostNodes);
+            writer.Finish(template, path);
+            clock.Stop();
+        }
+
+        private void Record(double time)
+        {
+            clock.Start();
+            last = time;
             writer.BeginFrame(time, CountLinks());
             var nodes = manager.Nodes;
             for (var i = 0; i < nodes.Count; i++)
@@ -61,13 +74,6 @@ namespace Collektive.Headless
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
                 if (pair.IsHeld) writer.Link(pair.Low, pair.High);
             writer.EndFrame();
-            clock.Stop();
-        }
-
-        internal void Finish(string template, string path)
-        {
-            clock.Start();
-            writer.Finish(template, path);
             clock.Stop();
         }
 

@@ -12,8 +12,8 @@ namespace Collektive.Headless
     /// <summary>
     /// Writes a run as a replay page; the format is in FORMAT.md. For each frame: <see cref="BeginFrame"/>, each node, then each
     /// link between those nodes, <see cref="EndFrame"/>; at the end <see cref="Finish"/>. Every <see cref="FramesPerSegment"/> frames go to a
-    /// scratch file: memory does not grow with their number, and a frame allocates nothing once the greatest numbers of nodes and links were
-    /// seen. One thread at a time. After an exception the recording is of no further use: dispose the writer.
+    /// scratch file: memory grows by eight bytes a frame, and between two of those moments a frame allocates nothing once the greatest
+    /// numbers of nodes and links were seen. One thread at a time. After an exception the recording is of no further use: dispose the writer.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
     {
@@ -164,8 +164,14 @@ namespace Collektive.Headless
         public void Dispose()
         {
             finished = true;
-            scratch.Dispose();
-            File.Delete(scratchPath);
+            try
+            {
+                scratch.Dispose();
+            }
+            finally
+            {
+                File.Delete(scratchPath);
+            }
         }
 
         private int NewSlot(int id)

@@ -19,11 +19,15 @@ vec4 texelOf(float slot) {
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
-// Shapes face the eye: half a sphere is enough.
+// A shape's z axis points from the node to the eye: half a sphere is enough.
 const NODE = /* glsl */`
 attribute float slot;
 varying vec3 tint;
-vec3 facing(vec3 v) { return v * mat3(viewMatrix); }
+vec3 facing(vec3 v, vec3 centre) {
+  vec3 ahead = normalize(-(viewMatrix * vec4(centre, 1.0)).xyz);
+  vec3 up = normalize(cross(ahead, vec3(1.0, 0.0, 0.0)));
+  return mat3(cross(up, ahead), up, ahead) * v * mat3(viewMatrix);
+}
 `;
 
 export class Swarm {
@@ -130,10 +134,11 @@ export class Swarm {
   placeNodes(material) {
     return this.patch(material, (shader) => {
       shader.vertexShader = (PLACES + NODE + shader.vertexShader)
-        .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = facing(normal);')
-        .replace('#include <begin_vertex>', `vec4 texel = texelOf(slot);
-          tint = texelFetch(palette, ivec2(int(texel.w), 0), 0).rgb;
-          vec3 transformed = texel.xyz + facing(radius * position);`);
+        .replace('void main() {', `void main() {
+          vec4 texel = texelOf(slot);
+          tint = texelFetch(palette, ivec2(int(texel.w), 0), 0).rgb;`)
+        .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = facing(normal, texel.xyz);')
+        .replace('#include <begin_vertex>', 'vec3 transformed = texel.xyz + facing(radius * position, texel.xyz);');
       if (material.isMeshLambertMaterial) {
         shader.fragmentShader = `varying vec3 tint;\n${shader.fragmentShader}`.replace('#include <color_fragment>', 'diffuseColor.rgb *= tint;');
       }
@@ -157,13 +162,13 @@ export class Swarm {
   }
 }
 
-/** The half of a sphere that the eye sees, and a little more for the sides of the picture. */
+/** The half of a sphere that the eye sees. */
 function dome() {
-  return new SphereGeometry(1, 12, 3, 0, 2 * Math.PI, 0, 0.58 * Math.PI).rotateX(Math.PI / 2);
+  return new SphereGeometry(1, 12, 2, 0, 2 * Math.PI, 0, Math.PI / 2).rotateX(Math.PI / 2);
 }
 
 function disc() {
-  return new CircleGeometry(OUTLINE, 12).translate(0, 0, -0.3);
+  return new CircleGeometry(OUTLINE, 12).translate(0, 0, -0.1);
 }
 
 function instanced(shape, slots) {
