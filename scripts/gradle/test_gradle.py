@@ -20,7 +20,9 @@ def gradle(*tasks):
 
 def entries(*path):
     with zipfile.ZipFile(os.path.join(ROOT, "jvm-host", *path)) as jar:
-        return {name: jar.read(name) for name in jar.namelist() if not name.endswith("/") and not OWN.match(name)}
+        found = {name: jar.read(name) for name in jar.namelist() if not name.endswith("/") and not OWN.match(name)}
+    # Maven ends lists of services with a line feed, Shadow does not.
+    return {name: read.split() if name.startswith("META-INF/services/") else read for name, read in found.items()}
 
 
 class Gradle(unittest.TestCase):
