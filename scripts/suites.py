@@ -55,6 +55,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("assets", ["test_assets"], [*built, "setup_python"], quick=True),
         Suite("faults", ["test_faults"], nunit, nunit=True),
         Suite("exits", ["test_exits"], nunit, nunit=True),
+        Suite("soak", ["test_soak"], [*nunit, "build_soak"], nunit=True),
         Suite("roundtrip", ["test_roundtrip"], [*built, "setup_python"]),
         Suite("page", ["test_page"], [*built, "build_replay_page"], quick=True),
         Suite("acceptance", ["test_acceptance"], [*built, "build_replay_page", "setup_python"]),

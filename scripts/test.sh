@@ -5,15 +5,16 @@ PYTHON="$BUILD/python/bin/python"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --stress | --sanitize | fuzz [MINUTES]
+usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --soak MINUTES | --stress | --sanitize | fuzz [MINUTES]
                         | fuzz schemas [MINUTES [SEED]] | bare [ROOT]...
 
-Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, roundtrip, page, acceptance,
-bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
+Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, soak, roundtrip, page,
+acceptance, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
+  --soak      a scene whose nodes come, fail and go: memory, threads and descriptors must be flat from the second minute on; a table
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
   --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
   fuzz        frames of any bytes against open, step and control, 5 minutes each or MINUTES; what it learns stays in build/fuzz
@@ -31,6 +32,7 @@ cmd_test() {
     --faults) at_length faults_at_length "${*:2}" ;;
     --stress) stress_at_length ;;
     fuzz) if [ "${2:-}" = schemas ]; then fuzz_schemas "${@:3}"; else test_fuzz "${@:2}"; fi ;;
+    --soak) at_length soak_at_length "${@:2}" ;;
     --exits | --sanitize)
       [ $# = 1 ] || fail "test: $1 takes no arguments"
       at_length "${1#--}_at_length"

@@ -10,4 +10,5 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Tests")]
 [assembly: InternalsVisibleTo("Collektive.WithoutLibrary")]
+[assembly: InternalsVisibleTo("Collektive.Soak")]
 [assembly: InternalsVisibleTo("RoundTrip")]

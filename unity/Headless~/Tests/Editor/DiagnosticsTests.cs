@@ -2,6 +2,7 @@ using System.Collections.Generic;
 using System.IO;
 using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
+using Collektive.Unity;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
 using UnityEditor;
@@ -75,6 +76,26 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That((errors[0].Source, errors[0].Node, errors[0].Count, errors[0].LastTick), Is.EqualTo(("BrokenSensor", 1, 3L, 4UL)));
             Assert.That(errors[0].LastMessage, Is.EqualTo("out of order"));
             Assert.That(Manager.ErrorCount, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void Errors_of_nodes_that_have_left_are_added_up()
+        {
+            var nodes = MakeThree();
+            for (var i = 0; i < 3; i++) nodes[i].Node.gameObject.AddComponent<BrokenSensor>();
+            Play(2);
+            nodes[0].Node.enabled = false;
+            Object.DestroyImmediate(nodes[2].Node.gameObject);
+            Play(1);
+            var errors = new Diagnostics(Manager).Errors();
+            Assert.That(errors.ConvertAll(each => (each.Source, each.Node, each.Count)),
+                Is.EqualTo(new[] { ("BrokenSensor", NodeErrors.Left, 4L), ("BrokenSensor", 1, 3L) }));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(7));
+            nodes[0].Node.enabled = true;
+            Play(1);
+            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "it came back as another node");
+            Manager.enabled = false;
+            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "the end of the simulation keeps them");
         }
 
         [Test]

@@ -178,7 +178,7 @@ namespace Collektive.Unity
         /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
         internal void End()
         {
-            for (var i = Nodes.Count - 1; i >= 0; i--) Leave(Nodes[i]);
+            for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
             IsOpen = false;
             if (!isTicking) CloseSession();
             Errors.TellCounts();
@@ -191,6 +191,13 @@ namespace Collektive.Unity
         }
 
         internal void Leave(Node node)
+        {
+            Errors.Leave(node.Id);
+            Remove(node);
+        }
+
+        /// <summary>At the end of a simulation its errors keep their nodes, for who looks at them afterwards.</summary>
+        private void Remove(Node node)
         {
             roster.Leave(node);
             for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);

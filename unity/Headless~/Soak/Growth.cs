@@ -1,0 +1,58 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Xml.Linq;
+
+namespace Collektive.Headless.Soak
+{
+    /// <summary>Samples of a run: none of the measures may be higher in the last third of them than in the first, by more than it is allowed.</summary>
+    internal sealed class Growth
+    {
+        /// <summary>What is measured, and what it may grow by: the noise of collectors and compilers.</summary>
+        internal static readonly (string Name, double Allowed)[] Measures =
+        {
+            ("managed heap, KB", 1024), ("RSS, KB", 16384), ("JVM heap, KB", 2048), ("metaspace, KB", 1024), ("classes", 100), ("threads", 1),
+            ("descriptors", 1),
+        };
+
+        private readonly List<double[]> samples = new List<double[]>();
+
+        internal void Add(double[] sample) => samples.Add(sample);
+
+        /// <summary>Prints a table, and writes the results as JUnit XML to <paramref name="file"/> if there is one.</summary>
+        /// <returns>Whether nothing has grown.</returns>
+        internal bool Report(string file)
+        {
+            if (samples.Count < 3) throw new InvalidOperationException("too short: there are " + samples.Count + " samples, and three are needed");
+            var results = new XElement("testsuite", new XAttribute("name", "soak"));
+            var isFlat = true;
+            Console.WriteLine(Row("measure", "settled", "end", "growth", "allowed"));
+            for (var i = 0; i < Measures.Length; i++)
+            {
+                var (name, allowed) = Measures[i];
+                var third = samples.Count / 3;
+                var settled = Median(i, 0, third);
+                var end = Median(i, samples.Count - third, samples.Count);
+                var grew = end - settled > allowed;
+                Console.WriteLine(Row(name, Text(settled), Text(end), Text(end - settled), Text(allowed)) + (grew ? "  GROWS" : ""));
+                var result = new XElement("testcase", new XAttribute("classname", "soak"), new XAttribute("name", name));
+                if (grew) result.Add(new XElement("failure", new XAttribute("message", "grew from " + Text(settled) + " to " + Text(end))));
+                results.Add(result);
+                isFlat &= !grew;
+            }
+            if (file != null) results.Save(file);
+            return isFlat;
+        }
+
+        private double Median(int measure, int from, int to)
+        {
+            var values = samples.GetRange(from, to - from).ConvertAll(sample => sample[measure]);
+            values.Sort();
+            return values[values.Count / 2];
+        }
+
+        private static string Row(params string[] cells) => string.Format("{0,-18} {1,10} {2,10} {3,10} {4,10}", cells);
+
+        private static string Text(double value) => value.ToString("0", CultureInfo.InvariantCulture);
+    }
+}
