@@ -72,7 +72,7 @@ bare_root() {
   say "$name: making the root"
   if ! bare_make "$suite" "$root" >"$log" 2>&1; then
     tail -n 3 "$log" >&2
-    say "$name: skipped, its root cannot be made; the whole log is build/log/bare-$name.log"
+    say "$name: skipped, its root cannot be made; the whole log is $BUILD/log/bare-$name.log"
     BARE_SKIPPED=$((BARE_SKIPPED + 1))
     rm -rf --one-file-system "$root"
     return 0

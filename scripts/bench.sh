@@ -61,5 +61,5 @@ bench_rounds() {
   "$java" --sun-misc-unsafe-memory-access=allow -version >/dev/null 2>&1 && quiet=(--sun-misc-unsafe-memory-access=allow)
   "$java" "${quiet[@]}" -cp "$BENCH_JAR:$ROOT/jvm-host/bench/target/lib/*:$HOST_JAR:$LIBRARY_JAR:$SAMPLES_JAR" org.collektive.bench.rounds.RoundsKt \
     "$BUILD/bench/rounds.json" "$@"
-  say "wrote build/bench/rounds.json"
+  say "wrote $BUILD/bench/rounds.json"
 }

@@ -2,6 +2,8 @@
 # Sourced, never run.
 
 BUILD="$ROOT/build"
+# What Python, Mono and Node run with.
+STACK_KB=1024
 FLATC="$BUILD/flatc"
 FLATBUFFERS="$BUILD/flatbuffers"
 PHYSX="$BUILD/physx"
@@ -10,6 +12,27 @@ export COLLEKTIVE_STARTED=${COLLEKTIVE_STARTED:-$(date +%s)}
 
 say() { printf '[%4ds] %s\n' "$(($(date +%s) - COLLEKTIVE_STARTED))" "$*" >&2; }
 fail() { printf 'collektive: %s\n' "$*" >&2; exit 1; }
+
+# is_closed DESCRIPTOR: whether the caller closed it. Bash then has the command's own file there.
+is_closed() { [ ! -e "/proc/self/fd/$1" ] || [ "/proc/self/fd/$1" -ef "$ROOT/collektive" ]; }
+
+# surroundings: what the tools rely on, whatever the caller's shell is like.
+surroundings() {
+  # A closed descriptor is taken by the next file that is opened. Messages without a place go to the results.
+  # shellcheck disable=SC2310 # looks only
+  if is_closed 0; then exec 0</dev/null; fi
+  # shellcheck disable=SC2310
+  if is_closed 1; then exec 1>/dev/null; fi
+  # shellcheck disable=SC2310
+  if is_closed 2; then exec 2>&1; fi
+  # Other encodings have no form for some file names.
+  if [ "$(locale charmap 2>/dev/null)" != UTF-8 ]; then export LC_ALL=C.UTF-8; fi
+  local stack
+  stack=$(ulimit -s)
+  if [ "$stack" != unlimited ] && [ "$stack" -lt "$STACK_KB" ]; then
+    fail "the stack of processes is limited to $stack KB, and the tools need $STACK_KB: ulimit -s 8192"
+  fi
+}
 
 have() { command -v "$1" >/dev/null 2>&1; }
 
@@ -32,7 +55,7 @@ unlock() { exec 9<&-; }
 # attended COMMAND...: runs a command in a process group of its own and passes SIGINT, SIGTERM and SIGHUP on to all of it, so that no process of it
 # is left behind. A command that a signal ended has the exit code that shells give it.
 attended() {
-  local group code signal=0
+  local group code lifeline signal=0
   set -m
   "$@" &
   group=$!
@@ -43,10 +66,13 @@ attended() {
     trap "signal=15; kill -TERM -- -$group 2>/dev/null" TERM
     trap "signal=1; kill -TERM -- -$group 2>/dev/null" HUP
   }
+  # Nobody can forward SIGKILL: when this process is gone, so is its end of the pipe.
+  exec {lifeline}> >(trap '' INT TERM HUP; cat >/dev/null; kill -TERM -- "-$group" 2>/dev/null)
   # A signal ends `wait`, not what it waits for.
   while code=0; wait "$group" || code=$?; kill -0 "$group" 2>/dev/null; do :; done
   # The first process may be gone before those that it started.
   while kill -0 -- "-$group" 2>/dev/null; do sleep 0.05; done
+  exec {lifeline}>&-
   if [ "$signal" != 0 ] && [ "$code" != 0 ]; then code=$((128 + signal)); fi
   return "$code"
 }
@@ -59,8 +85,9 @@ logged() {
   mkdir -p "$(dirname "$log")"
   say "$(basename "$log" .log) ..."
   if "$ROOT/collektive" step "$@" >"$log" 2>&1; then return 0; fi
-  tail -n 60 "$log" >&2
-  printf 'collektive: %s failed; the whole log is %s\n' "$(basename "$log" .log)" "${log#"$ROOT/"}" >&2
+  # What compilers say first matters most, and what other tools say last.
+  if [ "$(wc -l <"$log")" -le 60 ]; then cat "$log" >&2; else { head -n 30 "$log"; echo "..."; tail -n 30 "$log"; } >&2; fi
+  printf 'collektive: %s failed; the whole log is %s\n' "$(basename "$log" .log)" "$log" >&2
   return 1
 }
 

@@ -15,7 +15,7 @@ cmd_profile() {
   while [ $# -gt 0 ]; do
     case $1 in
       --out) out=${2:?--out needs a folder}; shift 2 ;;
-      --overwrite | --trust-jvm) arguments+=("$1"); shift ;;
+      --overwrite | --keep-going | --trust-jvm) arguments+=("$1"); shift ;;
       --seed | --seconds | --set) [ $# -ge 2 ] || fail "profile: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "profile: unknown option $1 (see ./collektive profile --help)" ;;
       *) [ -z "$scenario" ] || fail "profile: one scenario at a time"; scenario=$1; shift ;;

@@ -37,11 +37,11 @@ cmd_replay() {
   # Those of the samples may have run in Unity.
   build_jvm
   own_programs "$SAMPLES_JAR"
-  local runtime= jars= plugin= schema= arguments=() programs=() kotlin=
+  local runtime= jars= plugin= schema= arguments=() programs=() kotlin= jar
   while [ $# -gt 0 ]; do
     case $1 in
       --trust) arguments+=("$1"); shift ;;
-      --*) [ $# -ge 2 ] || fail "replay: $1 needs a value" ;;&
+      --*) [ $# -ge 2 ] || unusable "$1 needs a value" ;;&
       --programs) if [ -d "$2" ]; then kotlin=$2; else programs+=(--programs "$2"); fi; shift 2 ;;
       --schema) schema=$2; shift 2 ;;
       --runtime) runtime=$2; shift 2 ;;
@@ -51,12 +51,17 @@ cmd_replay() {
     esac
   done
   if [ -n "$kotlin" ]; then
-    [ -f "$schema" ] || fail "replay: --programs '$kotlin' is a folder: name its schema with --schema"
+    [ -f "$schema" ] || unusable "--programs '$kotlin' is a folder: name its schema with --schema"
     [ "$runtime" = collektive ] || jars=
-    [ -z "$jars" ] || [ -f "$plugin" ] || fail "replay: programs for collektive are compiled with its plugin: name it with --runtime-plugin"
-    programs+=(--programs "$(programs_jar "$schema" "$kotlin" "$jars" "$plugin")")
+    [ -z "$jars" ] || [ -f "$plugin" ] || unusable "programs for collektive are compiled with its plugin: name it with --runtime-plugin"
+    # shellcheck disable=SC2310 # its result is that of its last command
+    jar=$(programs_jar "$schema" "$kotlin" "$jars" "$plugin") || exit 2
+    programs+=(--programs "$jar")
   fi
   arguments+=(--own "$OWN_PROGRAMS")
   records replay "${arguments[@]}" "${programs[@]}" ${runtime:+--runtime "$runtime"}
 }
+# unusable WORDS: ends a replay with the exit code of what cannot be used.
+unusable() { printf 'collektive: replay: %s\n' "$*" >&2; exit 2; }
+
 cmd_diff() { records diff "$@"; }

@@ -7,12 +7,13 @@ DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 help_run() {
   cat <<'H'
 usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--recording FILE.jfr] [--set FIELD=VALUE]...
-                       [--trust-jvm]
+                       [--keep-going] [--trust-jvm]
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
 run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. A folder with results of a run is refused; --overwrite
 removes them first. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
+A tick of which every round fails ends the run; with --keep-going it goes on.
 --trust-jvm lets the file's JVM settings write files, open ports and load code, which else are refused: Documentation~/trust.md.
 The scenario file's keys are described in Documentation~/headless.md.
 H
@@ -37,6 +38,13 @@ Runs the case study, environment-aware gradient ascent: 500 bodies (--nodes) cli
 simulated seconds (--seconds). Writes manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures to --out
 (default: out/demo-seedK, where it replaces those of a former demo).
 H
+}
+
+# limited FOLDER: refuses a folder that can hardly be one of sources. Hashing all of a disk would seem to hang.
+limited() {
+  local count
+  count=$(find "$1" -type f 2>/dev/null | head -n 10001 | wc -l || true)
+  [ "$count" -le 10000 ] || fail "the folder '$1' has more than 10,000 files: name the one that has the sources of this scenario alone"
 }
 
 setup_kotlin() {
@@ -77,6 +85,7 @@ own_programs() {
 programs_jar() {
   local schema=$1 programs=$2 jars=${3:-} plugin=${4:-} inputs
   if [ -f "$programs" ]; then printf '%s\n' "$programs"; return 0; fi
+  limited "$programs"
   setup_kotlin
   inputs=("$LIBRARY_JAR" "$COMPILER_PLUGIN")
   if [ -n "$jars" ]; then inputs=("$jars" "$plugin" "$LINKS"); fi
@@ -118,12 +127,15 @@ require_plugin() {
 
 # compile_jvm LIBRARY GENERATED CLASSES [OPTION OR SOURCE]...: flatc's Java first, then the generated Kotlin and the sources.
 compile_jvm() {
-  local library=$1 generated=$2 classes=$3 jdk sources code=0
+  local library=$1 generated=$2 classes=$3 jdk sources version quiet=() code=0
   shift 3
   jdk=$(find_jdk)
   mapfile -d '' -t sources < <(find "$generated" -name '*.java' -print0)
   "$jdk/bin/javac" --release 17 -nowarn -proc:none -cp "$HOST_JAR" -d "$classes" "${sources[@]}"
-  "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
+  # Newer JVMs warn of what the compiler uses.
+  version=$(jdk_version "$jdk")
+  if [ "$version" -ge 24 ]; then quiet=(--enable-native-access=ALL-UNNAMED --sun-misc-unsafe-memory-access=allow); fi
+  "$jdk/bin/java" -Xmx1g -XX:+UseSerialGC "${quiet[@]}" -cp "$BUILD/kotlinc/*" org.jetbrains.kotlin.cli.jvm.K2JVMCompiler \
     -no-stdlib -no-reflect -jvm-target 17 -cp "$HOST_JAR:$library:$classes" -d "$classes" "$generated" "$@" || code=$?
   # The compiler's code for an exception of its own, which is a plugin's more often.
   if [ "$code" = 2 ]; then
@@ -137,6 +149,7 @@ compile_jvm() {
 # Folders named Generated are left out: the code is generated anew.
 scripts_dll() {
   local schema=$1 scripts=$2
+  limited "$scripts"
   made "$BUILD/scripts/$(fingerprint "$schema" "$scripts" "$ROOT/schema" "$GENERATOR_JAR" "$CSHARP"/*.dll)-$(place "$scripts")" Scenario.dll \
     compile_scripts "$schema" "$scripts"
 }
@@ -148,7 +161,9 @@ compile_scripts() {
   local schema=$1 scripts=$2 work=$3
   mkdir -p "$work/generated"
   generator "$schema" --csharp "$work/generated"
-  find "$scripts" "$work/generated" -name '*.cs' -not -path '*/Generated/*' -printf '"%p"\n' | LC_ALL=C sort >"$work/sources.rsp"
+  # The compiler takes quotes in paths away.
+  case $scripts in *'"'*) ln -s "$scripts" "$work/scripts"; scripts="$work/scripts" ;; esac
+  find "${scripts%/}/" "$work/generated" -name '*.cs' -type f -not -path '*/Generated/*' -printf '"%p"\n' | LC_ALL=C sort >"$work/sources.rsp"
   csc "$work/Scenario.dll" "${GENERATED_CODE_SYMBOLS[@]}" -warnaserror- "${PACKAGE_REFERENCES[@]}" "@$work/sources.rsp"
 }
 
@@ -161,6 +176,7 @@ cmd_run() {
       --seed) seed=${2:?--seed needs a number}; arguments+=(--seed "$2"); shift 2 ;;
       --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; reading+=(--folder "$2"); shift 2 ;;
       --trust-jvm) reading+=(--trust-jvm); shift ;;
+      --keep-going) arguments+=("$1"); shift ;;
       --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
       *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;

@@ -13,6 +13,8 @@ namespace Collektive.Headless
     /// <summary>A JSON file read strictly: a key given twice, an unknown key or a value of another type is an error with its line.</summary>
     internal sealed class JsonFile
     {
+        private const int MaxBytes = 1 << 26;
+
         private readonly string path;
 
         private JsonFile(string path, JObject root)
@@ -25,7 +27,8 @@ namespace Collektive.Headless
 
         internal static JsonFile Read(string path)
         {
-            if (!File.Exists(path)) throw new ScenarioException("there is no file '" + path + "': give the path of a scenario file (JSON)");
+            if (!RegularFile.Exists(path)) throw new ScenarioException("there is no file '" + path + "': give the path of a scenario file (JSON)");
+            if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too long for a scenario or a manifest: over 64 MB");
             var text = File.ReadAllText(path);
             try
             {
@@ -98,7 +101,7 @@ namespace Collektive.Headless
                 if (type == typeof(JObject) && kind == JTokenType.Object) return token;
                 if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key).ToArray();
                 if (type == typeof(List<string>) && kind == JTokenType.Array) return Strings((JArray)token, key);
-                if (type.IsEnum && kind == JTokenType.String) return Enum.Parse(type, (string)token, true);
+                if (type.IsEnum && kind == JTokenType.String) return Enum.Parse(type, NameIn(type, (string)token));
             }
             catch (Exception error) when (error is OverflowException || error is ArgumentException)
             {
@@ -114,6 +117,10 @@ namespace Collektive.Headless
             return new ScenarioException(path + (line.HasLineInfo() ? ":" + line.LineNumber : "") + ": " + message);
         }
 
+        /// <summary>The enum's own name for it; <c>Enum.Parse</c> would also take numbers and lists of names.</summary>
+        private static string NameIn(Type type, string text) =>
+            Array.Find(Enum.GetNames(type), name => name.Equals(text, StringComparison.OrdinalIgnoreCase)) ?? "";
+
         private List<string> Strings(JArray array, string key)
         {
             var strings = new List<string>();
@@ -127,7 +134,7 @@ namespace Collektive.Headless
             if (type == typeof(int)) return "whole number";
             if (type == typeof(ulong)) return "whole number from 0 to 2^64 - 1";
             if (type == typeof(float) || type == typeof(double)) return "number";
-            if (type == typeof(string[])) return "list of strings";
+            if (type == typeof(string[]) || type == typeof(List<string>)) return "list of strings";
             if (type == typeof(bool)) return "true or false";
             return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
         }

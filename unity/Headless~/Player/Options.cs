@@ -10,7 +10,8 @@ namespace Collektive.Headless
         internal const string Usage =
             "Player plan SCENARIO [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
-            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR] [--trust-jvm]\n" +
+            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR]\n" +
+            "           [--keep-going] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -42,6 +43,9 @@ namespace Collektive.Headless
 
         internal double? Seconds { get; private set; }
 
+        /// <summary>Whether a tick without a round that worked does not end the run.</summary>
+        internal bool KeepGoing { get; private set; }
+
         internal List<string> Assignments { get; } = new List<string>();
 
         internal static Options Parse(string[] arguments)
@@ -50,9 +54,10 @@ namespace Collektive.Headless
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {
-                if (arguments[i] == "--trust-jvm")
+                if (arguments[i] == "--trust-jvm" || arguments[i] == "--keep-going")
                 {
-                    options.TrustJvm = true;
+                    if (arguments[i] == "--trust-jvm") options.TrustJvm = true;
+                    else options.KeepGoing = true;
                     i--;
                     continue;
                 }

@@ -230,7 +230,8 @@ namespace Collektive.Headless
             var named = file.Required<string>(root, key);
             var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(folder, named));
             var isDirectory = Directory.Exists(path);
-            if (directory == null ? isDirectory || System.IO.File.Exists(path) : directory.Value ? isDirectory : System.IO.File.Exists(path)) return path;
+            var isFile = RegularFile.Exists(path);
+            if (directory == null ? isDirectory || isFile : directory.Value ? isDirectory : isFile) return path;
             var kind = directory == null ? "jar or folder" : directory.Value ? "folder" : "file";
             throw file.Error(root[key], "'" + key + "' names no " + kind + ": " + path);
         }

@@ -121,6 +121,8 @@ namespace Collektive.Headless
         {
             // A former run that was interrupted is repeated up to there.
             var ticks = scenario.Former == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.Former.Ticks);
+            // A former run has gone on, too.
+            var stopsAtFailures = !options.KeepGoing && scenario.Former == null;
             JObject parameters = null;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
@@ -138,6 +140,8 @@ namespace Collektive.Headless
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
                     // A script has paused or disabled the manager.
                     if (done == before) continue;
+                    if (stopsAtFailures && manager.Simulation.NoRoundWorked)
+                        throw new ScenarioException("stopped at tick " + done + ": all its rounds failed; the messages are above (--keep-going goes on)");
                     parameters = parameters ?? ParameterValues.Of(manager);
                     replay?.Add(manager.SimulatedTime);
                     if (manager.SimulatedTime >= second + 1 - 1e-6) metrics.EndSecond(++second, manager.LinkCount);

@@ -69,6 +69,9 @@ namespace Collektive.Unity
         /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
         internal ulong Digest { get; private set; }
 
+        /// <summary>Whether the last tick had rounds, and each of them failed.</summary>
+        internal bool NoRoundWorked { get; private set; }
+
         internal TickTimes Times { get; private set; }
 
         internal (int Host, int Rounds) HostMicros { get; private set; }
@@ -330,6 +333,7 @@ namespace Collektive.Unity
             var answer = session.Answer;
             var count = answer.NodeCount;
             var allAnswered = count == due.Count;
+            NoRoundWorked = count == 0 && !allAnswered;
             var place = 0;
             for (var i = 0; i < count && IsOpen; i++, place++)
             {

@@ -45,12 +45,24 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
                 "${schema.fileName}:1: flatc cannot read this file: it ended with signal ${code - SIGNAL}; make it simpler",
             )
         }
-        if (code != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n$messages")
+        if (code != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n${placed(messages)}")
         if (messages.isNotEmpty()) System.err.println(messages)
     }
 
-    private companion object {
+    internal companion object {
         /** The exit code of a process that a signal ended is this and the signal's number. */
-        const val SIGNAL = 128
+        private const val SIGNAL = 128
+
+        private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
+
+        /** [messages] with the place of each error at the front, in the form that terminals and editors know; it is where the error is, not where it was found. */
+        fun placed(messages: String): String = ERROR.replace(messages) {
+            val (file, line, column, kind, text, origin, originLine) = it.destructured
+            when {
+                origin.isNotEmpty() -> "$origin:$originLine: $kind: $text"
+                column == "0" -> "$file:$line: $kind: $text"
+                else -> "$file:$line:$column: $kind: $text"
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
+import kotlin.test.assertTrue
 
 /** Mistakes of users, and the messages about them. */
 internal class RefusalTest {
@@ -18,6 +19,15 @@ internal class RefusalTest {
         )
         assertContains(refusal("namespace a; struct SensorData { x: float; }"), "there is no ActuatorData")
         assertContains(refusal("namespace a;"), "it defines no types")
+    }
+
+    @Test
+    fun `what flatc refuses has its place at the front of the line`() {
+        val unknown = refusal("namespace a;\ntable SensorData {\n  x: flaot;\n}\n\n\n").lines()
+        assertEquals("flatc refuses user.fbs:", unknown[0])
+        assertTrue(unknown[1].matches(Regex("""/.*/user\.fbs:3: error: type referenced but not defined .*: flaot""")), unknown[1])
+        val cut = refusal("namespace a;\nstruct SensorData {").lines()
+        assertTrue(cut[1].matches(Regex("""/.*/user\.fbs:2(:\d+)?: error: expecting: identifier .*""")), cut[1])
     }
 
     @Test

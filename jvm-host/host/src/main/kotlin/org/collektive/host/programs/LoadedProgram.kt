@@ -20,7 +20,12 @@ import java.lang.invoke.MethodType
  * @property info the program's annotation.
  * @property place the program's class and method, for profiles.
  */
-internal class LoadedProgram(val info: Program, private val function: MethodHandle, private val place: String) : NodeProgram {
+internal class LoadedProgram(
+    val info: Program,
+    private val function: MethodHandle,
+    private val place: String,
+    private val loader: ClassLoader,
+) : NodeProgram {
     override val name: String get() = info.name
 
     private val defaults = Parameters(info.parameters.associate { it.name to it.default })
@@ -35,7 +40,7 @@ internal class LoadedProgram(val info: Program, private val function: MethodHand
         }
     }
 
-    override fun describe(failure: Throwable, place: String?): String = RoundFailure.describe(failure, place)
+    override fun describe(failure: Throwable, place: String?): String = RoundFailure.describe(failure, place, loader)
 
     /** The parameters of [node], which overrides [values]. */
     fun parameters(node: Int, values: Map<String, String>): Parameters {
@@ -46,6 +51,12 @@ internal class LoadedProgram(val info: Program, private val function: MethodHand
                 throw HostException(
                     HostError.PROGRAM,
                     "node $node sets the parameter '$name', which program '${this.name}' does not declare; it declares ${all.keys}",
+                )
+            }
+            if (all.getValue(name).toDoubleOrNull() != null && value.toDoubleOrNull() == null) {
+                throw HostException(
+                    HostError.PROGRAM,
+                    "node $node sets the parameter '$name' of program '${this.name}' to '$value': it must be a number, as its default ${all[name]} is",
                 )
             }
             all[name] = value

@@ -37,7 +37,8 @@ internal class ProgramFinder(
                     if (other != null) {
                         throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one")
                     }
-                    programs[info.name] = LoadedProgram(info, function(method, place), "${method.declaringClass.name}.${method.name}")
+                    programs[info.name] =
+                        LoadedProgram(info, function(method, place), "${method.declaringClass.name}.${method.name}", loader)
                 }
             }
         }

@@ -7,14 +7,15 @@ internal object RoundFailure {
     private const val MAX_MESSAGE = 2000
     private const val MAX_FRAMES = 20
 
-    fun describe(failure: Throwable, place: String?): String = buildString {
+    /** Lines of inlined code are those of its call when the loader of the users' classes, [programs], is known. */
+    fun describe(failure: Throwable, place: String?, programs: ClassLoader? = null): String = buildString {
         append(lineWithPlace(failure, place))
-        frames(failure)
+        frames(failure, programs)
         var cause = failure.cause
         var depth = 0
         while (cause != null && depth++ < MAX_CAUSES) {
             append("\ncaused by ").append(line(cause))
-            frames(cause)
+            frames(cause, programs)
             cause = cause.cause
         }
     }
@@ -31,6 +32,8 @@ internal object RoundFailure {
 
             failure is StackOverflowError -> "$failure: the recursion does not end"
 
+            failure is OutOfMemoryError -> "$failure${remedy(failure)}"
+
             failure is IncompatibleClassChangeError || failure is NoClassDefFoundError && failure.cause is ClassNotFoundException ->
                 "$failure: a jar is missing or of another version; build the programs again with the jars that run them"
 
@@ -39,14 +42,33 @@ internal object RoundFailure {
         return text.take(MAX_MESSAGE).replace('\n', ' ').replace('\r', ' ')
     }
 
-    private fun StringBuilder.frames(failure: Throwable) {
-        val own = failure.stackTrace.filter { it.classLoaderName == ProgramLoader.NAME }
+    /** The setting to raise, by its names in the inspector and in scenario files. */
+    private fun remedy(failure: OutOfMemoryError): String {
+        val message = failure.message.orEmpty()
+        val megabytes = Runtime.getRuntime().maxMemory() shr MEBI_BITS
+        return when {
+            "heap" in message || "GC overhead" in message ->
+                ", all $megabytes MB: raise the maximum heap in the JVM settings (jvm.maximumHeapMb), or keep less in the program"
+
+            "Metaspace" in message -> ": raise -XX:MaxMetaspaceSize in the JVM settings' flags (jvm.flags), or load fewer classes"
+
+            "direct" in message -> ": raise -XX:MaxDirectMemorySize in the JVM settings' flags (jvm.flags)"
+
+            else -> ""
+        }
+    }
+
+    private fun StringBuilder.frames(failure: Throwable, programs: ClassLoader?) {
+        // Classes that the JVM makes for lambdas have no file.
+        val own = failure.stackTrace.filter { it.classLoaderName == ProgramLoader.NAME && it.fileName != null }
         for (frame in own.take(MAX_FRAMES)) {
+            val line = programs?.let { InlinedLines.of(frame.className, it).inFile(frame.lineNumber) } ?: frame.lineNumber
             append("\n    at ").append(frame.className).append('.').append(frame.methodName)
-            append('(').append(frame.fileName).append(':').append(frame.lineNumber).append(')')
+            append('(').append(frame.fileName).append(':').append(line).append(')')
         }
         if (own.size > MAX_FRAMES) append("\n    ... ").append(own.size - MAX_FRAMES).append(" more")
     }
 
     private const val MAX_CAUSES = 4
+    private const val MEBI_BITS = 20
 }

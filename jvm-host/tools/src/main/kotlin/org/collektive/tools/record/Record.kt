@@ -11,6 +11,7 @@ import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.nio.channels.FileChannel
+import java.nio.file.Files
 import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 import java.nio.file.StandardOpenOption.READ
@@ -107,7 +108,11 @@ internal class Record private constructor(private val path: Path, private val ch
         val length = header.getInt().toLong() and UINT
         if (length > size - offset) throw damaged(begin, "the chunk wants $length bytes, and the file has ${size - offset} more")
         if (length > Int.MAX_VALUE) throw damaged(begin, "the chunk wants $length bytes, more than a frame can have")
-        val payload = read(length.toInt())
+        val payload = try {
+            read(length.toInt())
+        } catch (_: OutOfMemoryError) {
+            throw damaged(begin, "the chunk wants $length bytes, more than there is memory for")
+        }
         if (header.getInt() != Chunk.checksum(crc, header, payload)) throw damaged(begin, "the chunk's checksum does not fit its bytes")
         return Chunk(kind, begin, payload)
     }
@@ -151,6 +156,8 @@ internal class Record private constructor(private val path: Path, private val ch
          * @throws RecordDamaged when the part before the first step is damaged.
          */
         fun open(path: Path): Record {
+            // Opening a pipe would wait for its other end.
+            if (Files.exists(path) && !Files.isRegularFile(path)) throw RecordRefused("$path is no file: name a record")
             val channel = try {
                 FileChannel.open(path, READ)
             } catch (_: NoSuchFileException) {

@@ -14,6 +14,7 @@ import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
 import java.io.ByteArrayOutputStream
 import java.io.PrintStream
+import java.io.RandomAccessFile
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.nio.file.FileSystems
@@ -392,6 +393,29 @@ class RecordTest {
             assertTrue(run("replay", file).code in 0..2)
             assertTrue(run("diff", file, folder.resolve("a.clkrec")).code in 0..2)
         }
+    }
+
+    @Test
+    fun `a chunk that wants more memory than there is, in a file that is long but empty, is damage`() {
+        val bytes = record(ticks = 2).readBytes()
+        val step = chunks(bytes).first { it.kind == Chunk.STEP }
+        ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(step.offset.toInt() + Int.SIZE_BYTES, Int.MAX_VALUE)
+        val file = folder.resolve("sparse").also { it.writeBytes(bytes) }
+        RandomAccessFile(file.toFile(), "rw").use { it.setLength(3L shl 30) }
+        for (arguments in listOf(arrayOf<Any>("replay", file), arrayOf("diff", file, file))) {
+            val result = run(*arguments)
+            assertEquals(2, result.code)
+            assertContains(result.messages, "damaged at byte ${step.offset}, before the first tick: the chunk wants 2147483647 bytes")
+        }
+    }
+
+    @Test
+    fun `a pipe is no record`() {
+        val pipe = folder.resolve("pipe")
+        assertEquals(0, ProcessBuilder("mkfifo", "$pipe").start().waitFor())
+        val result = run("replay", pipe)
+        assertEquals(2, result.code)
+        assertContains(result.messages, "$pipe is no file: name a record")
     }
 
     @Test

@@ -1,0 +1,34 @@
+package org.collektive.host.programs
+
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+class InlinedLinesTest {
+    private val lines = InlinedLines.of(javaClass.name, javaClass.classLoader)
+
+    @Test
+    fun `code that the compiler inlined has the line of its call`() {
+        val here = Throwable().stackTrace.first().lineNumber
+        val frame = assertFailsWith<IllegalStateException> { refuse("inlined") }.stackTrace.first()
+        assertTrue(frame.lineNumber > LAST_LINE, "the compiler numbers inlined code behind the file's end: $frame")
+        assertEquals(here + 1, lines.inFile(frame.lineNumber))
+    }
+
+    @Test
+    fun `other lines stay as they are, as do those of classes without inlined code`() {
+        for (line in 1..LAST_LINE) assertEquals(line, lines.inFile(line))
+        assertEquals(500, InlinedLines.of("java.lang.Object", javaClass.classLoader).inFile(500))
+        assertEquals(500, InlinedLines.of("no.such.Class", javaClass.classLoader).inFile(500))
+        assertEquals(500, InlinedLines.of("SMAP\nx\nKotlin\n*S KotlinDebug\n*L\nnonsense#1:1,,\n*E".encodeToByteArray()).inFile(500))
+    }
+
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun refuse(why: String): Nothing = throw IllegalStateException(why)
+
+    private companion object {
+        /** Not less than the lines of this file. */
+        const val LAST_LINE = 45
+    }
+}

@@ -1,0 +1,44 @@
+package org.collektive.host.programs
+
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+import org.collektive.host.shim.HostException
+import org.junit.jupiter.api.Test
+import java.lang.invoke.MethodHandles
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+class LoadedProgramTest {
+    private val program = LoadedProgram(
+        Program("steer", parameters = [Parameter("speed", "1.5", "m/s"), Parameter("mode", "fast", "")]),
+        MethodHandles.empty(LoadedProgram.TYPE),
+        "steer.SteerKt.steer",
+        javaClass.classLoader,
+    )
+
+    @Test
+    fun `a number is asked for before the first round where the default is one`() {
+        val refused = assertFailsWith<HostException> { program.parameters(3, mapOf("speed" to "quick")) }
+        assertEquals(
+            "node 3 sets the parameter 'speed' of program 'steer' to 'quick': it must be a number, as its default 1.5 is",
+            refused.message,
+        )
+        assertEquals(2.0, program.parameters(3, mapOf("speed" to "2", "mode" to "slow")).double("speed"))
+    }
+
+    @Test
+    fun `a full heap names the setting to raise`() {
+        val told = program.describe(OutOfMemoryError("Java heap space"), "node 1 at root")
+        assertContains(
+            told,
+            "java.lang.OutOfMemoryError: Java heap space, all ${Runtime.getRuntime().maxMemory() shr 20} MB: raise the maximum heap",
+        )
+        assertContains(told, "jvm.maximumHeapMb")
+        assertContains(program.describe(OutOfMemoryError("Metaspace"), null), "-XX:MaxMetaspaceSize")
+        assertContains(
+            program.describe(OutOfMemoryError("Cannot reserve 4 bytes of direct buffer memory"), null),
+            "-XX:MaxDirectMemorySize",
+        )
+    }
+}

@@ -1,0 +1,12 @@
+using Mono.Unix.Native;
+
+namespace Collektive.Headless
+{
+    /// <summary>Files with contents of their own: reading a pipe or a device may wait for ever.</summary>
+    internal static class RegularFile
+    {
+        /// <summary>Whether it is there, links followed.</summary>
+        internal static bool Exists(string path) =>
+            Syscall.stat(path, out var status) == 0 && (status.st_mode & FilePermissions.S_IFMT) == FilePermissions.S_IFREG;
+    }
+}
