@@ -5,20 +5,22 @@ PYTHON="$BUILD/python/bin/python"
 
 help_test() {
   cat <<'H'
-usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --soak MINUTES | --stress | --sanitize | fuzz [MINUTES]
-                        | fuzz schemas [MINUTES [SEED]] | bare [ROOT]...
+usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --chaos [SEED] | --soak MINUTES | --stress | --sanitize
+                        | --fuzz [NAME]... [MINUTES [SEED]] | bare [ROOT]...
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, soak, roundtrip, page,
-acceptance, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
+acceptance, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
+  --chaos     270 runs that are killed, get signals, full and read-only disks, a jumping clock, little memory: no folder that only
+              looks complete, no process left, no lost earlier result; a table of what was tried and what came out
   --soak      a scene whose nodes come, fail and go: memory, threads and descriptors must be flat from the second minute on; a table
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long
   --sanitize  the shim's tests under AddressSanitizer and UndefinedBehaviorSanitizer
-  fuzz        frames of any bytes against open, step and control, 5 minutes each or MINUTES; what it learns stays in build/fuzz
-  fuzz schemas  random schemas: each is refused with its line, or compiles on both sides and its data come through; 5 minutes or MINUTES
+  --fuzz      inputs of any bytes against what reads them, 5 minutes or MINUTES for each fuzzer, or for those named: open, step and control
+              (frames), record, scenario, schemas, shim (calls in any order, under sanitizers); what it learns stays in build/fuzz
   bare        the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
               as root; one whose packages cannot be had is skipped
 The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. Results are read from the JUnit XML files of
@@ -31,7 +33,8 @@ cmd_test() {
   case ${1:-} in
     --faults) at_length faults_at_length "${*:2}" ;;
     --stress) stress_at_length ;;
-    fuzz) if [ "${2:-}" = schemas ]; then fuzz_schemas "${@:3}"; else test_fuzz "${@:2}"; fi ;;
+    --fuzz) at_length fuzz_at_length "${@:2}" ;;
+    --chaos) at_length chaos_at_length "${@:2}" ;;
     --soak) at_length soak_at_length "${@:2}" ;;
     --exits | --sanitize)
       [ $# = 1 ] || fail "test: $1 takes no arguments"
@@ -69,10 +72,7 @@ build_all_faults() {
 
 sanitize_at_length() {
   local jdk results="$BUILD/results/sanitized" failed=0
-  clean_cmake "$ROOT/native-shim" "$BUILD/sanitized"
-  cmake -S "$ROOT/native-shim" -B "$BUILD/sanitized" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCOLLEKTIVE_SANITIZE=ON \
-    -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
-  cmake --build "$BUILD/sanitized" -j 2
+  build_sanitized
   rm -rf "$results"
   while read -r jdk; do
     echo "== $jdk"
@@ -80,6 +80,13 @@ sanitize_at_length() {
     shim_cases "$BUILD/sanitized" "$results" "$jdk" || failed=1
   done <<<"$(test_jdks)"
   python3 "$ROOT/scripts/suites.py" sum "$results" "$failed"
+}
+
+build_sanitized() {
+  clean_cmake "$ROOT/native-shim" "$BUILD/sanitized"
+  cmake -S "$ROOT/native-shim" -B "$BUILD/sanitized" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCOLLEKTIVE_SANITIZE=ON \
+    -DCOLLEKTIVE_JAVA_HOME="$(find_jdk)"
+  cmake --build "$BUILD/sanitized" -j 2
 }
 
 # The JDKs that the tests run on: all of this machine that are of version 17 or newer, and last the one that runs simulations.
@@ -298,39 +305,6 @@ build_roundtrip() {
     "$FLATC" --java --gen-object-api --gen-all --no-warnings --java-package-prefix objects -I "$ROOT/schema" -o "$1/generated" "$schema"
   done
   compile_jvm "$LIBRARY_JAR" "$1/generated" "$1"
-}
-
-# export_fuzz JDK: what schema/test/fuzz.py needs. The suite jvm compiles it, or `test fuzz schemas`.
-export_fuzz() {
-  local modules="$ROOT/jvm-host"
-  export FUZZ_JAVA="$1/bin/java" FUZZ_FLATC="$FLATC"
-  export FUZZ_GENERATOR="$modules/generator/target/test-classes:$GENERATOR_JAR" FUZZ_FRAMES="$modules/frames/target/test-classes:$HOST_JAR"
-}
-
-# fuzz_schemas [MINUTES [SEED]]: batches of random schemas; what is found stays in build/fuzz/schemas/findings.
-fuzz_schemas() {
-  [[ ${1:-5} =~ ^[1-9][0-9]*$ && ${2:-1} =~ ^[0-9]+$ && $# -le 2 ]] || fail "test fuzz schemas: name whole minutes, and a seed (see ./collektive test --help)"
-  lock -x
-  setup_system
-  setup_python
-  setup_kotlin
-  build_native
-  package_jvm -q -pl host -am -DskipTests
-  build_csharp
-  lock -s
-  build_roundtrip "$BUILD/roundtrip"
-  export_fuzz "$(find_jdk)"
-  "$PYTHON" "$ROOT/schema/test/fuzz.py" "${1:-5}" ${2:+"$2"} || fail "test fuzz schemas: mend the defect and copy its schema to schema/test/corpus"
-}
-
-# compile_fuzzed FOLDER: both sides' code that schema/test/fuzz.py has generated there.
-compile_fuzzed() {
-  local folder=$1
-  (cd "$folder" && find csharp -name '*.cs' -printf '"'"$folder"'/%p"\n' | LC_ALL=C sort >sources.rsp)
-  csc "$folder/TestSchemas.dll" "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll" "@$folder/sources.rsp"
-  cp "$CSHARP"/{RoundTrip.exe,Collektive.FlatBuffers.dll,Collektive.Bridge.dll} "$folder"
-  mkdir -p "$folder/classes"
-  compile_jvm "$LIBRARY_JAR" "$folder/jvm" "$folder/classes"
 }
 
 # The suites below use other commands, which lock build/ themselves.

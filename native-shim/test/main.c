@@ -163,7 +163,7 @@ int main(int argument_count, char **arguments) {
         void (*run)(void);
     } cases[] = {
 #define CASE_ENTRY(name) {#name, name},
-        CASES(CASE_ENTRY) CASE_ENTRY(bench)
+        CASES(CASE_ENTRY) CASE_ENTRY(bench) CASE_ENTRY(fuzz)
 #undef CASE_ENTRY
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -174,6 +174,6 @@ int main(int argument_count, char **arguments) {
             _exit(0);
         }
     }
-    fprintf(stderr, "usage: shim_test CASE | bench; the cases are in test.h\n");
+    fprintf(stderr, "usage: shim_test CASE | bench | fuzz; the cases are in test.h\n");
     return 2;
 }

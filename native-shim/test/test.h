@@ -78,10 +78,12 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
     X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) \
     X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
-    X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults)
+    X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults) \
+    X(calls_in_any_order)
 /* clang-format on */
 
 void bench(void); /* `shim_test bench` */
+void fuzz(void);  /* `shim_test fuzz`: for CLK_FUZZ_SECONDS, from CLK_FUZZ_SEED on */
 
 #define CASE_DECLARE(name) void name(void);
 CASES(CASE_DECLARE)

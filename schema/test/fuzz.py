@@ -1,6 +1,6 @@
 """Random schemas: each is refused with its line, or compiles on both sides and its data come through.
 
-As a program: `fuzz.py MINUTES`, by `./collektive test fuzz schemas`. test_fuzz.py runs a short batch and what was found before.
+As a program: `fuzz.py SECONDS SEED`, by `./collektive test --fuzz schemas`. test_fuzz.py runs a short batch and what was found before.
 """
 import os
 import random
@@ -222,9 +222,8 @@ def batch(folder, seed, count):
 
 
 def main():
-    minutes, work = float(sys.argv[1]), os.path.join(ROOT, "build", "fuzz", "schemas")
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else int(time.time())
-    end, totals, found = time.time() + 60 * minutes, [0, 0], 0
+    end, seed = time.time() + float(sys.argv[1]), int(sys.argv[2])
+    work, totals, found = os.path.join(ROOT, "build", "fuzz", "schemas"), [0, 0], 0
     while time.time() < end:
         folder = os.path.join(work, "batch")
         made, refused, findings = batch(folder, seed, 60)
@@ -237,7 +236,7 @@ def main():
             shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), kept)
             print(f"{kept}:\n{text}", flush=True)
         seed += 1
-    print(f"{totals[0]} made, {totals[1]} refused, {found} findings")
+    print(f"Done {sum(totals)} runs: {totals[0]} made, {totals[1]} refused, {found} findings")
     sys.exit(found > 0)
 
 

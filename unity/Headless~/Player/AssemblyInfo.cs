@@ -1,3 +1,4 @@
 using System.Runtime.CompilerServices;
 
+[assembly: InternalsVisibleTo("Collektive.Fuzz")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]

@@ -12,7 +12,7 @@ import kotlin.io.path.writeBytes
 import kotlin.test.assertContentEquals
 import kotlin.test.assertTrue
 
-/** The corpus of `./collektive test fuzz`: seeds, and an input for each defect that fuzzing found. */
+/** The corpus of `./collektive test --fuzz`: seeds, and an input for each defect that fuzzing found. */
 class CorpusTest {
     @TestFactory
     fun `open keeps its rules`() = replay("open", OpenFuzzer, FuzzSeeds.open)
