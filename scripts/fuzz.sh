@@ -19,12 +19,9 @@ fuzz_at_length() {
   [[ $minutes =~ ^[1-9][0-9]*$ && $seed =~ ^[0-9]+$ && $# -le 2 ]] || fail "test --fuzz: name whole minutes, and a seed (see ./collektive test --help)"
   # shellcheck disable=SC2206 # a word each
   [ ${#names[@]} -gt 0 ] || names=($FUZZERS)
-  lock -x
-  setup_flatc
-  package_jvm -q -pl host,tools -am -Pfuzz -DskipTests
+  build_fuzzers
   build_csharp
   build_fuzz
-  lock -s
   for name in "${names[@]}"; do
     mkdir -p "$BUILD/fuzz/$name/corpus" "$BUILD/fuzz/$name/findings"
     say "fuzz $name for $minutes min, seed $seed ..."
@@ -34,6 +31,14 @@ fuzz_at_length() {
     say "fuzz $name: $(grep -aE '^Done [0-9]+ runs' "$BUILD/log/fuzz-$name.log" || echo "ended early"), $findings findings in $BUILD/fuzz/$name/findings"
   done
   [ "$failed" = 0 ] || fail "test --fuzz: see $BUILD/log/fuzz-*.log; mend the defect and copy its input to the fuzzer's corpus"
+}
+
+# build_fuzzers: the JVM side with its tests and Jazzer.
+build_fuzzers() {
+  setup_flatc
+  [ -d "$ROOT/jvm-host/host/target/fuzz" ] || rm -f "$BUILD/stamp/fuzzers"
+  once fuzzers "$(jvm_fingerprint)" package_jvm -q -Pfuzz -DskipTests
+  cp "$BUILD/stamp/fuzzers" "$BUILD/stamp/jvm-host"
 }
 
 # fuzz NAME SECONDS SEED

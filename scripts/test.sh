@@ -184,6 +184,7 @@ build_csharp_tests() {
   assembly Collektive.Unity.Tests.dll "$ROOT/unity/Tests/Runtime" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.PublicApi.Tests.dll "$ROOT/unity/Tests/PublicApi" -- "${PACKAGE_REFERENCES[@]}" "${framework[@]}"
   assembly Collektive.Unity.Editor.Tests.dll "$ROOT/unity/Tests/Editor" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" "${framework[@]}"
+  assembly Collektive.TwoEditors.exe "$ROOT/unity/Headless~/TwoEditors" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" -target:exe
   assembly Collektive.WithoutLibrary.exe "$ROOT/unity/Headless~/WithoutLibrary" -- "${PACKAGE_REFERENCES[@]}" "${editor[@]}" \
     "-r:$CSHARP/Collektive.Headless.Tests.dll" -target:exe
   once stub-bridge "$(fingerprint "$ROOT/unity/Runtime/Bridge" "$CSHARP/Collektive.FlatBuffers.dll")" build_stub_bridge "$CSHARP/stubs"

@@ -11,6 +11,7 @@
 #include "host.h"
 #include "launch.h"
 #include "log.h"
+#include "options.h"
 #include "prim.h"
 #include "session.h"
 #include "text.h"
@@ -257,6 +258,13 @@ static void detach_halt_thread(void) {
     prim_semaphore_wait_until(&jvm.detached, prim_now() + DETACH_LIMIT_MS * PRIM_MILLI);
 }
 
+/* A JVM removes the former archive of classes and opens a new one by the same name; two that end at once may write into one file. Negative
+ * when there is nothing to lock, or no lock. */
+static int lock_archive(void) {
+    const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
+    return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + jvm.stop_limit_ms / 4 * PRIM_MILLI);
+}
+
 /* DestroyJavaVM waits for programs' threads that are not daemons. If some do not end, this runs the shutdown hooks itself and halts
  * the JVM: JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. When the process then ends, no
  * Java thread runs into signal handlers that are gone. */
@@ -264,9 +272,11 @@ static int32_t work_stop(void) {
     bool idle = true;
     if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
     session_forget_all();
+    int lock = lock_archive();
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
     detach_halt_thread();
     (*jvm.vm)->DestroyJavaVM(jvm.vm);
+    if (lock >= 0) prim_folder_unlock(lock);
     engine_set_state(CLK_STATE_STOPPED);
     return CLK_OK;
 }

@@ -102,6 +102,20 @@ static void tidy(char *text) {
     for (char *at = text; (at = strchr(at, '\n')) != NULL;) *at = ' ';
 }
 
+static bool writes_archive(const char *option) {
+    return matches(option, "-XX:ArchiveClassesAtExit=*") || matches(option, "-XX:+AutoCreateSharedArchive");
+}
+
+const char *options_archive(char *const options[], int32_t count) {
+    const char *file = NULL;
+    bool writes = false;
+    for (int32_t i = 0; i < count; i++) {
+        writes = writes || writes_archive(options[i]);
+        if (matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:SharedArchiveFile=*")) file = strchr(options[i], '=') + 1;
+    }
+    return writes ? file : NULL;
+}
+
 #define OUTPUT_SHOWN 1000
 
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
@@ -121,8 +135,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
         /* The child would write an archive of its own few classes. */
-        bool writes_archive = matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:+AutoCreateSharedArchive");
-        if (!writes_archive) arguments[used++] = options[i];
+        if (!writes_archive(options[i])) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;
     arguments[used++] = version;

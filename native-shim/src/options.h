@@ -13,4 +13,7 @@ int32_t options_check(const char *const options[], int32_t count);
  * tried: a line in the log and CLK_OK. Any thread. */
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline);
 
+/* The file that a JVM with these options writes its classes to when it ends; NULL when it writes none. */
+const char *options_archive(char *const options[], int32_t count);
+
 #endif

@@ -81,6 +81,10 @@ enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
 enum prim_file prim_file_kind(const char *path);
 bool prim_executable(const char *path);
 
+/* Takes the lock of the folder of a file, which other processes may hold until the deadline. Returns the lock; negative when it cannot be had. */
+int prim_folder_lock(const char *file, int64_t deadline);
+void prim_folder_unlock(int lock);
+
 /* Whether the locale of the environment, which the JVM uses for paths, is UTF-8. */
 bool prim_locale_is_utf8(void);
 

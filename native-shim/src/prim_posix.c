@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -126,6 +127,27 @@ enum prim_file prim_file_kind(const char *path) {
 }
 
 bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE && access(path, X_OK) == 0; }
+
+#define LOCK_POLL_MS 5
+
+int prim_folder_lock(const char *file, int64_t deadline) {
+    char folder[4096];
+    const char *end = strrchr(file, '/');
+    if (end == NULL || (size_t)(end - file) >= sizeof folder) return -1;
+    snprintf(folder, sizeof folder, "%.*s/", (int)(end - file), file);
+    int lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock < 0) return -1;
+    while (flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        if (errno != EWOULDBLOCK || prim_now() >= deadline) {
+            close(lock);
+            return -1;
+        }
+        poll(NULL, 0, LOCK_POLL_MS);
+    }
+    return lock;
+}
+
+void prim_folder_unlock(int lock) { close(lock); }
 
 bool prim_locale_is_utf8(void) {
     locale_t locale = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

@@ -57,6 +57,8 @@ void check_threads_stand_still(void); /* by the processor time of this process *
 clk_stats stats(void);
 bool log_mentions(const char *text); /* reads the log up to the first line that contains the text */
 
+#define OPTIONS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
 /* clang-format off */
 #define CASES(X) \
     X(version_and_sizes) X(structs_of_other_sizes) X(errors_have_names) X(last_error_is_cut_at_a_character) \
@@ -76,8 +78,8 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(exit_is_refused) X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) \
     X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
     X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
-    X(stop_ends_all) X(stop_without_start) X(stop_halts_threads_that_stay) X(stop_times_out) X(stop_while_the_start_hangs) \
-    X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
+    X(stop_ends_all) X(stop_waits_while_another_writes_its_classes) X(stop_without_start) X(stop_halts_threads_that_stay) \
+    X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
     X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults) \
     X(calls_in_any_order)
 /* clang-format on */

@@ -1,10 +1,12 @@
 #define _XOPEN_SOURCE 700
+#include <fcntl.h>
 #include <pthread.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -161,6 +163,34 @@ void stop_ends_all(void) {
     CHECK_OK(clk_jvm_stop(1000));
     CHECK(stats().sessions == 0 && stats().slots == 1);
     CHECK_OK(clk_slot_release(request));
+}
+
+static void *stop_in_a_thread(void *unused) {
+    (void)unused;
+    CHECK_OK(clk_jvm_stop(60000));
+    return NULL;
+}
+
+void stop_waits_while_another_writes_its_classes(void) {
+    if (java_is_17()) return; /* which has no such option */
+    const char *folder = scratch_folder();
+    char option[128], jar[128], command[16384];
+    pthread_t stopping;
+    /* The JVM makes no archive of classes in folders. */
+    snprintf(jar, sizeof jar, "%s/host.jar", folder);
+    snprintf(command, sizeof command, "'%s/bin/jar' --create --file '%s' -C '%s' .", java_home(), jar, host_classes);
+    CHECK(system(command) == 0);
+    snprintf(option, sizeof option, "-XX:SharedArchiveFile=%s/classes.jsa", folder);
+    const char *archive = strchr(option, '=') + 1;
+    CHECK_OK(start_at(java_home(), jar, OPTIONS("-Xmx64m", "-XX:+AutoCreateSharedArchive", option), true, 60000));
+    int other = open(folder, O_RDONLY | O_DIRECTORY);
+    CHECK(flock(other, LOCK_EX) == 0);
+    CHECK(pthread_create(&stopping, NULL, stop_in_a_thread, NULL) == 0);
+    for (int i = 0; i < 3; i++) sleep_ms(500); /* longer than an end takes */
+    CHECK(clk_jvm_state() == CLK_STATE_RUNNING && access(archive, F_OK) != 0);
+    close(other);
+    CHECK(pthread_join(stopping, NULL) == 0);
+    CHECK(access(archive, F_OK) == 0);
 }
 
 void stop_without_start(void) {

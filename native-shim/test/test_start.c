@@ -10,8 +10,6 @@
 #include <unistd.h>
 #include "test.h"
 
-#define OPTIONS(...) ((const char *const[]){__VA_ARGS__, NULL})
-
 /* ---- Files ----------------------------------------------------------------------------------------------------------- */
 
 static void write_file(const char *folder, const char *name, const char *text, mode_t mode) {

@@ -3,5 +3,6 @@ using System.Runtime.CompilerServices;
 
 [assembly: AssemblyVersion("0.1.0.0")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
+[assembly: InternalsVisibleTo("Collektive.TwoEditors")]
 [assembly: InternalsVisibleTo("Collektive.WithoutLibrary")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor.Tests")]

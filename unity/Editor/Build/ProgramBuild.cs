@@ -15,15 +15,21 @@ namespace Collektive.Unity.Editor
         {
             var jdk = Toolchain.FindJdk();
             var kotlin = Toolchain.FindKotlin(project.Runtime.Kind);
-            var work = Path.GetFullPath("Library/Collektive/Build/" + project.Name);
-            if (Directory.Exists(work)) Directory.Delete(work, true);
+            var work = FinishedFile.NameOfPart(Path.GetFullPath(project.Jar));
             var generated = Path.Combine(work, "generated");
             var classes = Path.Combine(work, "classes");
             Directory.CreateDirectory(classes);
-            return SchemaCode.MakeJvm(project, generated)
-                && CompileJava(jdk, generated, classes)
-                && CompileKotlin(jdk, kotlin, classes, generated, project)
-                && Pack(jdk, generated, classes, work, project);
+            try
+            {
+                return SchemaCode.MakeJvm(project, generated)
+                    && CompileJava(jdk, generated, classes)
+                    && CompileKotlin(jdk, kotlin, classes, generated, project)
+                    && Pack(jdk, generated, classes, work, project);
+            }
+            finally
+            {
+                Directory.Delete(work, true);
+            }
         }
 
         private static bool CompileJava(string jdk, string generated, string classes)
@@ -57,8 +63,7 @@ namespace Collektive.Unity.Editor
             if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
                 { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;
-            if (File.Exists(project.Jar)) File.Delete(project.Jar);
-            File.Move(part, project.Jar);
+            FinishedFile.Rename(part, project.Jar);
             project.NoteMade();
             return true;
         }

@@ -39,10 +39,10 @@ namespace Collektive.Unity.Editor
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
-            var part = copy + ".part";
+            var part = FinishedFile.NameOfPart(copy);
             File.Copy(shipped, part, true);
             ToolRun.Do("/bin/chmod", "755", part);
-            File.Move(part, copy);
+            FinishedFile.Rename(part, copy);
             return copy;
         }
 

@@ -67,7 +67,7 @@ namespace Collektive.Fuzz
             var clock = Stopwatch.StartNew();
             try
             {
-                var scenario = Scenario.Read(file, null);
+                var scenario = Scenario.Read(file, null, false);
                 scenario.ToJson(scenario.Fields);
                 return (Slow(clock), true);
             }

@@ -180,6 +180,26 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Assert.That(File.ReadAllBytes(Toolchain.Flatc()), Is.EqualTo(File.ReadAllBytes(shipped)));
         }
 
+        [Test, Category("Slow")]
+        public void Editors_of_one_project_copy_a_tool_at_once()
+        {
+            const int Editors = 3, Rounds = 5;
+            var shipped = Project.PackageCache + "/unity/Tools~/linux-x64/flatc";
+            var program = Path.Combine(AppDomain.CurrentDomain.BaseDirectory, "Collektive.TwoEditors.exe");
+            var mono = System.Diagnostics.Process.GetCurrentProcess().MainModule.FileName;
+            var outcomes = new System.Threading.Tasks.Task<(int Code, string Output)>[Editors];
+            for (var i = 0; i < Editors; i++)
+                outcomes[i] = System.Threading.Tasks.Task.Run(() => ToolRun.Try(".", mono, "--debug", program, Rounds.ToString()));
+            for (var round = 0; round < Rounds; round++)
+            {
+                File.AppendAllText(shipped, "newer");
+                File.WriteAllText("round-" + round, "");
+                System.Threading.Thread.Sleep(100);
+            }
+            foreach (var outcome in outcomes) Assert.That(outcome.Result.Code, Is.EqualTo(0), outcome.Result.Output);
+            Assert.That(Directory.GetFiles("Library/Collektive/Tools", "*.part"), Is.Empty);
+        }
+
         [Test]
         public void An_update_of_the_package_asks_for_a_restart_of_the_editor()
         {

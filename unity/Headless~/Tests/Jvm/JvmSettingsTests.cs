@@ -80,6 +80,30 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void Class_archives_that_no_JVM_would_replace_are_removed()
+        {
+            if (JvmSettings.JavaVersion(TestJvm.Home) < 19) return;
+            var folder = Path.Combine(Path.GetTempPath(), "collektive-archives-" + System.Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(folder);
+            var host = Path.Combine(folder, "host.jar");
+            File.WriteAllText(host, "host");
+            string Archive() => new JvmSettings().ToLaunch(TestJvm.Home, host, folder).Options[3].Substring("-XX:SharedArchiveFile=".Length);
+            var first = Archive();
+            File.WriteAllBytes(first, new byte[100]);
+            Assert.That(Archive(), Is.EqualTo(first));
+            Assert.That(File.Exists(first), Is.False, "its JVM was killed before it wrote the header");
+            File.WriteAllText(first, "archive");
+            var other = Path.Combine(folder, "classes-of-another-editor.jsa");
+            File.WriteAllText(other, "archive");
+            Archive();
+            Assert.That(File.Exists(first), Is.True);
+            File.WriteAllText(host, "another host");
+            Assert.That(Archive(), Is.Not.EqualTo(first));
+            Assert.That((File.Exists(first), File.Exists(other)), Is.EqualTo((false, true)));
+            Directory.Delete(folder, true);
+        }
+
+        [Test]
         public void Without_a_folder_for_the_class_archive_the_jvm_starts_without_it_and_says_so()
         {
             var launch = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, "/proc/nobody/Collektive");

@@ -166,29 +166,56 @@ namespace Collektive.Bridge
         private const int FirstWithAutomaticArchive = 19;
 
         /// <summary>
-        /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. With another host jar at the same place it
-        /// would go on without one, so each has its own.
+        /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. It never replaces one of another host jar at the
+        /// same place, nor one without a header, which a JVM leaves that is killed while it writes. So the jar's size and time are part of the name, and
+        /// what is of no use is removed.
         /// </summary>
         /// <returns>Why there is none, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
-            var key = 14695981039346656037UL;
+            var place = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
             var host = new FileInfo(hostJar);
-            var state = host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "";
-            foreach (var character in javaHome + "\n" + hostJar + "\n" + state + "\n" + collector) key = (key ^ character) * 1099511628211UL;
+            var file = Path.Combine(cacheFolder, place + Hash(host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "") + ".jsa");
             try
             {
                 Directory.CreateDirectory(cacheFolder);
+                foreach (var archive in Directory.GetFiles(cacheFolder, place + "*.jsa")) RemoveUseless(archive, file);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
                 return "the JVM starts without its class archive, which takes longer: the folder '" + cacheFolder + "' cannot be made (" + error.Message + ")";
             }
             options.Add("-XX:+AutoCreateSharedArchive");
-            options.Add("-XX:SharedArchiveFile=" + Path.Combine(cacheFolder, "classes-" + key.ToString("x16", CultureInfo.InvariantCulture) + ".jsa"));
+            options.Add("-XX:SharedArchiveFile=" + file);
             // The JVM logs a line for each class that it leaves out, and errors about an archive that it then replaces.
             options.Add("-Xlog:cds=off");
             return "";
+        }
+
+        private static string Hash(string text)
+        {
+            var hash = 14695981039346656037UL;
+            foreach (var character in text) hash = (hash ^ character) * 1099511628211UL;
+            return hash.ToString("x16", CultureInfo.InvariantCulture);
+        }
+
+        /// <summary>One that a JVM writes at this moment has no header yet: this JVM goes on without a file, and the next one writes anew.</summary>
+        private static void RemoveUseless(string archive, string wanted)
+        {
+            try
+            {
+                if (archive != wanted || !HasHeader(archive)) File.Delete(archive);
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                // Another process uses it, or has removed it.
+            }
+        }
+
+        /// <summary>The header is written last, over zeros.</summary>
+        private static bool HasHeader(string archive)
+        {
+            using (var stream = new FileStream(archive, FileMode.Open, FileAccess.Read, FileShare.ReadWrite | FileShare.Delete)) return stream.ReadByte() > 0;
         }
 
         private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);
