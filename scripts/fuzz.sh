@@ -79,14 +79,15 @@ fuzz_scenario() {
 
 # fuzz_shim SECONDS SEED: what crashes names its seed, which joins the corpus in native-shim/test/fuzz.c.
 fuzz_shim() {
-  local log="$BUILD/fuzz/shim/findings/seed-$2.log"
+  local log="$BUILD/fuzz/shim/findings/seed-$2.log" code=0 jdk asan
+  jdk=$(find_jdk)
   build_sanitized
-  (
-    cd "$BUILD/sanitized"
-    ASAN_OPTIONS=$(cat test/asan_options) CLK_TEST_JAVA_HOME=$(find_jdk) CLK_FUZZ_SECONDS=$1 CLK_FUZZ_SEED=$2 test/shim_test fuzz >"$log" 2>&1
-  ) || { tr '\r' '\n' <"$log" | tail -n 60; return 1; }
-  tail -n 1 "$log"
-  rm "$log"
+  cd "$BUILD/sanitized"
+  asan=$(find . -name asan_options -exec cat {} +)
+  ASAN_OPTIONS=$asan CLK_TEST_JAVA_HOME=$jdk CLK_FUZZ_SECONDS=$1 CLK_FUZZ_SEED=$2 test/shim_test fuzz >"$log" 2>&1 || code=$?
+  tr '\r' '\n' <"$log" | tail -n 60
+  if [ "$code" = 0 ]; then rm "$log"; fi
+  return "$code"
 }
 
 # export_fuzz JDK: what schema/test/fuzz.py needs. The suite jvm compiles it, or `test --fuzz`.

@@ -111,7 +111,8 @@ const char *options_archive(char *const options[], int32_t count) {
     bool writes = false;
     for (int32_t i = 0; i < count; i++) {
         writes = writes || writes_archive(options[i]);
-        if (matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:SharedArchiveFile=*")) file = strchr(options[i], '=') + 1;
+        if (matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:SharedArchiveFile=*"))
+            file = strchr(options[i], '=') + 1;
     }
     return writes ? file : NULL;
 }

@@ -98,6 +98,16 @@ class Outputs(Project):
 
 @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small file system")
 class FullDisks(Project):
+    def test_a_home_on_a_full_disk_is_done_without_the_class_archive(self):
+        os.makedirs(self.path("home"))
+        script = 'mount -t tmpfs -o size=1m none "$HOME" && "$@"'
+        result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", COLLEKTIVE, "run", self.path("project", "lamps.json"),
+                                 "--out", self.path("out")], capture_output=True, text=True, env={**os.environ, "HOME": self.path("home")})
+        if "mount:" in result.stderr or "unshare:" in result.stderr:
+            self.skipTest("this system lets nobody mount")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without its class archive, which takes longer: the disk of", result.stdout + result.stderr)
+
     def test_a_full_disk_is_one_sentence_and_nothing_looks_complete(self):
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"seconds": 1', '"seconds": 20')

@@ -97,9 +97,16 @@ class Trial:
         target, moment = self.random.choice(["player", "command", "all"]), self.random.uniform(0, 1.05 * self.took)
         self.detail = f"SIGKILL to {target} after {moment:.2f} s"
         time.sleep(moment)
-        victims = {process.pid} if target == "command" else set(marked(self.mark, "Collektive.Player.exe" if target == "player" else ""))
-        for pid in victims:
-            kill(pid, signal.SIGKILL)
+        if target == "command":
+            kill(process.pid, signal.SIGKILL)
+        elif target == "player":
+            for pid in marked(self.mark, "Collektive.Player.exe"):
+                kill(pid, signal.SIGKILL)
+        else:
+            # As the end of a container: one that is killed may have started another just before.
+            while pids := marked(self.mark):
+                for pid in pids:
+                    kill(pid, signal.SIGKILL)
         return (*self.end(process), self.path("refused" if into_earlier else "out"))
 
     def signal(self) -> tuple[int, str, str]:

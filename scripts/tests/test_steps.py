@@ -63,7 +63,7 @@ def test_a_step_ends_at_its_first_error_and_is_not_done(checkout):
     for _ in range(2):
         result = checkout.step("try_broken")
         assert result.returncode == 1
-        assert "broken failed; the whole log is build/log/broken.log" in result.stderr
+        assert f"broken failed; the whole log is {checkout.root}/build/log/broken.log" in result.stderr
         assert "went on" not in result.stdout + result.stderr + (checkout.root / "build/log/broken.log").read_text()
 
 

@@ -11,7 +11,7 @@ import kotlin.test.assertFailsWith
 
 class LoadedProgramTest {
     private val program = LoadedProgram(
-        Program("steer", parameters = [Parameter("speed", "1.5", "m/s"), Parameter("mode", "fast", "")]),
+        Program("steer", parameters = arrayOf(Parameter("speed", "1.5", "m/s"), Parameter("mode", "fast", ""))),
         MethodHandles.empty(LoadedProgram.TYPE),
         "steer.SteerKt.steer",
         javaClass.classLoader,
