@@ -1,4 +1,5 @@
 #include "launch.h"
+#include "log.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,6 +9,7 @@
 #include "options.h"
 #include "prim.h"
 
+#define ARCHIVE_BYTES (INT64_C(32) << 20) /* an archive has 5 to 10 MB */
 #define OLDEST_JAVA 17
 
 /* ---- The caller's configuration -------------------------------------------------------------------------------------- */
@@ -68,6 +70,23 @@ static bool add_option(struct launch *launch, const char *prefix, const char *re
     return option != NULL;
 }
 
+/* A JVM that cannot write its archive to the end aborts: without room it writes none. */
+static void check_room_for_archive(struct launch *launch) {
+    const char *archive = options_archive(launch->options, launch->option_count);
+    if (archive == NULL || prim_room(archive) >= ARCHIVE_BYTES) return;
+    log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: less than 32 MB are free for %s",
+               archive);
+    int32_t kept = 0;
+    for (int32_t i = 0; i < launch->option_count; i++) {
+        if (options_write_archive(launch->options[i])) {
+            free(launch->options[i]);
+        } else {
+            launch->options[kept++] = launch->options[i];
+        }
+    }
+    launch->option_count = kept;
+}
+
 /* The shim's own options come first, so that the caller's may override them. -Xrs leaves signals such as SIGTERM to the process.
  * The log option silences a warning about host_refuse_exit. Without conditional card marks, threads of the host write to the same cache
  * lines of the card table, and two of them take up to twice the processor time. */
@@ -82,7 +101,9 @@ static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     good = good && add_option(launch, "-Djava.class.path=", config->class_path);
     launch->own_count = launch->option_count;
     for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(launch, config->options[i], "");
-    return good ? CLK_OK : error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
+    if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
+    check_room_for_archive(launch);
+    return CLK_OK;
 }
 
 void launch_free(struct launch *launch) {

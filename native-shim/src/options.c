@@ -102,7 +102,7 @@ static void tidy(char *text) {
     for (char *at = text; (at = strchr(at, '\n')) != NULL;) *at = ' ';
 }
 
-static bool writes_archive(const char *option) {
+bool options_write_archive(const char *option) {
     return matches(option, "-XX:ArchiveClassesAtExit=*") || matches(option, "-XX:+AutoCreateSharedArchive");
 }
 
@@ -110,7 +110,7 @@ const char *options_archive(char *const options[], int32_t count) {
     const char *file = NULL;
     bool writes = false;
     for (int32_t i = 0; i < count; i++) {
-        writes = writes || writes_archive(options[i]);
+        writes = writes || options_write_archive(options[i]);
         if (matches(options[i], "-XX:ArchiveClassesAtExit=*") || matches(options[i], "-XX:SharedArchiveFile=*"))
             file = strchr(options[i], '=') + 1;
     }
@@ -136,7 +136,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
         /* The child would write an archive of its own few classes. */
-        if (!writes_archive(options[i])) arguments[used++] = options[i];
+        if (!options_write_archive(options[i])) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;
     arguments[used++] = version;

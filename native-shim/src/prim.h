@@ -81,6 +81,9 @@ enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
 enum prim_file prim_file_kind(const char *path);
 bool prim_executable(const char *path);
 
+/* Bytes that this process may still write to the disk of a file, which need not be there; the most when that is not known. */
+int64_t prim_room(const char *file);
+
 /* Takes the lock of the folder of a file, which other processes may hold until the deadline. Returns the lock; negative when it cannot be had. */
 int prim_folder_lock(const char *file, int64_t deadline);
 void prim_folder_unlock(int lock);

@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -130,11 +131,24 @@ bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FIL
 
 #define LOCK_POLL_MS 5
 
+/* False when the path has no folder, or one that is too long. */
+static bool folder_of(const char *file, char *folder, size_t size) {
+    const char *end = strrchr(file, '/');
+    if (end == NULL || (size_t)(end - file) + 2 > size) return false;
+    snprintf(folder, size, "%.*s/", (int)(end - file), file);
+    return true;
+}
+
+int64_t prim_room(const char *file) {
+    char folder[4096];
+    struct statvfs disk;
+    if (!folder_of(file, folder, sizeof folder) || statvfs(folder, &disk) != 0) return INT64_MAX;
+    return (int64_t)disk.f_bavail * (int64_t)disk.f_frsize;
+}
+
 int prim_folder_lock(const char *file, int64_t deadline) {
     char folder[4096];
-    const char *end = strrchr(file, '/');
-    if (end == NULL || (size_t)(end - file) >= sizeof folder) return -1;
-    snprintf(folder, sizeof folder, "%.*s/", (int)(end - file), file);
+    if (!folder_of(file, folder, sizeof folder)) return -1;
     int lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (lock < 0) return -1;
     while (flock(lock, LOCK_EX | LOCK_NB) != 0) {

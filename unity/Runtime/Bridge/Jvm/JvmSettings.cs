@@ -165,9 +165,6 @@ namespace Collektive.Bridge
 
         private const int FirstWithAutomaticArchive = 19;
 
-        /// <summary>More than an archive has, which is 5 to 10 MB.</summary>
-        private const long ArchiveBytes = 32L << 20;
-
         /// <summary>
         /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. It never replaces one of another host jar at the
         /// same place, nor one without a header, which a JVM leaves that is killed while it writes. So the jar's size and time are part of the name, and
@@ -188,30 +185,11 @@ namespace Collektive.Bridge
             {
                 return "the JVM starts without its class archive, which takes longer: the folder '" + cacheFolder + "' cannot be made (" + error.Message + ")";
             }
-            // A JVM that cannot write it to its end aborts.
-            if (!HasRoom(cacheFolder))
-            {
-                return "the JVM starts without its class archive, which takes longer: the disk of '" + cacheFolder + "' has less than 32 MB left";
-            }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + file);
             // The JVM logs a line for each class that it leaves out, and errors about an archive that it then replaces.
             options.Add("-Xlog:cds=off");
             return "";
-        }
-
-        private static bool HasRoom(string folder)
-        {
-            try
-            {
-                return new DriveInfo(Path.GetFullPath(folder)).AvailableFreeSpace >= ArchiveBytes;
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException || error is ArgumentException
-                || error is NotSupportedException || error is NotImplementedException)
-            {
-                // Not every runtime of C# can tell.
-                return true;
-            }
         }
 
         private static string Hash(string text)
