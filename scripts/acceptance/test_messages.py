@@ -31,21 +31,19 @@ class Messages(Project):
         self.assertRegex(self.run_it().stderr, rf"(?m)^{place}:7: error: type referenced but not defined .*flaot")
 
     def test_a_tick_of_which_every_round_fails_ends_the_run_unless_it_may_go_on(self):
-        self.in_program('check(sensors.brightness() < 0) { "always" }')
+        self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }\n"
+                        '    check(mine < 0) { "always" }')
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
         self.assertIn("stopped at tick 1: all its rounds failed; the messages are above (--keep-going goes on)", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
+        # A full heap names the setting to raise, inlined code the line of its call.
+        told = result.stderr + result.stdout
+        self.assertRegex(told, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
+        self.assertRegex(told, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
         result = self.run_it("--keep-going")
         self.assertEqual(result.returncode, 1)
         self.assertEqual((self.manifest(self.path("out"))["ticks"], self.manifest(self.path("out"))["errors"]), (10, 100))
-
-    def test_a_full_heap_names_the_setting_to_raise_and_inlined_code_its_line(self):
-        self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }")
-        result = self.run_it()
-        self.assertEqual(result.returncode, 1)
-        self.assertRegex(result.stderr + result.stdout, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
-        self.assertRegex(result.stderr + result.stdout, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
 
     def test_settings_are_names_and_lists_are_lists(self):
         for value in ["0", "Lockstep,Sequential", "2", ""]:
