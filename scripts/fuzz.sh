@@ -57,10 +57,12 @@ fuzz() {
 
 # jazzer NAME SECONDS SEED CLASS MODULE CORPUS
 jazzer() {
-  local work="$BUILD/fuzz/$1" host="$ROOT/jvm-host/host/target"
+  local work="$BUILD/fuzz/$1" host="$ROOT/jvm-host/host/target" compiler
+  # Before all others: another jar has some of its classes without all of their functions.
+  compiler=$(find "$host/fuzz" -name 'kotlin-compiler-embeddable-*.jar')
   cd "$5"
   "$(find_jdk)/bin/java" -Xmx768m -XX:+EnableDynamicAgentLoading -Dcollektive.root="$ROOT" -Dcollektive.flatc="$BUILD/flatc" \
-    -cp "target/test-classes:target/classes:$host/test-classes:$host/classes:$host/fuzz/*" \
+    -cp "target/test-classes:target/classes:$host/test-classes:$host/classes:$compiler:$host/fuzz/*" \
     com.code_intelligence.jazzer.Jazzer "--target_class=$4" \
     --instrumentation_includes='org.collektive.**:com.google.flatbuffers.**' --instrumentation_excludes='org.collektive.generator.**' \
     --custom_hook_includes='org.collektive.**' --custom_hook_excludes='org.collektive.generator.**' --keep_going=20 \
