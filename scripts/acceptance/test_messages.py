@@ -2,7 +2,6 @@
 import os
 import subprocess
 
-import pytest
 from command import Project, collektive, last_error
 from places import COLLEKTIVE, ROOT
 
@@ -15,7 +14,6 @@ class Messages(Project):
     def in_program(self, line):
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness()\n    {line}")
 
-    @pytest.mark.quick
     def test_an_error_in_kotlin_comes_first_and_alone(self):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         result = self.run_it(cwd=self.folder)
@@ -64,7 +62,6 @@ class Messages(Project):
         self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
         self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
 
-    @pytest.mark.quick
     def test_a_folder_may_have_any_name_in_any_locale(self):
         odd = self.path("ünïcödé 雪 \"quo'te")
         os.rename(self.path("project"), odd)
