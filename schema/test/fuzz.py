@@ -182,7 +182,7 @@ def run(folder, records=20):
         findings.append(("all", "the generator ended early: " + each.stderr[-2000:]))
     made = [case for case, outcome, _ in outcomes if outcome == "made"]
     for case, outcome, text in outcomes:
-        if outcome == "crashed" or (outcome == "refused" and not re.search(r"\.fbs:\d+: ", text)):
+        if outcome == "crashed" or (outcome == "refused" and not re.search(r"\.fbs:\d+(:\d+)?: ", text)):
             findings.append((case, text))
     if made:
         findings += compile_and_compare(folder, made, records)
