@@ -31,7 +31,7 @@ class TheDemo(Folder):
         self.assertEqual(self.whole["scenario"]["program"], "gradient-ascent")
         # Those that the scenario file does not name have their defaults.
         self.assertEqual(self.whole["scenario"]["fields"],
-                         {"nodes": 500, "range": 3, "bodyRadius": 0.25, "source": [25, 0, 0], "obstacles": True})
+                         {"nodes": 500, "range": 3, "bodyRadius": 0.25, "source": [25, 0, 0], "obstacles": True, "fieldScale": 1})
         self.assertEqual(self.whole["ticks"], 1200)
         self.assertEqual(self.whole["errors"], 0)
         self.assertRegex(self.whole["digest"], "^[0-9a-f]{16}$")

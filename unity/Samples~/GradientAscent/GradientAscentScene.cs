@@ -35,6 +35,10 @@ namespace Collektive.Samples.GradientAscent
         /// <summary>Whether the four obstacles stand in the way.</summary>
         public bool obstacles = true;
 
+        /// <summary>Factor on the field's length and width, and on the source's reach. Where the source stands is a field of its own.</summary>
+        [Min(0.1f)]
+        public float fieldScale = 1;
+
         private readonly List<ObstacleSensor> sensors = new List<ObstacleSensor>();
         private readonly List<float> distances = new List<float>();
         private IntensitySource intensity;
@@ -75,49 +79,43 @@ namespace Collektive.Samples.GradientAscent
         /// <inheritdoc/>
         protected override void Build(SimulationManager manager)
         {
-            if (nodes < 1 || !(range >= 0) || !(bodyRadius > 0))
+            if (nodes < 1 || !(range >= 0) || !(bodyRadius > 0) || !(fieldScale > 0))
             {
-                manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range
-                    + " m: there must be at least one node, of some size");
+                manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range + " m on a field of scale "
+                    + fieldScale + ": there must be at least one node, of some size, on a field of some size");
                 return;
             }
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
             intensity = new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
-            MakeObstacle("Floor", new Vector3(0, -0.5f, 0), new Vector3(100, 1, 60)).layer = IgnoreRaycastLayer;
-            MakeObstacle("Rim", new Vector3(0, 0.5f, 30.25f), new Vector3(101, 1, 0.5f));
-            MakeObstacle("Rim", new Vector3(0, 0.5f, -30.25f), new Vector3(101, 1, 0.5f));
-            MakeObstacle("Rim", new Vector3(50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
-            MakeObstacle("Rim", new Vector3(-50.25f, 0.5f, 0), new Vector3(0.5f, 1, 60));
+            intensity.Falloff /= fieldScale;
+            var length = 100 * fieldScale;
+            var width = 60 * fieldScale;
+            MakeObstacle("Floor", new Vector3(0, -0.5f, 0), new Vector3(length, 1, width)).layer = IgnoreRaycastLayer;
+            MakeObstacle("Rim", new Vector3(0, 0.5f, width / 2 + 0.25f), new Vector3(length + 1, 1, 0.5f));
+            MakeObstacle("Rim", new Vector3(0, 0.5f, -width / 2 - 0.25f), new Vector3(length + 1, 1, 0.5f));
+            MakeObstacle("Rim", new Vector3(length / 2 + 0.25f, 0.5f, 0), new Vector3(0.5f, 1, width));
+            MakeObstacle("Rim", new Vector3(-length / 2 - 0.25f, 0.5f, 0), new Vector3(0.5f, 1, width));
             if (obstacles)
             {
-                foreach (var place in ObstaclePlaces) MakeObstacle("Obstacle", new Vector3(10, 1.5f, place), new Vector3(1, 3, 5));
+                foreach (var place in ObstaclePlaces)
+                    MakeObstacle("Obstacle", new Vector3(10 * fieldScale, 1.5f, place * fieldScale), new Vector3(1, 3, 5 * fieldScale));
             }
-            var taken = new List<Vector3>();
-            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(FreePlace(manager, taken));
+            var places = new FreePlaces(2 * bodyRadius);
+            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(FreePlace(manager, places));
         }
 
-        /// <summary>A place in x -35..5, z -25..25 where a body overlaps no other.</summary>
-        private Vector3 FreePlace(SimulationManager manager, List<Vector3> taken)
+        /// <summary>A place in x -35..5, z -25..25, times the field's scale, where a body overlaps no other.</summary>
+        private Vector3 FreePlace(SimulationManager manager, FreePlaces places)
         {
             for (var attempt = 0; attempt < SpawnAttempts; attempt++)
             {
-                var place = new Vector3(manager.Random.Range(-35f, 5f), bodyRadius, manager.Random.Range(-25f, 25f));
-                if (!IsFree(place, taken)) continue;
-                taken.Add(place);
-                return place;
+                var place = new Vector3(
+                    manager.Random.Range(-35f * fieldScale, 5f * fieldScale), bodyRadius, manager.Random.Range(-25f * fieldScale, 25f * fieldScale));
+                if (places.TryTake(place)) return place;
             }
-            manager.Fail("there is no room for " + nodes + " bodies of radius " + bodyRadius + " m: use fewer or smaller ones");
+            manager.Fail("there is no room for " + nodes + " bodies of radius " + bodyRadius + " m: use fewer or smaller ones, or a larger field");
             return Vector3.zero;
-        }
-
-        private bool IsFree(Vector3 place, List<Vector3> taken)
-        {
-            foreach (var other in taken)
-            {
-                if ((other - place).sqrMagnitude < 4 * bodyRadius * bodyRadius) return false;
-            }
-            return true;
         }
 
         private GameObject MakeObstacle(string title, Vector3 centre, Vector3 size)

@@ -1,0 +1,37 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Samples.GradientAscent
+{
+    /// <summary>Places on the ground that keep a distance from each other; a question costs the same for any number of them.</summary>
+    internal sealed class FreePlaces
+    {
+        /// <summary>In distances: two places of one cell are nearer than one, and all nearer ones lie at most two cells away.</summary>
+        private const double CellSize = 0.625;
+
+        private readonly Dictionary<(int X, int Z), Vector3> taken = new Dictionary<(int X, int Z), Vector3>();
+        private readonly float distance;
+
+        /// <param name="distance">Metres, greater than 0.</param>
+        internal FreePlaces(float distance) => this.distance = distance;
+
+        /// <summary>Takes a place if those taken before are far enough from it.</summary>
+        internal bool TryTake(Vector3 place)
+        {
+            var x = CellOf(place.x);
+            var z = CellOf(place.z);
+            for (var i = x - 2; i <= x + 2; i++)
+            {
+                for (var k = z - 2; k <= z + 2; k++)
+                {
+                    if (taken.TryGetValue((i, k), out var other) && (other - place).sqrMagnitude < distance * distance) return false;
+                }
+            }
+            taken.Add((x, z), place);
+            return true;
+        }
+
+        private int CellOf(float coordinate) => (int)Math.Floor(coordinate / (CellSize * distance));
+    }
+}
