@@ -45,9 +45,20 @@ class TheDemo(Folder):
             rows = list(csv.DictReader(file))
         self.assertEqual(
             list(rows[0]),
-            "second,mean_distance,p90_distance,contacts,links,sent,dropped,delayed,expired,sense_ms,step_ms,act_ms,physics_ms,tick_ms_p99".split(","))
+            "second,mean_distance,p90_distance,contacts,links,sent,dropped,delayed,expired,"
+            "sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99".split(","))
         self.assertEqual([int(row["second"]) for row in rows], list(range(61)))
         self.assertLess(float(rows[-1]["mean_distance"]), 0.3 * float(rows[0]["mean_distance"]))
+
+    def test_the_phases_of_a_tick_add_up_to_it(self):
+        with open(os.path.join(self.out, "metrics.csv")) as file:
+            rows = list(csv.DictReader(file))
+        for row in rows[1:]:
+            phases = [float(row[name + "_ms"]) for name in ("sense", "rules", "step", "act", "physics", "other")]
+            self.assertAlmostEqual(sum(phases), float(row["tick_ms"]), places=3, msg=row["second"])
+            self.assertGreater(min(phases), 0, row)
+        # Nothing else takes the run's time.
+        self.assertAlmostEqual(sum(float(row["tick_ms"]) for row in rows) * 20 / 1000, self.whole["wall_seconds"], delta=0.5)
 
     def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self):
         metadata, frames = replay.read(os.path.join(self.out, "replay.html"))

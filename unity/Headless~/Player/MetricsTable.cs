@@ -7,14 +7,18 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>metrics.csv: a row per simulated second; messages are sums over the second's ticks, times medians, in milliseconds.</summary>
+    /// <summary>
+    /// metrics.csv: a row per simulated second; messages are sums over the second's ticks. Times are means in milliseconds, so that the phases of a tick
+    /// add up to it: what is no phase of <see cref="TickTimes"/> is "other".
+    /// </summary>
     internal sealed class MetricsTable : IDisposable
     {
         private readonly TextWriter writer;
         private readonly SceneBuilder scene;
         private readonly double[] values;
-        private readonly List<TickTimes> second = new List<TickTimes>();
-        private readonly List<double> sorted = new List<double>();
+        private readonly List<double> whole = new List<double>();
+        private double rules, sense, step, act, physics;
+        private int ticks;
         private long sent, dropped, delayed, expired;
 
         internal MetricsTable(string path, SceneBuilder scene)
@@ -23,20 +27,29 @@ namespace Collektive.Headless
             values = new double[scene.MetricNames.Count];
             writer = path == null ? TextWriter.Null : new StreamWriter(path);
             var names = values.Length == 0 ? "" : string.Join(",", scene.MetricNames) + ",";
-            writer.Write("second," + names + "links,sent,dropped,delayed,expired,sense_ms,step_ms,act_ms,physics_ms,tick_ms_p99\n");
+            writer.Write("second," + names + "links,sent,dropped,delayed,expired,sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
         }
 
         /// <summary>The scene's metrics at the last row.</summary>
         internal IReadOnlyList<double> Values => values;
 
+        /// <summary>Adds a tick.</summary>
         internal void Add(TickTimes times, NetworkCounts network)
         {
-            second.Add(times);
+            ticks++;
+            rules += times.Rules;
+            sense += times.Sense;
+            step += times.Step;
+            act += times.Act;
+            physics += times.Physics;
             sent += network.Sent;
             dropped += network.Dropped;
             delayed += network.Delayed;
             expired += network.Expired;
         }
+
+        /// <summary>Adds what passed on the clock from the end of the former tick to the end of this one, in milliseconds.</summary>
+        internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
         internal void EndSecond(int number, int links)
         {
@@ -45,23 +58,21 @@ namespace Collektive.Headless
             foreach (var value in values) row += "," + Text(value);
             row += "," + links.ToString(CultureInfo.InvariantCulture);
             foreach (var count in new[] { sent, dropped, delayed, expired }) row += "," + count.ToString(CultureInfo.InvariantCulture);
-            row += "," + Text(Quantile(t => t.Sense, 0.5)) + "," + Text(Quantile(t => t.Step, 0.5)) + "," + Text(Quantile(t => t.Act, 0.5));
-            row += "," + Text(Quantile(t => t.Physics, 0.5)) + "," + Text(Quantile(t => t.Total, 0.99));
+            var all = 0.0;
+            foreach (var time in whole) all += time;
+            foreach (var time in new[] { sense, rules, step, act, physics, all - sense - rules - step - act - physics, all })
+                row += "," + Text(time / Math.Max(1, ticks));
+            row += "," + Text(Quantiles.Of(whole, 0.99));
             writer.Write(row + "\n");
             // A run that is killed keeps what it has measured.
             writer.Flush();
-            second.Clear();
+            whole.Clear();
+            ticks = 0;
+            rules = sense = step = act = physics = 0;
             sent = dropped = delayed = expired = 0;
         }
 
         public void Dispose() => writer.Dispose();
-
-        private double Quantile(Converter<TickTimes, double> phase, double quantile)
-        {
-            sorted.Clear();
-            foreach (var times in second) sorted.Add(phase(times));
-            return Quantiles.Of(sorted, quantile);
-        }
 
         private static string Text(double value) => value.ToString("0.####", CultureInfo.InvariantCulture);
     }

@@ -93,7 +93,6 @@ namespace Collektive.Headless
             if (++done == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
             metrics.Add(manager.Times, manager.Network);
             stepTimes.Add(manager.Times.Step);
-            totalTimes.Add(manager.Times.Total);
             roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
         }
 
@@ -133,17 +132,26 @@ namespace Collektive.Headless
                 var start = new List<double>(metrics.Values);
                 replay?.Add(0);
                 var second = 0;
+                var ended = Stopwatch.GetTimestamp();
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished; frame++)
                 {
                     var before = done;
                     Loop.Frame(scenario.Settings.deltaTime);
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
                     // A script has paused or disabled the manager.
-                    if (done == before) continue;
+                    if (done == before)
+                    {
+                        ended = Stopwatch.GetTimestamp();
+                        continue;
+                    }
                     if (stopsAtFailures && manager.Simulation.NoRoundWorked)
                         throw new ScenarioException("stopped at tick " + done + ": all its rounds failed; the messages are above (--keep-going goes on)");
                     parameters = parameters ?? ParameterValues.Of(manager);
                     replay?.Add(manager.SimulatedTime);
+                    var now = Stopwatch.GetTimestamp();
+                    totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
+                    ended = now;
+                    metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
                     if (manager.SimulatedTime >= second + 1 - 1e-6) metrics.EndSecond(++second, manager.LinkCount);
                     if (progress.Due || frame == ticks) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
                 }

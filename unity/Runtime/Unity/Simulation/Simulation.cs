@@ -229,11 +229,15 @@ namespace Collektive.Unity
         {
             var start = Stopwatch.GetTimestamp();
             TickInProgress = session.Tick + 1;
-            using (TickMarkers.Sense.Auto())
+            using (TickMarkers.Rules.Auto())
             {
                 Physics.SyncTransforms();
                 FlushChanges();
                 UpdateRules();
+            }
+            var ruled = Stopwatch.GetTimestamp();
+            using (TickMarkers.Sense.Auto())
+            {
                 Sense();
                 // Last, since users' code may add and remove links until here.
                 Links.Flush(session.Request, roster.IsKnown);
@@ -251,7 +255,8 @@ namespace Collektive.Unity
             var acted = Stopwatch.GetTimestamp();
             using (TickMarkers.Physics.Auto()) AdvancePhysics();
             var end = Stopwatch.GetTimestamp();
-            Times = new TickTimes(Milliseconds(start, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+            Times = new TickTimes(
+                Milliseconds(start, ruled), Milliseconds(ruled, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
         }
 
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>

@@ -6,6 +6,7 @@ namespace Collektive.Unity
     internal static class TickMarkers
     {
         internal static readonly ProfilerMarker Tick = new ProfilerMarker("Collektive.Tick");
+        internal static readonly ProfilerMarker Rules = new ProfilerMarker("Collektive.Rules");
         internal static readonly ProfilerMarker Sense = new ProfilerMarker("Collektive.Sense");
         internal static readonly ProfilerMarker Step = new ProfilerMarker("Collektive.Step");
         internal static readonly ProfilerMarker Act = new ProfilerMarker("Collektive.Act");

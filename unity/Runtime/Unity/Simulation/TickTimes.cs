@@ -4,15 +4,19 @@ namespace Collektive.Unity
     public readonly struct TickTimes
     {
         /// <summary>Makes a record of one tick.</summary>
-        internal TickTimes(double sense, double step, double act, double physics)
+        internal TickTimes(double rules, double sense, double step, double act, double physics)
         {
+            Rules = rules;
             Sense = sense;
             Step = step;
             Act = act;
             Physics = physics;
         }
 
-        /// <summary>Neighbourhood rules and sensors.</summary>
+        /// <summary>Positions and neighbourhood rules.</summary>
+        public double Rules { get; }
+
+        /// <summary>Sensors, and the links that changed.</summary>
         public double Sense { get; }
 
         /// <summary>The frame, the call into the JVM and all rounds.</summary>
@@ -24,7 +28,7 @@ namespace Collektive.Unity
         /// <summary>All physics sub-steps.</summary>
         public double Physics { get; }
 
-        /// <summary>The whole tick.</summary>
-        public double Total => Sense + Step + Act + Physics;
+        /// <summary>The whole tick; handlers of <see cref="SimulationManager.Ticked"/> and the rest of Unity's frame are no part of it.</summary>
+        public double Total => Rules + Sense + Step + Act + Physics;
     }
 }
