@@ -6,6 +6,7 @@ help_bench() {
   cat <<'H'
 usage: ./collektive bench rounds [--quick]
        ./collektive bench tick [--quick] [--nodes N,N...] [--out FILE]
+       ./collektive bench scene [--quick] [--nodes N,N...] [--out FILE]
 
 rounds What a round of aggregate programs costs on the engine, time and garbage, beside plain loops; measured with JMH. Prints a table
        and writes build/bench/rounds.json. About eight minutes, three with --quick.
@@ -13,6 +14,9 @@ tick   What a tick costs, all in one run and in turn: in-process (this product),
        frames over a TCP socket, the rounds without the boundary, plain loops; then an empty tick and the addition of nodes. Prints a
        table and what is promised, and writes build/bench/tick.json. --quick takes under two minutes on two idle cores; without it
        there are more ticks and a run of 20,000 (pauses, memory). Times of a busy machine mean little.
+scene  What whole ticks of a scene cost, physics included: the case study with 500 to 50,000 bodies, each size in a process of its own, on a field
+       that grows with the swarm. Prints a table with the phases of a tick, memory, and the growth of a node's cost over that of the first size,
+       and writes build/bench/scene.json. About two minutes on two idle cores; --quick measures half as long.
 H
 }
 
@@ -29,7 +33,8 @@ cmd_bench() {
   case ${1:-} in
     rounds) shift; bench_rounds "$@" ;;
     tick) shift; bench_tick "$@" ;;
-    *) fail "bench: name what to measure: rounds or tick (see ./collektive bench --help)" ;;
+    scene) shift; bench_scene "$@" ;;
+    *) fail "bench: name what to measure: rounds, tick or scene (see ./collektive bench --help)" ;;
   esac
 }
 
@@ -47,6 +52,24 @@ bench_tick() {
   build_bench
   managed mono-sgen "$CSHARP/Collektive.Headless.Bench.exe" --java-home "$(find_jdk)" --host-jar "$HOST_JAR" --jar "$SAMPLES_JAR" --jar "$BENCH_JAR" \
     --out "$out" "${arguments[@]}"
+  say "wrote $out"
+}
+
+bench_scene() {
+  local out="$BUILD/bench/scene.json" arguments=() sample="$ROOT/unity/Samples~/GradientAscent"
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --out) out=${2:?--out needs a file}; shift 2 ;;
+      *) arguments+=("$1"); shift ;;
+    esac
+  done
+  setup_system
+  build_native
+  build_jvm
+  build_csharp
+  # Before the runs: their memory is measured with that of all processes that they start.
+  scripts_dll "$sample/gradient_ascent.fbs" "$sample" >/dev/null
+  python3 "$ROOT/scripts/bench_scene.py" "$out" "${arguments[@]}"
   say "wrote $out"
 }
 

@@ -1,4 +1,4 @@
-"""Runs a short ./collektive bench tick and checks what does not depend on the machine."""
+"""Runs a short ./collektive bench tick and scene and checks what does not depend on the machine."""
 import json
 import os
 import subprocess
@@ -54,3 +54,44 @@ class BenchTick(unittest.TestCase):
     def test_the_table_is_printed(self):
         for word in ["in-process", "hand-written", "bridge at 500 nodes", "managed bytes per tick, 500 nodes"]:
             self.assertIn(word, self.result.stdout)
+
+
+class BenchScene(unittest.TestCase):
+    OUT = os.path.join(ROOT, "build/bench/test-scene.json")
+
+    @classmethod
+    def setUpClass(cls):
+        command = [os.path.join(ROOT, "collektive"), "bench", "scene", "--quick", "--nodes", "50,1000", "--out", cls.OUT]
+        cls.result = subprocess.run(command, capture_output=True, text=True)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(cls.OUT) as file:
+            cls.whole = json.load(file)
+
+    def test_the_file_has_a_row_for_each_size(self):
+        self.assertEqual(sorted(self.whole), ["machine", "rows"])
+        self.assertEqual([row["nodes"] for row in self.whole["rows"]], [50, 1000])
+        for row in self.whole["rows"]:
+            self.assertEqual(list(row), ["nodes", "threads", "ticks_per_second", "sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms",
+                                         "rss_mb"])
+
+    def test_the_phases_add_up_to_the_tick(self):
+        for row in self.whole["rows"]:
+            phases = [row[key] for key in row if key.endswith("_ms")]
+            self.assertGreater(min(phases), 0, row)
+            self.assertAlmostEqual(sum(phases) / (1000 / row["ticks_per_second"]), 1, places=2, msg=row)
+
+    def test_a_larger_swarm_costs_more(self):
+        small, large = self.whole["rows"]
+        self.assertLess(small["physics_ms"], large["physics_ms"])
+        self.assertLess(large["ticks_per_second"], small["ticks_per_second"])
+
+    def test_the_table_is_printed(self):
+        for word in ["ticks/s", "physics ms", "other ms", "RSS MB", "growth", "1000"]:
+            self.assertIn(word, self.result.stdout)
+
+    def test_wrong_sizes_are_refused(self):
+        for sizes in ["0", "ten", "500,"]:
+            result = subprocess.run([os.path.join(ROOT, "collektive"), "bench", "scene", "--nodes", sizes], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("--nodes needs numbers from 1 to 999999", result.stderr)
