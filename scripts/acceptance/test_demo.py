@@ -7,7 +7,7 @@ import tempfile
 
 import pytest
 import replay
-from command import HERE, Folder, collektive
+from command import HERE, SAMPLE, Folder, collektive
 
 
 @pytest.mark.alone
@@ -118,6 +118,24 @@ class Repeatability(Folder):
         self.assertEqual(digests[0], digests[1])
         self.assertNotEqual(digests[0], digests[2])
 
+    def test_threads_and_processes_change_nothing(self):
+        """Bodies that crowd around the source, where each pushes many others."""
+        with open(os.path.join(SAMPLE, "scenario.json")) as file:
+            scenario = json.load(file)
+        for key in ("scripts", "schema", "programs"):
+            scenario[key] = os.path.join(SAMPLE, scenario[key])
+        scenario |= {"fields": {"nodes": 300, "range": 3, "source": [-10, 0, 0]}, "seconds": 12, "outputs": {"metrics": True}}
+        results = []
+        for process, threads in enumerate([1, 2, 4, 2]):
+            with open(self.path("scenario.json"), "w") as file:
+                json.dump(scenario | {"threads": threads}, file)
+            out = self.path(f"out{process}")
+            result = collektive("run", self.path("scenario.json"), "--out", out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            whole = self.manifest(out)
+            results.append((whole["digest"], whole["end"]))
+        self.assertGreater(results[0][1]["contacts"], 300)
+        self.assertEqual(results, [results[0]] * 4)
 
     def test_runs_of_one_seed_are_equal_but_for_the_clock_of_the_machine(self):
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))

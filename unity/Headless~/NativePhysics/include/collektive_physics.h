@@ -5,7 +5,8 @@
  * physics_step applies it, moves the world and returns arrays of what moved and what touched. Nothing is called per body in steady state.
  *
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
- * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step uses worker threads of its own inside the call.
+ * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step and queries of several rays or spheres use worker
+ * threads of the world's own inside the call.
  * Determinism: the same calls give the same bits, for any number of threads, on every start of the same build.
  * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next step.
  * Handles are small numbers that are reused after their destruction. A handle that is not alive is ignored, or answered with PHYSICS_NONE or 0.
@@ -25,7 +26,7 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 1
+#define PHYSICS_VERSION 2
 #define PHYSICS_NONE (-1)
 
 typedef struct physics_world physics_world;
@@ -50,7 +51,7 @@ PHYSICS_API const char *physics_error(void);
 
 /* ---- Worlds ---- */
 
-/* Makes an empty world. `threads` (1 or more) step it together; with 1 the calling thread does all. NULL when there is no memory. */
+/* Makes an empty world. `threads` (1 or more, the calling one among them) work for it together. NULL when there is no memory. */
 PHYSICS_API physics_world *physics_world_create(int32_t threads);
 
 /* Frees the world with all that is in it. Meshes stay. */
@@ -240,14 +241,19 @@ typedef struct {
 } physics_ray;
 
 typedef struct {
+    physics_vector centre;
+    float radius;
+} physics_sphere;
+
+typedef struct {
     int32_t shape;    /* PHYSICS_NONE: nothing was hit */
     int32_t triangle; /* of a concave mesh, or PHYSICS_NONE */
     physics_vector point, normal;
     float distance;
 } physics_hit;
 
-/* The nearest hit of each ray; shapes that contain its origin are not hit. */
-PHYSICS_API void physics_raycast(physics_world *world, const physics_ray *rays, int32_t count, const physics_filter *filter,
+/* The nearest hit of each ray; shapes that contain its origin are not hit. There are as many filters and hits as rays. All threads work on them. */
+PHYSICS_API void physics_raycast(physics_world *world, const physics_ray *rays, const physics_filter *filters, int32_t count,
                                  physics_hit *hits);
 
 /* All shapes that a ray hits, in no particular order; returns their number, at most `capacity`. */
@@ -260,6 +266,11 @@ PHYSICS_API int32_t physics_raycast_shape(physics_world *world, int32_t shape, c
 /* All shapes that overlap a geometry, in no particular order; returns their number, at most `capacity`. */
 PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
                                     const physics_filter *filter, int32_t *shapes, int32_t capacity);
+
+/* All shapes that overlap each of several spheres, in no particular order: `capacity` places of `shapes` (1 or more) for each sphere, what does not fit
+ * is left out; PHYSICS_NONE ends those that are fewer. There are as many filters as spheres. All threads work on them. */
+PHYSICS_API void physics_overlap_spheres(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
+                                         int32_t *shapes, int32_t capacity);
 
 /* Moves a geometry along a ray from its pose; shapes that it overlaps at the start are not hit. With a capacity of 1 the nearest hit, else all in no
  * particular order; returns their number. `point` is where they touch. */

@@ -74,16 +74,18 @@ PxQueryFilterData collektive::query_filter(const physics_filter &filter, PxQuery
 
 extern "C" {
 
-void physics_raycast(physics_world *world, const physics_ray *rays, int32_t count, const physics_filter *filter, physics_hit *hits) {
-    Outside outside;
-    const PxQueryFilterData data = query_filter(*filter, ALL | PxQueryFlag::ePOSTFILTER);
-    for (int32_t index = 0; index < count; index++) {
-        const physics_ray &ray = rays[index];
-        PxRaycastBuffer found;
-        const bool hit =
-            world->scene->raycast(vec(ray.origin), vec(ray.direction), std::min(ray.distance, FARTHEST), found, HIT, data, &outside);
-        hits[index] = hit ? to_hit(found.block) : NOTHING;
-    }
+void physics_raycast(physics_world *world, const physics_ray *rays, const physics_filter *filters, int32_t count, physics_hit *hits) {
+    world->scene->flushQueryUpdates();
+    world->workers.each(count, [=](int first, int end) {
+        Outside outside;
+        for (int index = first; index < end; index++) {
+            const physics_ray &ray = rays[index];
+            PxRaycastBuffer found;
+            const bool hit = world->scene->raycast(vec(ray.origin), vec(ray.direction), std::min(ray.distance, FARTHEST), found, HIT,
+                                                   query_filter(filters[index], ALL | PxQueryFlag::ePOSTFILTER), &outside);
+            hits[index] = hit ? to_hit(found.block) : NOTHING;
+        }
+    });
 }
 
 int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const physics_filter *filter, physics_hit *hits,
@@ -119,6 +121,21 @@ int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, 
     world->scene->overlap(holder.any(), pose(*at), found, query_filter(*filter, ALL | PxQueryFlag::eNO_BLOCK));
     for (PxU32 index = 0; index < found.nbTouches; index++) shapes[index] = int32_t(intptr_t(found.touches[index].shape->userData));
     return int32_t(found.nbTouches);
+}
+
+void physics_overlap_spheres(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
+                             int32_t *shapes, int32_t capacity) {
+    world->scene->flushQueryUpdates();
+    world->workers.each(count, [=](int first, int end) {
+        for (int index = first; index < end; index++) {
+            int32_t *own = shapes + size_t(index) * size_t(capacity);
+            PxOverlapBuffer found(room<PxOverlapHit>(capacity), PxU32(capacity));
+            world->scene->overlap(PxSphereGeometry(std::max(spheres[index].radius, 1e-4f)), PxTransform(vec(spheres[index].centre)), found,
+                                  query_filter(filters[index], ALL | PxQueryFlag::eNO_BLOCK));
+            for (PxU32 hit = 0; hit < found.nbTouches; hit++) own[hit] = int32_t(intptr_t(found.touches[hit].shape->userData));
+            if (int32_t(found.nbTouches) < capacity) own[found.nbTouches] = PHYSICS_NONE;
+        }
+    });
 }
 
 int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *at, const physics_vector *direction,

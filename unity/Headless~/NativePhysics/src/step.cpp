@@ -31,6 +31,17 @@ bool spheres_overlap(const PxSphereGeometry &a, const PxVec3 &at_a, const PxSphe
     return (at_a - at_b).magnitudeSquared() <= reach * reach;
 }
 
+// What PhysX submits last in a step.
+struct Finish final : PxLightCpuTask {
+    Workers &workers;
+    std::atomic<bool> over{false};
+
+    explicit Finish(physics_world &world) : workers(world.workers) { setContinuation(*world.scene->getTaskManager(), nullptr); }
+    void run() override {}
+    void release() override { workers.end(over); }
+    const char *getName() const override { return "finish"; }
+};
+
 } // namespace
 
 void physics_world::apply(const physics_command &command) {
@@ -307,7 +318,10 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
     world->contacts.clear();
     world->broken.clear();
     world->scene->setGravity(vec(*gravity));
-    world->scene->simulate(seconds);
+    Finish finish(*world);
+    world->scene->simulate(seconds, &finish);
+    finish.removeReference();
+    world->workers.work_until(finish.over);
     world->scene->fetchResults(true);
     world->collect_overlaps();
     world->collect_motions();

@@ -118,12 +118,10 @@ bool make_geometry(const physics_geometry &from, PxGeometryHolder &to) {
 
 using namespace collektive;
 
-physics_world::physics_world(int32_t threads) {
+physics_world::physics_world(int32_t threads) : workers(threads) {
     PxSceneDesc description(physics().getTolerancesScale());
     description.gravity = PxVec3(0.0f, -9.81f, 0.0f);
-    // Without workers the dispatcher runs tasks on the thread that submits them.
-    dispatcher = PxDefaultCpuDispatcherCreate(threads > 1 ? PxU32(threads) : 0);
-    description.cpuDispatcher = dispatcher;
+    description.cpuDispatcher = &workers;
     static_assert(sizeof(Ignored *) == 8, "the filter shader's constants are one pointer");
     const Ignored *constants = &ignored;
     description.filterShader = filter_pair;
@@ -147,7 +145,6 @@ physics_world::~physics_world() {
     for (Actor &each : actors)
         if (each.rigid) each.rigid->release();
     if (scene) scene->release();
-    if (dispatcher) dispatcher->release();
     for (auto &entry : materials) entry.second->release();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "collektive_physics.h"
+#include "workers.hpp"
 
 struct physics_mesh {
     physx::PxRefCounted *base;
@@ -104,7 +105,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     explicit physics_world(int32_t threads);
     ~physics_world();
 
-    physx::PxDefaultCpuDispatcher *dispatcher = nullptr;
+    collektive::Workers workers;
     physx::PxScene *scene = nullptr;
     std::vector<collektive::Actor> actors;
     std::vector<collektive::Shape> shapes;

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using NUnit.Framework;
+using Unity.Collections;
 using UnityEngine;
 using UnityEngine.Headless;
 
@@ -147,6 +148,48 @@ namespace Collektive.Headless.Tests.Engine
             }
             Loop.PhysicsThreads = 1;
             Assert.That(hashes, Is.All.EqualTo(hashes[0]));
+        }
+
+        [TestCase(1)]
+        [TestCase(2)]
+        [TestCase(4)]
+        public void A_batch_answers_as_its_queries_alone_for_any_number_of_threads(int threads)
+        {
+            const int places = 8;
+            Loop.Reset();
+            Loop.PhysicsThreads = threads;
+            Loop.Start(1);
+            Physics.simulationMode = SimulationMode.Script;
+            var bodies = Swarm(1000, false);
+            Physics.Simulate(Step);
+            var parameters = new QueryParameters(Physics.AllLayers, false, QueryTriggerInteraction.Ignore);
+            using (var spheres = new NativeArray<OverlapSphereCommand>(bodies.Count, Allocator.TempJob))
+            using (var near = new NativeArray<ColliderHit>(bodies.Count * places, Allocator.TempJob))
+            using (var rays = new NativeArray<RaycastCommand>(bodies.Count, Allocator.TempJob))
+            using (var hits = new NativeArray<RaycastHit>(bodies.Count, Allocator.TempJob))
+            {
+                for (var index = 0; index < bodies.Count; index++)
+                {
+                    spheres.AsSpan()[index] = new OverlapSphereCommand(bodies[index].position, index % 10 * 0.2f, parameters);
+                    rays.AsSpan()[index] = new RaycastCommand(bodies[index].position, new Vector3(index % 3 - 1, 0f, index % 5 - 2), parameters, 5f);
+                }
+                spheres.AsSpan()[7] = new OverlapSphereCommand(new Vector3(float.NaN, 0f, 0f), 1f, parameters);
+                rays.AsSpan()[7] = new RaycastCommand(Vector3.zero, new Vector3(float.NaN, 0f, 0f), parameters, 5f);
+                for (var round = 0; round < 20; round++)
+                {
+                    OverlapSphereCommand.ScheduleBatch(spheres, near, 1, places).Complete();
+                    RaycastCommand.ScheduleBatch(rays, hits, 1, 1).Complete();
+                }
+                for (var index = 0; index < bodies.Count; index++)
+                {
+                    var count = Math.Min(places, Physics.OverlapSphereNonAlloc(spheres[index].point, spheres[index].radius, Results));
+                    for (var place = 0; place < count; place++) Assert.That(near[index * places + place].collider, Is.SameAs(Results[place]));
+                    if (count < places) Assert.That(near[index * places + count].collider == null, Is.True, "the end of sphere " + index);
+                    Physics.Raycast(rays[index].from, rays[index].direction, out var hit, 5f);
+                    Assert.That((hits[index].collider, hits[index].distance), Is.EqualTo((hit.collider, hit.distance)));
+                }
+            }
+            Loop.PhysicsThreads = 1;
         }
 
         static double ProcessorMillis(Action action)

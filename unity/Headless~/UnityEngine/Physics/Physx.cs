@@ -6,7 +6,7 @@ namespace UnityEngine
     /// The C interface of collektive_physics, as its header tells (NativePhysics/include/collektive_physics.h).
     static unsafe class Physx
     {
-        public const int Version = 1;
+        public const int Version = 2;
         public const int None = -1;
 
         const string Library = "collektive_physics";
@@ -185,6 +185,12 @@ namespace UnityEngine
             public float Distance;
         }
 
+        public struct Sphere
+        {
+            public Vector3 Centre;
+            public float Radius;
+        }
+
         [DllImport(Library)] public static extern int physics_version();
         [DllImport(Library)] static extern IntPtr physics_error();
         [DllImport(Library)] public static extern IntPtr physics_world_create(int threads);
@@ -211,10 +217,12 @@ namespace UnityEngine
         [DllImport(Library)] public static extern void physics_apply(IntPtr world, Command* commands, int count);
         [DllImport(Library)] public static extern int physics_step(IntPtr world, Command* commands, int count, float seconds, Vector3* gravity, Result* result);
 
-        [DllImport(Library)] public static extern void physics_raycast(IntPtr world, RayLine* rays, int count, Filter* filter, Hit* hits);
+        [DllImport(Library)] public static extern void physics_raycast(IntPtr world, RayLine* rays, Filter* filters, int count, Hit* hits);
         [DllImport(Library)] public static extern int physics_raycast_all(IntPtr world, RayLine* ray, Filter* filter, Hit* hits, int capacity);
         [DllImport(Library)] public static extern int physics_raycast_shape(IntPtr world, int shape, RayLine* ray, Hit* hit);
         [DllImport(Library)] public static extern int physics_overlap(IntPtr world, Geometry* geometry, Pose* pose, Filter* filter, int* shapes, int capacity);
+        [DllImport(Library)]
+        public static extern void physics_overlap_spheres(IntPtr world, Sphere* spheres, Filter* filters, int count, int* shapes, int capacity);
         [DllImport(Library)]
         public static extern int physics_sweep(IntPtr world, Geometry* geometry, Pose* pose, Vector3* direction, float distance, Filter* filter, Hit* hits,
             int capacity);

@@ -7,6 +7,9 @@ namespace UnityEngine
     {
         static Physx.Hit[] hits = new Physx.Hit[64];
         static int[] shapes = new int[64];
+        static Physx.RayLine[] lines = new Physx.RayLine[64];
+        static Physx.Sphere[] spheres = new Physx.Sphere[64];
+        static Physx.Filter[] filters = new Physx.Filter[64];
 
         /// PhysX's world, up to date.
         static IntPtr World
@@ -47,10 +50,31 @@ namespace UnityEngine
             if (!Line(origin, direction, maxDistance, out var line)) return false;
             var filter = Filter(layerMask, triggers);
             Physx.Hit hit;
-            Physx.physics_raycast(World, &line, 1, &filter, &hit);
+            Physx.physics_raycast(World, &line, &filter, 1, &hit);
             if (hit.Shape == Physx.None) return false;
             nearest = new RaycastHit(hit);
             return true;
+        }
+
+        /// The nearest hit of each ray, asked on all threads of physics.
+        public static void Raycast(Span<RaycastCommand> commands, Span<RaycastHit> nearest)
+        {
+            Headless.QueryLog.Rays += commands.Length;
+            var count = commands.Length;
+            Reserve(ref lines, count);
+            Reserve(ref filters, count);
+            Reserve(ref hits, count);
+            for (var index = 0; index < count; index++)
+            {
+                ref var command = ref commands[index];
+                var asks = Line(command.from, command.direction, command.distance, out lines[index]);
+                filters[index] = asks ? Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
+                if (!asks) lines[index] = new Physx.RayLine { Direction = Vector3.right, Distance = 1f };
+            }
+            fixed (Physx.RayLine* rays = lines)
+            fixed (Physx.Filter* filter = filters)
+            fixed (Physx.Hit* found = hits) Physx.physics_raycast(World, rays, filter, count, found);
+            for (var index = 0; index < count; index++) nearest[index] = hits[index].Shape == Physx.None ? default : new RaycastHit(hits[index]);
         }
 
         /// Fills the array as far as it goes; returns how many it put there.
@@ -59,7 +83,7 @@ namespace UnityEngine
         {
             Headless.QueryLog.Rays++;
             if (!Line(origin, direction, maxDistance, out var line)) return 0;
-            Reserve(results.Length);
+            Reserve(ref hits, results.Length);
             var filter = Filter(layerMask, triggers);
             int count;
             fixed (Physx.Hit* found = hits) count = Physx.physics_raycast_all(World, &line, &filter, found, results.Length);
@@ -95,7 +119,7 @@ namespace UnityEngine
         {
             if (results.Length == 1) return Sweep(geometry, pose, direction, out results[0], maxDistance, layerMask, triggers) ? 1 : 0;
             if (!Line(pose.Position, direction, maxDistance, out var line)) return 0;
-            Reserve(results.Length);
+            Reserve(ref hits, results.Length);
             var filter = Filter(layerMask, triggers);
             int count;
             fixed (Physx.Hit* found = hits)
@@ -142,10 +166,35 @@ namespace UnityEngine
         public static int Overlaps(Physx.Geometry geometry, Physx.Pose pose, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
         {
             if (results.Length == 0) return 0;
-            if (shapes.Length < results.Length) shapes = new int[results.Length];
+            Reserve(ref shapes, results.Length);
             var count = Overlapping(geometry, pose, layerMask, triggers, results.Length);
             for (var index = 0; index < count; index++) results[index] = PhysicsWorld.ColliderOf(shapes[index]);
             return count;
+        }
+
+        /// Puts colliders that touch each sphere into the results as far as its places go, and after them one that is null, asked on all threads of physics.
+        public static void Overlaps(Span<OverlapSphereCommand> commands, Span<ColliderHit> results, int places)
+        {
+            var count = commands.Length;
+            Reserve(ref spheres, count);
+            Reserve(ref filters, count);
+            Reserve(ref shapes, count * places);
+            for (var index = 0; index < count; index++)
+            {
+                ref var command = ref commands[index];
+                var asks = IsFinite(command.point) && IsFinite(new Vector3(command.radius, 0f, 0f));
+                spheres[index] = asks ? new Physx.Sphere { Centre = command.point, Radius = Mathf.Abs(command.radius) } : default;
+                filters[index] = asks ? Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
+            }
+            fixed (Physx.Sphere* balls = spheres)
+            fixed (Physx.Filter* filter = filters)
+            fixed (int* found = shapes) Physx.physics_overlap_spheres(World, balls, filter, count, found, places);
+            for (var first = 0; first < count * places; first += places)
+                for (var place = first; place < first + places; place++)
+                {
+                    results[place].collider = PhysicsWorld.ColliderOf(shapes[place]);
+                    if (shapes[place] == Physx.None) break;
+                }
         }
 
         public static Collider[] Overlaps(Physx.Geometry geometry, Physx.Pose pose, int layerMask, QueryTriggerInteraction triggers)
@@ -211,9 +260,9 @@ namespace UnityEngine
 
         // ---- Buffers --------------------------------------------------------------------------------------------------
 
-        static void Reserve(int length)
+        static void Reserve<T>(ref T[] buffer, int length)
         {
-            if (hits.Length < length) hits = new Physx.Hit[length];
+            if (buffer.Length < length) buffer = new T[length];
         }
 
         /// A full buffer may have been too small.

@@ -28,7 +28,7 @@ namespace UnityEngine
         public Collider collider { get; internal set; }
     }
 
-    /// The queries of a batch run one after another.
+    /// A batch with one hit for each ray runs on all threads of physics, one with more on the calling thread; both are complete on return.
     public struct RaycastCommand
     {
         static RaycastHit[] found = Array.Empty<RaycastHit>();
@@ -52,15 +52,19 @@ namespace UnityEngine
         {
             if (results.Length < commands.Length * maxHits) throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
             Headless.QueryLog.Batches++;
-            if (found.Length < maxHits) found = new RaycastHit[maxHits];
             var all = commands.AsSpan();
+            if (maxHits == 1)
+            {
+                Queries.Raycast(all, results.AsSpan());
+                return default;
+            }
+            if (found.Length < maxHits) found = new RaycastHit[maxHits];
             for (var index = 0; index < all.Length; index++)
             {
                 ref var command = ref all[index];
-                int mask = command.queryParameters.layerMask, count;
-                var triggers = command.queryParameters.hitTriggers;
-                if (maxHits == 1) count = Queries.Raycast(command.from, command.direction, out found[0], command.distance, mask, triggers) ? 1 : 0;
-                else count = Math.Min(maxHits, Queries.RaycastAll(command.from, command.direction, found, command.distance, mask, triggers));
+                var query = command.queryParameters;
+                var count = Queries.RaycastAll(command.from, command.direction, found, command.distance, query.layerMask, query.hitTriggers);
+                count = Math.Min(maxHits, count);
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 new Span<RaycastHit>(found, 0, count).CopyTo(hits);
                 // The first hit without a collider is the end; those behind it are what they were.
@@ -70,11 +74,9 @@ namespace UnityEngine
         }
     }
 
-    /// The queries of a batch run one after another.
+    /// A batch runs on all threads of physics and is complete on return.
     public struct OverlapSphereCommand
     {
-        static Collider[] found = Array.Empty<Collider>();
-
         public QueryParameters queryParameters;
 
         public OverlapSphereCommand(Vector3 point, float radius, QueryParameters queryParameters)
@@ -92,18 +94,7 @@ namespace UnityEngine
         {
             if (results.Length < commands.Length * maxHits) throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
             Headless.QueryLog.Batches++;
-            if (found.Length < maxHits) found = new Collider[maxHits];
-            var all = commands.AsSpan();
-            for (var index = 0; index < all.Length; index++)
-            {
-                ref var command = ref all[index];
-                var query = command.queryParameters;
-                var count = Math.Min(maxHits, Physics.OverlapSphereNonAlloc(command.point, command.radius, found, query.layerMask, query.hitTriggers));
-                var hits = results.AsSpan().Slice(index * maxHits, maxHits);
-                for (var place = 0; place < count; place++) hits[place].collider = found[place];
-                if (count < maxHits) hits[count] = default;
-            }
-            Array.Clear(found, 0, found.Length);
+            Queries.Overlaps(commands.AsSpan(), results.AsSpan(), maxHits);
             return default;
         }
     }
