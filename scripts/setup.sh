@@ -200,7 +200,7 @@ fetch_physx() {
   # 5.1 forgets to stop a body along its frozen axes before it solves: it sets a field that it overwrites below.
   sed -i -E 's/data\.linearVelocity\.([xyz]) = 0\.f;/lin.\1 = 0.f;/' "$made/physx/physx/source/lowleveldynamics/src/DyRigidBodyToSolverBody.cpp"
   # Without friction no rows are solved for it: with a coefficient of 0 they cost more than the contacts and change nothing.
-  sed -i 's/^\t\t\tflags = combineFlags;$/\t\t\tflags = fDynFriction == 0.0f \&\& fStaFriction == 0.0f ? combineFlags | PxMaterialFlag::eDISABLE_FRICTION : combineFlags;/' \
+  sed -i 's/^\t\t\tflags = combineFlags;$/&\n\t\t\tif(fStaFriction == 0.0f) flags |= PxMaterialFlag::eDISABLE_FRICTION;/' \
     "$made/physx/physx/source/lowlevel/software/include/PxsMaterialCombiner.h"
   rm -rf "$PHYSX"
   mv "$made" "$PHYSX"

@@ -53,6 +53,28 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(milliseconds, Is.LessThan(10));
         }
 
+        [Test]
+        public void The_grid_finds_the_neighbours_of_10_000_nodes_in_3_milliseconds()
+        {
+            // Two metres apart, with seven neighbours each.
+            ScatterInRadius(10 * Count, 200, 3);
+            Play(3);
+            var simulation = Manager.Simulation;
+            var nodes = new List<Node>(Manager.Nodes);
+            var found = 0;
+            var milliseconds = ThreadClock.Least(4 * Tries, () =>
+            {
+                found = 0;
+                simulation.Grid.Build(nodes, simulation.Grid.MeanRadius);
+                for (var i = 0; i < nodes.Count; i++) found += simulation.Grid.Find(nodes[i].Position, 3).Length;
+            });
+            Print("grid of 10,000 nodes, " + found + " near ones", milliseconds);
+            Print("rules of 10,000 nodes, " + Manager.LinkCount + " links", LeastOfRules());
+            Assert.That(found, Is.EqualTo(nodes.Count + Manager.LinkCount));
+            // 3 on a machine that does nothing else.
+            Assert.That(milliseconds, Is.LessThan(2 * 3));
+        }
+
         [TestCase(LinkColoring.Direction)]
         [TestCase(LinkColoring.Length)]
         public void The_link_view_of_83_000_links_takes_2_milliseconds_a_tick(LinkColoring coloring)

@@ -117,13 +117,42 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Physics.CheckBox(Vector3.zero, bad), Is.False);
         }
 
-        [Test]
-        [Category("Slow")]
-        public void One_heap_of_100000_bodies_is_a_clear_error()
+        [TestCase(3000)]
+        [TestCase(100000, Category = "Slow")]
+        public void One_heap_of_very_many_bodies_is_a_clear_error(int count)
         {
-            for (var index = 0; index < 100000; index++) Ball(Vector3.zero);
+            for (var index = 0; index < count; index++) Ball(Vector3.zero);
             var error = Assert.Throws<InvalidOperationException>(() => Physics.Simulate(Step));
             Assert.That(error.Message, Is.StringContaining("overlap in one place"));
+        }
+
+        [TestCase(-1f, 1f, 1f)]
+        [TestCase(-2f, -0.5f, -1f)]
+        [TestCase(0f, 1f, 1f)]
+        [TestCase(0f, 0f, 0f)]
+        [TestCase(1e-6f, 1e-6f, 1e-6f)]
+        [TestCase(1e4f, 1e-4f, 1f)]
+        public void Bodies_of_any_scale_rest_or_fall(float x, float y, float z)
+        {
+            Floor();
+            var bodies = new List<Rigidbody>();
+            foreach (var type in new[] { PrimitiveType.Cube, PrimitiveType.Sphere, PrimitiveType.Capsule, PrimitiveType.Cylinder, PrimitiveType.Plane })
+            {
+                var parent = new GameObject("parent");
+                parent.transform.position = new Vector3(3f * bodies.Count, 2f, 0f);
+                parent.transform.rotation = Quaternion.Euler(10f, 20f, 30f);
+                parent.transform.localScale = new Vector3(x, y, z);
+                var child = GameObject.CreatePrimitive(type);
+                child.transform.SetParent(parent.transform, false);
+                child.transform.localRotation = Quaternion.Euler(40f, 50f, 60f);
+                bodies.Add(parent.AddComponent<Rigidbody>());
+            }
+            Run(0.5f);
+            foreach (var body in bodies) body.transform.localScale = new Vector3(z, x, -y);
+            Run(0.5f);
+            foreach (var body in bodies) Assert.That(body.position.magnitude, Is.LessThan(1e4f), "not infinite, not thrown away");
+            Physics.OverlapSphere(Vector3.zero, 100f);
+            Assert.That(Errors, Is.Empty);
         }
 
         [Test]

@@ -213,10 +213,7 @@ namespace UnityEngine
                 StepCount++;
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
                 for (var index = 0; index < result.MotionCount; index++)
-                {
-                    var motion = result.Motions + index;
-                    bodies[motion->Actor].TakeMotion(*motion);
-                }
+                    bodies[result.Motions[index].Actor].TakeMotion(result.Motions + index);
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
                 TellErrors();

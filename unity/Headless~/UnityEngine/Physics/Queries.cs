@@ -182,9 +182,20 @@ namespace UnityEngine
             for (var index = 0; index < count; index++)
             {
                 ref var command = ref commands[index];
-                var asks = IsFinite(command.point) && IsFinite(new Vector3(command.radius, 0f, 0f));
-                spheres[index] = asks ? new Physx.Sphere { Centre = command.point, Radius = Mathf.Abs(command.radius) } : default;
-                filters[index] = asks ? Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
+                var centre = command.point;
+                var radius = Mathf.Abs(command.radius);
+                var sum = centre.x + centre.y + centre.z + radius;
+                // What is no number finds nothing.
+                if (sum - sum != 0f)
+                {
+                    spheres[index] = default;
+                    filters[index] = default;
+                    continue;
+                }
+                ref var sphere = ref spheres[index];
+                sphere.Centre = centre;
+                sphere.Radius = radius;
+                filters[index] = Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers);
             }
             fixed (Physx.Sphere* balls = spheres)
             fixed (Physx.Filter* filter = filters)
@@ -192,8 +203,9 @@ namespace UnityEngine
             for (var first = 0; first < count * places; first += places)
                 for (var place = first; place < first + places; place++)
                 {
-                    results[place].collider = PhysicsWorld.ColliderOf(shapes[place]);
-                    if (shapes[place] == Physx.None) break;
+                    var shape = shapes[place];
+                    results[place].collider = PhysicsWorld.ColliderOf(shape);
+                    if (shape == Physx.None) break;
                 }
         }
 

@@ -53,6 +53,7 @@ namespace UnityEngine
         /// PhysX's handle, or none: not active.
         internal int Handle = Physx.None;
 
+        Transform place; // while it is active
         Vector3 posePosition;
         Quaternion poseRotation = Quaternion.identity;
         float ownMass = 1f;
@@ -508,9 +509,9 @@ namespace UnityEngine
 
         internal override unsafe void Activate()
         {
-            var transform = owner.TransformUnchecked;
-            posePosition = transform.position;
-            poseRotation = transform.rotation;
+            place = owner.TransformUnchecked;
+            posePosition = place.position;
+            poseRotation = place.rotation;
             var pose = new Physx.Pose(posePosition, poseRotation);
             Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
@@ -560,17 +561,17 @@ namespace UnityEngine
         }
 
         /// Takes the result of a step over and moves the transform.
-        internal void TakeMotion(in Physx.Motion motion)
+        internal unsafe void TakeMotion(Physx.Motion* motion)
         {
-            posePosition = motion.Pose.Position;
-            poseRotation = motion.Pose.Rotation;
-            velocity = motion.Velocity;
-            spin = motion.Spin;
-            asleep = motion.Asleep != 0;
-            Publish();
+            posePosition = motion->Pose.Position;
+            poseRotation = motion->Pose.Rotation;
+            velocity = motion->Velocity;
+            spin = motion->Spin;
+            asleep = motion->Asleep != 0;
+            place.Place(posePosition, poseRotation);
         }
 
-        internal void Publish() => owner.TransformUnchecked.Place(posePosition, poseRotation);
+        internal void Publish() => place.Place(posePosition, poseRotation);
 
         internal override void CopyFrom(Component original)
         {

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -191,10 +192,13 @@ namespace Collektive.Unity
         /// </summary>
         private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row)
         {
+            if (hits.Length < hitCount + end - start) Array.Resize(ref hits, Math.Max(2 * hits.Length, hitCount + end - start));
             var centreX = centre.x;
             var centreY = centre.y;
             var centreZ = centre.z;
             var all = entries;
+            var near = hits;
+            var found = hitCount;
             for (var i = start; i < end; i++)
             {
                 ref var entry = ref all[i];
@@ -204,12 +208,12 @@ namespace Collektive.Unity
                 var squared = dx * dx + dy * dy + dz * dz;
                 if (!(squared <= squaredRadius)) continue;
                 if (ofRow && entry.Row != row) continue;
-                if (hitCount == hits.Length) Array.Resize(ref hits, hitCount * 2);
-                ref var hit = ref hits[hitCount++];
+                ref var hit = ref near[found++];
                 hit.Place = entry.Place;
                 hit.IdOfNode = entry.Id;
                 hit.Metres = (float)Math.Sqrt(squared);
             }
+            hitCount = found;
         }
 
         /// <returns>How many there are: <paramref name="wanted"/>, or all hits if these are fewer.</returns>
@@ -240,6 +244,7 @@ namespace Collektive.Unity
             most.Z = Math.Max(most.Z, cell.Z);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private int CellOf(double coordinate)
         {
             var cell = coordinate * cellsPerMetre;
@@ -251,9 +256,11 @@ namespace Collektive.Unity
         }
 
         /// <summary>The number of a row of cells along x: no two rows of one search have the same.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static int Row(int y, int z) => y << 16 | z & MaxRows;
 
         /// <summary>Cells that are neighbours along x have neighbouring buckets, so that a row of them is one range of entries.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private int Bucket(int x, int row)
         {
             var mixed = unchecked((uint)row * 0x9E3779B1u);

@@ -38,11 +38,11 @@ namespace Collektive.Unity
             Spheres.Run();
         }
 
-        /// <summary>Makes <see cref="Near"/> twice as long; what is in it stays.</summary>
+        /// <summary>Makes both twice as long; what is in them stays.</summary>
         internal void Grow()
         {
             Array.Resize(ref Near, 2 * Near.Length);
-            Obstacles = new Obstacle[Near.Length];
+            Array.Resize(ref Obstacles, Near.Length);
         }
 
         /// <inheritdoc/>

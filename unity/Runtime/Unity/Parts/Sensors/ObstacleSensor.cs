@@ -39,17 +39,8 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            var body = Node.Body;
-            var centre = Node.Position;
             var queries = Node.Simulation.Queries;
-            var count = queries.Sensors.Has(this) ? TakeHits(queries) : Overlap(centre, queries);
-            var found = 0;
-            for (var i = 0; i < count; i++)
-            {
-                var collider = queries.Near[i];
-                if (collider.transform.IsChildOf(body)) continue;
-                Insert(new Obstacle(collider, collider.PointClosestTo(centre) - centre), queries.Obstacles, found++);
-            }
+            if (!queries.Sensors.Has(this) || !TryTakeHits(queries, out var found)) found = Overlap(queries);
             Write(ref data, new Span<Obstacle>(queries.Obstacles, 0, found));
         }
 
@@ -62,35 +53,40 @@ namespace Collektive.Unity
         /// <summary>Writes what there is, the nearest first. The obstacles are valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Obstacle> obstacles);
 
-        /// <summary>The colliders that the batch found, or all of them if it could not keep all.</summary>
-        private int TakeHits(SensorQueries queries)
+        /// <summary>Takes what the batch found.</summary>
+        /// <returns>False if it could not keep all.</returns>
+        private bool TryTakeHits(SensorQueries queries, out int found)
         {
             var spheres = queries.Spheres;
-            for (var count = 0; count < spheres.MaxHits; count++)
+            found = 0;
+            for (var hit = 0; hit < spheres.MaxHits; hit++)
             {
-                var collider = spheres.HitOf(query, count).collider;
-                if (collider == null) return count;
-                if (count == queries.Near.Length) queries.Grow();
-                queries.Near[count] = collider;
+                var collider = spheres.HitOf(query, hit).collider;
+                if (collider == null) return true;
+                if (found == queries.Obstacles.Length) queries.Grow();
+                Take(collider, queries.Obstacles, ref found);
             }
             spheres.KeepMore();
-            return Overlap(Node.Position, queries);
+            return false;
         }
 
-        private int Overlap(Vector3 centre, SensorQueries queries)
+        private int Overlap(SensorQueries queries)
         {
-            for (; ; )
-            {
-                var count = Physics.OverlapSphereNonAlloc(centre, reach, queries.Near, layers, QueryTriggerInteraction.Ignore);
-                if (count < queries.Near.Length) return count;
-                // A full array may have left some out.
+            int count;
+            // A full array may have left some out.
+            while ((count = Physics.OverlapSphereNonAlloc(Node.Position, reach, queries.Near, layers, QueryTriggerInteraction.Ignore)) == queries.Near.Length)
                 queries.Grow();
-            }
+            var found = 0;
+            for (var i = 0; i < count; i++) Take(queries.Near[i], queries.Obstacles, ref found);
+            return found;
         }
 
-        private static void Insert(in Obstacle obstacle, Obstacle[] obstacles, int count)
+        private void Take(Collider collider, Obstacle[] obstacles, ref int found)
         {
-            var place = count;
+            if (collider.transform.IsChildOf(Node.Body)) return;
+            var centre = Node.Position;
+            var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
+            var place = found++;
             for (; place > 0 && Touching.IsBefore(obstacle.Vector, obstacles[place - 1].Vector); place--) obstacles[place] = obstacles[place - 1];
             obstacles[place] = obstacle;
         }
