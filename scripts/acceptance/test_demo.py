@@ -57,8 +57,10 @@ class TheDemo(Folder):
             phases = [float(row[name + "_ms"]) for name in ("sense", "rules", "step", "act", "physics", "other")]
             self.assertAlmostEqual(sum(phases), float(row["tick_ms"]), places=3, msg=row["second"])
             self.assertGreater(min(phases), 0, row)
-        # Nothing else takes the run's time.
-        self.assertAlmostEqual(sum(float(row["tick_ms"]) for row in rows) * 20 / 1000, self.whole["wall_seconds"], delta=0.5)
+        # Beside the ticks a run makes its page at the end.
+        seconds = sum(float(row["tick_ms"]) for row in rows) * 20 / 1000
+        self.assertLess(0.8 * self.whole["wall_seconds"], seconds)
+        self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
 
     def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self):
         metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
