@@ -13,6 +13,15 @@ namespace {
 const int LOOKS = 1000;
 const int TURNS_AT_ONCE = 64;
 
+// Tells the core that it waits for another one's write.
+void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ __volatile__("yield");
+#endif
+}
+
 // A share of a loop. Several of them take ranges until none is left.
 struct Share final : PxBaseTask {
     Workers *workers = nullptr;
@@ -85,7 +94,7 @@ void Workers::work_until(const std::atomic<bool> &over) {
         int looks = 0;
         while (looks < LOOKS && !over && waiting.load(std::memory_order_relaxed) == 0) {
             looks++;
-            __builtin_ia32_pause();
+            pause();
         }
         if (looks < LOOKS) continue;
         std::unique_lock<std::mutex> lock(turn);
