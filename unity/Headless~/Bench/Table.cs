@@ -4,7 +4,7 @@ using System.IO;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>All rows for people.</summary>
+    /// <summary>Prints the rows as a table.</summary>
     internal static class Table
     {
         private const string Layout = "{0,-9} {1,-24} {2,7} {3,8} {4,12} {5,12} {6,12} {7,10} {8,12}";

@@ -47,7 +47,7 @@ namespace Collektive.Headless.Faults
         private static string Try(Setting good, Setting faulty, string fault, string act)
         {
             var works = act == "domains" ? Domains.Play() : Play(faulty, fault, act);
-            // A JVM that runs keeps its options.
+            // A running JVM keeps its options.
             if (!works) works = Jvm.State == JvmState.Running ? Said("next session", Play(faulty.With(good), "none", "none"))
                 : Said("next start", Play(good, "none", "none"));
             else works = Said("next tick", true) && Said("next play", Play(faulty, "none", "none"));

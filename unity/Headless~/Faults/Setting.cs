@@ -1,6 +1,6 @@
 namespace Collektive.Headless.Faults
 {
-    /// <summary>What a scene is started with.</summary>
+    /// <summary>Start settings of a scene: JVM, jars and flags.</summary>
     internal sealed class Setting
     {
         internal readonly string Home;
@@ -16,7 +16,7 @@ namespace Collektive.Headless.Faults
             Options = options;
         }
 
-        /// <summary>With another's jar of programs: the JVM stays as it is.</summary>
+        /// <summary>The same JVM with the programs of another setting.</summary>
         internal Setting With(Setting other) => new Setting(Home, Host, other.Jar, Options);
     }
 }

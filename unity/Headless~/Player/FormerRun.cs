@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The run that a manifest tells of, to be repeated.</summary>
+    /// <summary>A run to repeat, read from its manifest.</summary>
     internal sealed class FormerRun
     {
         internal const string ScenarioKey = "scenario";
@@ -30,13 +30,13 @@ namespace Collektive.Headless
         /// <summary>Name of its scenario file.</summary>
         internal string File { get; }
 
-        /// <summary>Where its relative paths started.</summary>
+        /// <summary>Folder that its relative paths start from.</summary>
         internal string Folder { get; }
 
-        /// <summary>How many it did; fewer than its scenario says when it was interrupted.</summary>
+        /// <summary>Ticks that it did: fewer than its scenario asks for if it was interrupted.</summary>
         internal int Ticks { get; }
 
-        /// <summary>Says whether the run came out as the former.</summary>
+        /// <summary>Compares the results of a run with those of this one, and prints what differs.</summary>
         internal bool IsRepeatedBy(Manifest now)
         {
             var differences = new List<string>();
@@ -53,7 +53,7 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>One line for each "inputs" or "versions" that are others today.</summary>
+        /// <summary>Prints a line for each of the "inputs" or "versions" that has changed since.</summary>
         internal void TellDifferences(Manifest now, string key)
         {
             foreach (var property in ((JObject)now.Root[key]).Properties())

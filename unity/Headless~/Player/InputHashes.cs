@@ -29,14 +29,14 @@ namespace Collektive.Headless
             using (var file = File.OpenRead(path)) return Hex(sha.ComputeHash(file));
         }
 
-        /// <summary>Code of folders named Generated is made anew.</summary>
+        /// <summary>Generated code does not count: each run makes it again.</summary>
         private static bool IsScript(string name) => name.EndsWith(".cs", StringComparison.Ordinal) && !name.Contains("/Generated/");
 
         private static bool IsProgram(string name) => name.EndsWith(".kt", StringComparison.Ordinal) || name.EndsWith(".java", StringComparison.Ordinal);
 
         private static bool IsJar(string name) => name.EndsWith(".jar", StringComparison.Ordinal);
 
-        /// <summary>Of the names below the folder and the contents of all files that are meant, in the order of their names.</summary>
+        /// <summary>Hash of the relative names and the contents of a folder's files, in order of name.</summary>
         private static string OfFolder(string folder, Predicate<string> isMeant)
         {
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
@@ -48,7 +48,10 @@ namespace Collektive.Headless
             return OfAll(files);
         }
 
-        /// <summary>Of the file and those that it includes from its folder; those of the package belong to its version.</summary>
+        /// <summary>
+        /// Hash of a schema and of the files that it includes from its folder. Included files of the package do not count: its version names
+        /// them.
+        /// </summary>
         private static string OfSchema(string schema)
         {
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);

@@ -85,7 +85,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>A value as a .NET type; numbers must fit it exactly where it is a whole one.</summary>
+        /// <summary>Converts a value to a .NET type. A type of whole numbers takes only those that it holds exactly.</summary>
         internal object Convert(JToken token, Type type, string key)
         {
             var kind = token.Type;
@@ -128,7 +128,7 @@ namespace Collektive.Headless
             return strings;
         }
 
-        /// <summary>A type in the words of a user.</summary>
+        /// <summary>Name of a type in messages.</summary>
         internal static string NameOf(Type type)
         {
             if (type == typeof(int)) return "whole number";
@@ -139,7 +139,7 @@ namespace Collektive.Headless
             return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
         }
 
-        /// <summary>A value that <see cref="Convert"/> reads back; null when the type is none of those that files can have.</summary>
+        /// <summary>The value in a form that <see cref="Convert"/> reads back; null for types that files cannot hold.</summary>
         internal static JToken Token(object value)
         {
             switch (value)

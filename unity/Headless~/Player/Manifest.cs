@@ -14,12 +14,12 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class Manifest
     {
-        /// <summary>What <see cref="Outcome"/> is once the ticks asked for were done, or a script ended the run in order.</summary>
+        /// <summary><see cref="Outcome"/> of a run that did all its ticks, or that a script ended in order.</summary>
         internal const string Complete = "complete";
 
         private readonly string path;
 
-        /// <summary>Before the first tick.</summary>
+        /// <summary>Describes a run that has not begun.</summary>
         /// <param name="fields">All fields of the scene, before it was built.</param>
         internal Manifest(Scenario scenario, Options options, JObject fields)
         {
@@ -35,11 +35,11 @@ namespace Collektive.Headless
 
         internal JObject Root { get; }
 
-        /// <summary>"running" until the end; a process that was killed leaves it so. Then <see cref="Complete"/>, or why the run is not.</summary>
+        /// <summary>"running" until the end, and for good if the process is killed; then <see cref="Complete"/>, or why the run is not complete.</summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
-        /// <param name="parameters">Of the programs that ran.</param>
-        /// <param name="ticks">That were done.</param>
+        /// <param name="parameters">Parameters of the programs that ran.</param>
+        /// <param name="ticks">Ticks that were done.</param>
         internal void AddResults(
             SimulationManager manager, JObject parameters, int ticks, SceneBuilder scene, IReadOnlyList<double> start, IReadOnlyList<double> end,
             double wallSeconds)

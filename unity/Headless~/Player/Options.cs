@@ -43,7 +43,7 @@ namespace Collektive.Headless
 
         internal double? Seconds { get; private set; }
 
-        /// <summary>Whether a tick without a round that worked does not end the run.</summary>
+        /// <summary>Whether the run goes on after a tick of which all rounds failed.</summary>
         internal bool KeepGoing { get; private set; }
 
         internal List<string> Assignments { get; } = new List<string>();

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>What the nodes' programs are run with: by program and parameter the value, or all values where nodes have different ones.</summary>
+    /// <summary>Parameters of the nodes' programs: for each program and parameter its value, or all values where nodes differ.</summary>
     internal static class ParameterValues
     {
         internal static JObject Of(SimulationManager manager)

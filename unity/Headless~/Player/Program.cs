@@ -11,7 +11,7 @@ namespace Collektive.Headless
 
         private static int Main(string[] arguments)
         {
-            // Of threads that a script started; the runtime prints it and ends the process afterwards.
+            // For exceptions in threads that a script started: the runtime prints them, then ends the process.
             AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
             return StopJvm(Run(arguments));
         }

@@ -5,10 +5,10 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>A flight recording around a run: it is there from the first tick on, and its file when the run is disposed of.</summary>
+    /// <summary>Flight recording of a run, from before the first tick. Disposing of it writes the file.</summary>
     internal sealed class RecordedRun : IDisposable
     {
-        /// <summary>Programs of aggregates are deep: the frames of the program itself must not fall off the stacks of samples.</summary>
+        /// <summary>Frames per sample: aggregate programs nest deeply, and their own frames must not be cut off.</summary>
         private const string WholeStacks = "-XX:FlightRecorderOptions=stackdepth=512";
 
         internal RecordedRun(JvmSettings settings, string path)

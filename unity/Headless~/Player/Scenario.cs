@@ -14,7 +14,7 @@ namespace Collektive.Headless
     {
         private const int Version = 1;
 
-        /// <summary>Hours of the shortest ticks; the times of all of them are kept in memory.</summary>
+        /// <summary>A run keeps the times of all its ticks in memory.</summary>
         private const double MaxTicks = 1e8;
 
         private static readonly string[] OwnKeys =
@@ -22,7 +22,7 @@ namespace Collektive.Headless
             "version", "scene", "scripts", "schema", "programs", "fields", "seconds", "jvm", "outputs",
         };
 
-        /// <summary>The settings of the inspector that are keys of a scenario too: all but those that it says in words of its own.</summary>
+        /// <summary>The inspector's settings that are keys of a scenario, too. For the others a scenario has keys of its own.</summary>
         private static readonly FieldInfo[] Shared = typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Where(field =>
             !new[]
             {
@@ -71,7 +71,7 @@ namespace Collektive.Headless
 
         internal string Path { get; }
 
-        /// <summary>Where relative paths start.</summary>
+        /// <summary>Folder that relative paths start from.</summary>
         internal string Folder { get; }
 
         /// <summary>The run to repeat; null when the file is no manifest.</summary>
@@ -93,12 +93,12 @@ namespace Collektive.Headless
 
         internal JObject Fields { get; }
 
-        /// <summary>What the simulation is started with, as far as a scenario says it in the same words.</summary>
+        /// <summary>The simulation's settings, as far as scenario and inspector share them.</summary>
         internal SimulationSettings Settings { get; } = new SimulationSettings();
 
         internal double Seconds { get; private set; }
 
-        /// <summary>How many ticks these are.</summary>
+        /// <summary>The number of ticks in <see cref="Seconds"/>.</summary>
         internal int Ticks { get; private set; }
 
         internal JvmSettings Jvm { get; }
@@ -129,7 +129,7 @@ namespace Collektive.Headless
             return new Scenario(file, path, run, folder, trustsJvm) { Former = former };
         }
 
-        /// <summary>Takes what the command line says instead of the file.</summary>
+        /// <summary>Applies the overrides of the command line.</summary>
         internal void Override(ulong? seed, double? seconds)
         {
             Settings.seed = seed ?? Settings.seed;
@@ -137,7 +137,7 @@ namespace Collektive.Headless
             if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
         }
 
-        /// <summary>Gives the manager's settings what the scenario says in the same words.</summary>
+        /// <summary>Copies the shared settings to the manager's.</summary>
         internal void CopyTo(SimulationSettings settings)
         {
             foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
@@ -174,7 +174,7 @@ namespace Collektive.Headless
 
         private void Count(System.Func<string, ScenarioException> error)
         {
-            // A delta time that cannot be is refused with the other settings.
+            // An invalid delta time is refused together with the other settings.
             var deltaTime = Settings.deltaTime;
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");

@@ -83,7 +83,7 @@ namespace Collektive.Headless
             var problem = settings.FindProblem();
             if (problem != null) throw new ScenarioException(scenario.Path + ": " + problem);
             manager.enabled = true;
-            // Before those of the scene, which may throw.
+            // Subscribed before the scene's handlers, which may throw.
             manager.Ticked += Count;
             return manager;
         }
@@ -120,7 +120,7 @@ namespace Collektive.Headless
         {
             // A former run that was interrupted is repeated up to there.
             var ticks = scenario.Former == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.Former.Ticks);
-            // A former run has gone on, too.
+            // A repetition goes on like the former run.
             var stopsAtFailures = !options.KeepGoing && scenario.Former == null;
             JObject parameters = null;
             interrupt.BeginPlay();

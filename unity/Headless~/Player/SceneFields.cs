@@ -59,7 +59,7 @@ namespace Collektive.Headless
             return new Vector3(Number(0), Number(1), Number(2));
         }
 
-        /// <summary>Command-line text as JSON; what is to be a string needs no quotes.</summary>
+        /// <summary>Reads command-line text as JSON. Strings need no quotes.</summary>
         private static JToken Token(string text, FieldInfo field)
         {
             if (field.FieldType == typeof(string) || field.FieldType.IsEnum) return new JValue(text);

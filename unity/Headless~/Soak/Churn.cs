@@ -17,7 +17,7 @@ namespace Collektive.Headless.Soak
         private const int PerTick = 10;
         private const int Kinds = 4;
 
-        /// <summary>Ids come again after all of them have been used: arrays are as long as the largest.</summary>
+        /// <summary>Ids are used again after this many: arrays are as long as the largest id.</summary>
         private const int Ids = 100000;
 
         private const int LimitMs = 30000;

@@ -23,11 +23,11 @@ namespace Collektive.Samples.Crowd
         private static readonly string[] Names = { "arrived", "bumps", "warned", "density" };
         private static readonly float[] PillarPlaces = { -6, -2, 2, 6 };
 
-        /// <summary>How many walkers, half of them from either side.</summary>
+        /// <summary>The number of walkers, half of them from either side.</summary>
         [Min(2)]
         public int walkers = 160;
 
-        /// <summary>Walkers per square metre from which on a warning is given.</summary>
+        /// <summary>Density that triggers a warning, in walkers per square metre.</summary>
         [Min(0)]
         public float limit = 0.9f;
 

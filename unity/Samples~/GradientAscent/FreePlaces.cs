@@ -4,10 +4,13 @@ using UnityEngine;
 
 namespace Collektive.Samples.GradientAscent
 {
-    /// <summary>Places on the ground that keep a distance from each other; a question costs the same for any number of them.</summary>
+    /// <summary>Places on the ground that keep a distance from each other. Testing a place takes constant time.</summary>
     internal sealed class FreePlaces
     {
-        /// <summary>In distances: two places of one cell are nearer than one, and all nearer ones lie at most two cells away.</summary>
+        /// <summary>
+        /// Side of a grid cell, in units of the distance. A cell has room for one place, and places that are too near lie at most two cells
+        /// away.
+        /// </summary>
         private const double CellSize = 0.625;
 
         private readonly Dictionary<(int X, int Z), Vector3> taken = new Dictionary<(int X, int Z), Vector3>();
