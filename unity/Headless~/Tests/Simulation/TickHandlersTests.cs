@@ -18,7 +18,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors, Is.EqualTo(new[] { "InvalidOperationException: TickHandlersTests.ThrowOnPurpose failed after tick 1: broken on purpose" }));
             Assert.That(Manager.ErrorCount, Is.EqualTo(1));
             Assert.That((Manager.Errors[0].Source, Manager.Errors[0].Node, Manager.Errors[0].LastTick),
-                Is.EqualTo(("TickHandlersTests.ThrowOnPurpose", -1, 1UL)));
+                Is.EqualTo(("TickHandlersTests.ThrowOnPurpose", NodeErrors.NoNode, 1UL)));
             Assert.That((Manager.Tick, calls, Manager.Failure), Is.EqualTo((1UL, 1, "")));
         }
 
