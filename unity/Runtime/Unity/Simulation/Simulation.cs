@@ -123,7 +123,7 @@ namespace Collektive.Unity
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
         /// <summary>Starts the JVM if need be, and opens a session on it.</summary>
-        /// <returns>False when the simulation has failed instead.</returns>
+        /// <returns>False when the simulation has failed instead, for good: each later frame would fail again.</returns>
         internal bool TryOpen()
         {
             try
@@ -132,15 +132,9 @@ namespace Collektive.Unity
                 session = Opening.Open(Settings, Manager);
                 IsOpen = true;
             }
-            catch (BridgeException error)
-            {
-                Fail(error.Message);
-            }
             catch (Exception error)
             {
-                // Otherwise each later frame would throw it again.
-                Debug.LogException(error, Manager);
-                Fail("it could not be started: " + error.Message);
+                Fail(error, "it could not be started: ");
             }
             return IsOpen;
         }
@@ -154,14 +148,9 @@ namespace Collektive.Unity
             {
                 DoTick();
             }
-            catch (BridgeException error)
-            {
-                Fail(error.Message);
-            }
             catch (Exception error)
             {
-                Debug.LogException(error, Manager);
-                Fail("tick " + TickInProgress + " failed: " + error.Message);
+                Fail(error, "tick " + TickInProgress + " failed: ");
             }
             isTicking = false;
             if (!IsOpen) CloseSession();
@@ -176,6 +165,14 @@ namespace Collektive.Unity
             Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
+        }
+
+        /// <summary>Errors of the bridge are sentences for users; others are logged with their stack, and <paramref name="what"/> they did.</summary>
+        private void Fail(Exception error, string what)
+        {
+            var told = error is BridgeException;
+            if (!told) Debug.LogException(error, Manager);
+            Fail((told ? "" : what) + error.Message);
         }
 
         /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
@@ -253,10 +250,9 @@ namespace Collektive.Unity
             }
             if (!IsOpen) return;
             var acted = Stopwatch.GetTimestamp();
-            using (TickMarkers.Physics.Auto()) AdvancePhysics();
+            using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
             var end = Stopwatch.GetTimestamp();
-            Times = new TickTimes(
-                Milliseconds(start, ruled), Milliseconds(ruled, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+            Times = TickTimes.Of(start, ruled, sensed, stepped, acted, end);
         }
 
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
@@ -307,15 +303,12 @@ namespace Collektive.Unity
                 var index = due.Count;
                 request.Sensors.Clear(index);
                 if (!node.Sensors.Run(this, node, index) || node.Id < 0) continue;
-                var field = request.Sensors.FindNotFinite(index);
-                if (field != null)
-                {
-                    Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
-                        + ": correct the sensor that writes it", node);
-                    return;
-                }
                 request.AddDue(node.Id);
                 due.Add((node, node.Id));
+                var field = request.Sensors.FindNotFinite(index);
+                if (field == null) continue;
+                Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
+                    + ": correct the sensor that writes it", node);
             }
         }
 
@@ -353,14 +346,5 @@ namespace Collektive.Unity
                 node.Actuators.Run(this, node, i);
             }
         }
-
-        private void AdvancePhysics()
-        {
-            var steps = (int)Math.Ceiling(Settings.deltaTime / Settings.physicsStep - 1e-6);
-            var step = Settings.deltaTime / steps;
-            for (var i = 0; i < steps && IsOpen; i++) Physics.Simulate(step);
-        }
-
-        private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;
     }
 }

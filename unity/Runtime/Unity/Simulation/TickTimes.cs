@@ -1,3 +1,5 @@
+using System.Diagnostics;
+
 namespace Collektive.Unity
 {
     /// <summary>How long the phases of a tick took, in milliseconds.</summary>
@@ -12,6 +14,11 @@ namespace Collektive.Unity
             Act = act;
             Physics = physics;
         }
+
+        /// <summary>The record of a tick, from readings of <see cref="Stopwatch"/> at its start and at the end of each phase.</summary>
+        internal static TickTimes Of(long start, long ruled, long sensed, long stepped, long acted, long end) =>
+            new TickTimes(
+                Milliseconds(start, ruled), Milliseconds(ruled, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
 
         /// <summary>Positions and neighbourhood rules.</summary>
         public double Rules { get; }
@@ -30,5 +37,7 @@ namespace Collektive.Unity
 
         /// <summary>The whole tick; handlers of <see cref="SimulationManager.Ticked"/> and the rest of Unity's frame are no part of it.</summary>
         public double Total => Rules + Sense + Step + Act + Physics;
+
+        private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;
     }
 }
