@@ -1,3 +1,4 @@
+using System;
 using System.IO;
 using System.Linq;
 using System.Reflection;
@@ -117,13 +118,13 @@ namespace Collektive.Headless
         internal static Scenario Read(string path, string folder, bool trustsJvm)
         {
             var file = JsonFile.Read(path);
-            path = System.IO.Path.GetFullPath(path);
+            path = FullPath(path);
             if (!(file.Root[FormerRun.ScenarioKey] is JObject run))
             {
-                return new Scenario(file, path, file.Root, System.IO.Path.GetFullPath(folder ?? System.IO.Path.GetDirectoryName(path)), trustsJvm);
+                return new Scenario(file, path, file.Root, FullPath(folder ?? System.IO.Path.GetDirectoryName(path)), trustsJvm);
             }
             var former = new FormerRun(file, path);
-            folder = System.IO.Path.GetFullPath(folder ?? former.Folder);
+            folder = FullPath(folder ?? former.Folder);
             if (!Directory.Exists(folder))
                 throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
             return new Scenario(file, path, run, folder, trustsJvm) { Former = former };
@@ -225,10 +226,14 @@ namespace Collektive.Headless
             }
         }
 
+        /// <summary>The path from the root. Mono takes two slashes for the start of a Windows share.</summary>
+        private static string FullPath(string path) =>
+            System.IO.Path.GetFullPath(path.StartsWith("//", StringComparison.Ordinal) ? "/" + path.TrimStart('/') : path);
+
         private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)
         {
             var named = file.Required<string>(root, key);
-            var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(folder, named));
+            var path = FullPath(System.IO.Path.Combine(folder, named));
             var isDirectory = Directory.Exists(path);
             var isFile = RegularFile.Exists(path);
             if (directory == null ? isDirectory || isFile : directory.Value ? isDirectory : isFile) return path;
