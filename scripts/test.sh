@@ -14,7 +14,7 @@ acceptance, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or 
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
   --exits     200 runs that end in each way: the scene is left, quit, Ctrl-C, unhandled exceptions
-  --chaos     270 runs that are killed, get signals, full and read-only disks, a jumping clock, little memory: no folder that only
+  --chaos     280 runs that are killed, get signals, full and read-only disks, a jumping clock, little memory: no folder that only
               looks complete, no process left, no lost earlier result; a table of what was tried and what came out
   --soak      a scene whose nodes come, fail and go: memory, threads and descriptors must be flat from the second minute on; a table
   --stress    the JVM side's races between threads, with every compiler and mix of compilers: takes long

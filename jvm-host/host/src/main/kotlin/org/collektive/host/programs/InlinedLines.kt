@@ -14,10 +14,14 @@ internal class InlinedLines private constructor(private val ranges: List<Range>)
         private val NONE = InlinedLines(emptyList())
         private val ENTRY = Regex("""(\d+)(?:#\d+)?(?:,(\d+))?:(\d+)(?:,(\d+))?""")
 
-        /** Of the class named [name], by its file in [loader]. */
-        fun of(name: String, loader: ClassLoader): InlinedLines {
-            val bytes = loader.getResourceAsStream(name.replace('.', '/') + ".class")?.use { it.readAllBytes() } ?: return NONE
-            return of(bytes)
+        /** Of [type], read from its file once: a program may fail in each round. */
+        fun of(type: Class<*>): InlinedLines = OF_CLASSES.get(type)
+
+        private val OF_CLASSES = object : ClassValue<InlinedLines>() {
+            override fun computeValue(type: Class<*>): InlinedLines {
+                val file = type.getResourceAsStream("/" + type.name.replace('.', '/') + ".class") ?: return NONE
+                return of(file.use { it.readAllBytes() })
+            }
         }
 
         /** Of a class file. The map is a text in it. */

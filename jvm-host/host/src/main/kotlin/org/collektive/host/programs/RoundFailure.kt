@@ -62,11 +62,17 @@ internal object RoundFailure {
         // Classes that the JVM makes for lambdas have no file.
         val own = failure.stackTrace.filter { it.classLoaderName == ProgramLoader.NAME && it.fileName != null }
         for (frame in own.take(MAX_FRAMES)) {
-            val line = programs?.let { InlinedLines.of(frame.className, it).inFile(frame.lineNumber) } ?: frame.lineNumber
+            val line = programs?.let { lineInFile(frame, it) } ?: frame.lineNumber
             append("\n    at ").append(frame.className).append('.').append(frame.methodName)
             append('(').append(frame.fileName).append(':').append(line).append(')')
         }
         if (own.size > MAX_FRAMES) append("\n    ... ").append(own.size - MAX_FRAMES).append(" more")
+    }
+
+    private fun lineInFile(frame: StackTraceElement, programs: ClassLoader): Int? = try {
+        InlinedLines.of(Class.forName(frame.className, false, programs)).inFile(frame.lineNumber)
+    } catch (_: ClassNotFoundException) {
+        null // A class without a name of its own, made while the program runs.
     }
 
     private const val MAX_CAUSES = 4

@@ -6,7 +6,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
 class InlinedLinesTest {
-    private val lines = InlinedLines.of(javaClass.name, javaClass.classLoader)
+    private val lines = InlinedLines.of(javaClass)
 
     @Test
     fun `code that the compiler inlined has the line of its call`() {
@@ -19,8 +19,8 @@ class InlinedLinesTest {
     @Test
     fun `other lines stay as they are, as do those of classes without inlined code`() {
         for (line in 1..LAST_LINE) assertEquals(line, lines.inFile(line))
-        assertEquals(500, InlinedLines.of("java.lang.Object", javaClass.classLoader).inFile(500))
-        assertEquals(500, InlinedLines.of("no.such.Class", javaClass.classLoader).inFile(500))
+        assertEquals(500, InlinedLines.of(Any::class.java).inFile(500))
+        assertEquals(500, InlinedLines.of(Runnable {}.javaClass).inFile(500))
         // Not as one text, which would be the first map of this class.
         val nonsense = listOf("SMAP", "x", "Kotlin", "*S KotlinDebug", "*L", "nonsense#1:1,,", "*E").joinToString("\n")
         assertEquals(500, InlinedLines.of(nonsense.encodeToByteArray()).inFile(500))
