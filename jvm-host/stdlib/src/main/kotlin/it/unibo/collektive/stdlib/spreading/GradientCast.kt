@@ -107,28 +107,48 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     /** The field to send; its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
         val choice = received.context.aligned("choice") {
-            received.context.evolve<Choice<ID, V, D>?>(null) { former -> choose(offers(received), received.context.localId, former) }
+            received.context.evolve<Choice<ID, V, D>?>(null) { former -> choose(received, former) }
         }
         val best = choice?.best ?: return received.mapToConstant(null)
         val taken = take(best, received.local.value)
         return received.map { if (it.id == best.id) choice.returned else taken }
     }
 
-    /** The choice among [offers]. Takes it over from the [former] round when the offers are the same, without a look at their paths. */
-    private fun choose(offers: List<Offer<ID, V, D>>, myself: ID, former: Choice<ID, V, D>?): Choice<ID, V, D> {
-        val settled = former?.takeIf { it.isAmong(offers, maxDiameter) }
+    /** The choice among what was [received]. Takes over the [former] round's when the offers are the same, without a look at their paths. */
+    private fun choose(received: Field<ID, PathValue<ID, V, D>?>, former: Choice<ID, V, D>?): Choice<ID, V, D> {
+        val settled = former?.takeIf { it.isAmong(received) }
+        val offers = if (settled != null) settled.offers else offers(received)
+        val myself = received.context.localId
         val best = if (settled != null) settled.best else nextCoherent(offers, myself)
         val second = if (settled != null) settled.second else best?.let { nextCoherent(offers, myself) }
         val returned = second?.let { take(it, former?.returned) }
-        return settled?.takeIf { it.returned === returned } ?: Choice(settled?.offers ?: offers, maxDiameter, best, second, returned)
+        return settled?.takeIf { it.returned === returned } ?: Choice(offers, maxDiameter, best, second, returned)
     }
+
+    /**
+     * Whether this is the choice among what was [received] too: the same offers. Values are compared by identity: settled devices of this
+     * process send the same object. Makes no offers, as a settled network asks in each round.
+     */
+    private fun Choice<ID, V, D>.isAmong(received: Field<ID, PathValue<ID, V, D>?>): Boolean {
+        if (maxDiameter != this@GradientCast.maxDiameter || offers.size != received.neighborCount) return false
+        var index = 0
+        received.forEachNeighborWith(metric) { id, value, distance ->
+            val offer = offers[index++]
+            val step = distance.coerceIn(bottom, top)
+            if (value !== offer.value || id != offer.id || step != offer.step || distanceBy(value, step) != offer.distance) return false
+        }
+        return true
+    }
+
+    /** From the source of [value], or from the neighbour that offers nothing. */
+    private fun distanceBy(value: PathValue<ID, V, D>?, step: D): D = accumulateDistance(value?.distance ?: bottom, step)
 
     /** What each neighbour offers, in the field's order. */
     private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
             val step = distance.coerceIn(bottom, top)
-            offers += Offer(id, step, accumulateDistance(value?.distance ?: bottom, step), value)
+            offers += Offer(id, step, distanceBy(value, step), value)
         }
         return offers
     }
@@ -194,16 +214,7 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
     val best: Offer<ID, V, D>?,
     val second: Offer<ID, V, D>?,
     val returned: PathValue<ID, V, D>?,
-) {
-    /** Whether this is the choice among [others] too: they are the same as the [offers]. */
-    fun isAmong(others: List<Offer<ID, V, D>>, othersMaxDiameter: Int): Boolean {
-        if (othersMaxDiameter != maxDiameter || others.size != offers.size) return false
-        for (index in others.indices) {
-            if (!others[index].isSameAs(offers[index])) return false
-        }
-        return true
-    }
-}
+)
 
 /** What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here. */
 private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, V, D>?) :
@@ -221,10 +232,6 @@ private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val
         val others = other.path ?: return false
         return mine.size <= others.size && compareTo(other) != 0 && !mine.agreesWith(id, others, other.id)
     }
-
-    /** Whether the [other] is the same offer. Values are compared by identity: settled devices of this process send the same object. */
-    fun isSameAs(other: Offer<ID, V, D>): Boolean =
-        value === other.value && id == other.id && step == other.step && distance == other.distance
 
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)
 }
