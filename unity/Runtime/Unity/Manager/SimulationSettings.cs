@@ -72,8 +72,8 @@ namespace Collektive.Unity
             "and for which a message stays valid (0: until the next one). All 0: ideal.")]
         public NetworkModel network = new NetworkModel();
 
-        /// <summary>Threads of the JVM that run rounds.</summary>
-        [Tooltip("Threads of the JVM that run rounds. Results do not depend on it.")]
+        /// <summary>Threads of the JVM that run rounds. With 2 or more, a second thread also searches for neighbours in large scenes.</summary>
+        [Tooltip("Threads of the JVM that run rounds; with 2 or more, a second thread also searches for neighbours. Results do not depend on it.")]
         [Range(1, 256)]
         public int threads = 1;
 

@@ -97,7 +97,7 @@ namespace Collektive.Unity
         public Span<NearNode> FindWithin(float radius)
         {
             CheckAsked();
-            return simulation.Grid.Find(node.Position, radius);
+            return simulation.Grid.FindAround(node, radius);
         }
 
         /// <summary>

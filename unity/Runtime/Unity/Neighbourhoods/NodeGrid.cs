@@ -10,7 +10,7 @@ namespace Collektive.Unity
     /// A search over more cells than there are nodes looks at all nodes instead.
     /// Built once per tick, which also gives the nodes their <see cref="Node.Position"/>; no allocation once its capacity is reached.
     /// </summary>
-    internal sealed class NodeGrid
+    internal sealed class NodeGrid : IDisposable
     {
         /// <summary>Beyond this a cell's number would not fit an int.</summary>
         private const int MaxCells = 1 << 30;
@@ -25,12 +25,14 @@ namespace Collektive.Unity
         private Entry[] unsorted = new Entry[64];
         private int[] bucketOf = new int[64];
         private Node[] nodes = new Node[64];
+        // Metres: around which nodes the second thread searches how far.
+        private float[] expected = new float[64];
         // By bucket: the nodes of one cell lie side by side.
         private Entry[] entries = new Entry[64];
         private int[] starts = new int[129];
         private int count;
-        private NearNode[] hits = new NearNode[64];
-        private int hitCount;
+        private readonly NearNodes hits = new NearNodes();
+        private readonly SearchAhead ahead;
         private int mask;
         private float cellSize = 1;
         private double cellsPerMetre = 1;
@@ -39,6 +41,8 @@ namespace Collektive.Unity
         private Cell most;
         private double asked;
         private int searches;
+
+        internal NodeGrid() => ahead = new SearchAhead(this);
 
         private struct Cell
         {
@@ -63,9 +67,13 @@ namespace Collektive.Unity
         /// </summary>
         internal float MeanRadius => searches == 0 ? cellSize : (float)(asked / searches);
 
-        /// <summary>Takes the positions of all nodes, for searches of about <paramref name="radius"/> metres.</summary>
-        internal void Build(List<Node> all, float radius)
+        /// <summary>
+        /// Takes the positions of all nodes, for searches of about <paramref name="radius"/> metres. If it <paramref name="maySearchAhead"/>, a second
+        /// thread begins to search around the nodes.
+        /// </summary>
+        internal void Build(List<Node> all, float radius, bool maySearchAhead = false)
         {
+            ahead.End();
             count = all.Count;
             cellSize = Math.Min(Math.Max(radius, 1e-3f), MaxRadius);
             cellsPerMetre = 1 / (double)cellSize;
@@ -83,6 +91,8 @@ namespace Collektive.Unity
                 var cell = new Cell { X = CellOf(position.x), Y = CellOf(position.y), Z = CellOf(position.z) };
                 Include(cell);
                 nodes[i] = node;
+                node.PlaceInGrid = i;
+                expected[i] = node.SearchRadius;
                 ref var entry = ref unsorted[i];
                 entry.X = position.x;
                 entry.Y = position.y;
@@ -99,15 +109,39 @@ namespace Collektive.Unity
             // Each starts[bucket + 1] now holds its bucket's beginning: move them back by one.
             for (var bucket = 0; bucket <= mask; bucket++) starts[bucket] = starts[bucket + 1];
             starts[mask + 1] = count;
+            if (maySearchAhead && count >= SearchAhead.MinNodes) ahead.Begin(count);
         }
 
         /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order; valid until the next search.</summary>
         internal Span<NearNode> Find(Vector3 centre, float radius)
         {
             Count(radius);
-            Collect(centre, radius);
-            return new Span<NearNode>(hits, 0, hitCount);
+            hits.Count = 0;
+            Collect(centre, radius, hits);
+            return hits.From(0);
         }
+
+        /// <summary><see cref="Find"/> around a node's position. The second thread expects the same search in the next tick.</summary>
+        internal Span<NearNode> FindAround(Node node, float radius)
+        {
+            node.SearchRadius = radius;
+            var place = node.PlaceInGrid;
+            if (place >= count || !ReferenceEquals(nodes[place], node) || expected[place] != radius || !ahead.TryTake(place, out var found))
+                return Find(node.Position, radius);
+            Count(radius);
+            return found;
+        }
+
+        /// <summary>Appends to <paramref name="to"/> what <see cref="FindAround"/> will ask for; nothing for a node that has not asked yet.</summary>
+        internal void SearchAround(int place, NearNodes to)
+        {
+            if (!(expected[place] > 0)) return;
+            ref var entry = ref unsorted[place];
+            Collect(new Vector3(entry.X, entry.Y, entry.Z), expected[place], to);
+        }
+
+        /// <summary>Ends the second thread, until the next <see cref="Build"/>.</summary>
+        public void Dispose() => ahead.Dispose();
 
         /// <summary>
         /// The nodes nearest to a point, at most <paramref name="wanted"/> (1 or more), by distance and at equal distances by id; valid until the next
@@ -116,14 +150,16 @@ namespace Collektive.Unity
         internal Span<NearNode> FindNearest(Vector3 centre, int wanted, float guess)
         {
             var radius = Math.Max(guess, 1e-3f);
-            Collect(centre, radius);
-            while (hitCount < wanted && hitCount < count && radius < MaxRadius)
+            hits.Count = 0;
+            Collect(centre, radius, hits);
+            while (hits.Count < wanted && hits.Count < count && radius < MaxRadius)
             {
                 radius *= 2;
-                Collect(centre, radius);
+                hits.Count = 0;
+                Collect(centre, radius, hits);
             }
             Count(radius);
-            return new Span<NearNode>(hits, 0, MoveNearestToFront(wanted));
+            return new Span<NearNode>(hits.Items, 0, MoveNearestToFront(wanted));
         }
 
         /// <summary>Copies hits to lists, emptied first.</summary>
@@ -148,40 +184,40 @@ namespace Collektive.Unity
             searches++;
         }
 
-        private void Collect(Vector3 centre, float radius)
+        /// <summary>Appends what is near. For several threads at once: it changes nothing else.</summary>
+        private void Collect(Vector3 centre, float radius, NearNodes to)
         {
-            hitCount = 0;
             if (!(radius >= 0)) return;
             var squared = radius * radius;
             // A little more, since distances are rounded.
             var reach = radius * (1 + 1e-6);
-            var from = new Cell
+            var first = new Cell
             {
                 X = Math.Max(CellOf(centre.x - reach), least.X), Y = Math.Max(CellOf(centre.y - reach), least.Y),
                 Z = Math.Max(CellOf(centre.z - reach), least.Z),
             };
-            var to = new Cell
+            var last = new Cell
             {
                 X = Math.Min(CellOf(centre.x + reach), most.X), Y = Math.Min(CellOf(centre.y + reach), most.Y), Z = Math.Min(CellOf(centre.z + reach), most.Z),
             };
-            var length = (long)to.X - from.X + 1;
-            var rows = ((long)to.Y - from.Y + 1) * ((long)to.Z - from.Z + 1);
+            var length = (long)last.X - first.X + 1;
+            var rows = ((long)last.Y - first.Y + 1) * ((long)last.Z - first.Z + 1);
             if (length <= 0) return;
             // A double: the number of cells may exceed the range of long.
             if ((double)length * rows > count || rows > MaxRows)
             {
-                Test(0, count, centre, squared, false, 0);
+                Test(0, count, centre, squared, false, 0, to);
                 return;
             }
-            for (var y = from.Y; y <= to.Y; y++)
+            for (var y = first.Y; y <= last.Y; y++)
             {
-                for (var z = from.Z; z <= to.Z; z++)
+                for (var z = first.Z; z <= last.Z; z++)
                 {
                     var row = Row(y, z);
-                    var first = Bucket(from.X, row);
-                    var end = first + (int)length;
-                    Test(starts[first], starts[Math.Min(end, mask + 1)], centre, squared, true, row);
-                    if (end > mask + 1) Test(0, starts[end - mask - 1], centre, squared, true, row);
+                    var start = Bucket(first.X, row);
+                    var end = start + (int)length;
+                    Test(starts[start], starts[Math.Min(end, mask + 1)], centre, squared, true, row, to);
+                    if (end > mask + 1) Test(0, starts[end - mask - 1], centre, squared, true, row, to);
                 }
             }
         }
@@ -190,15 +226,14 @@ namespace Collektive.Unity
         /// Takes the entries of a range that are near enough, of one row alone or of all: others may share its buckets. Most of a search is spent
         /// in this loop; Mono is fastest with locals.
         /// </summary>
-        private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row)
+        private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row, NearNodes to)
         {
-            if (hits.Length < hitCount + end - start) Array.Resize(ref hits, Math.Max(2 * hits.Length, hitCount + end - start));
             var centreX = centre.x;
             var centreY = centre.y;
             var centreZ = centre.z;
             var all = entries;
-            var near = hits;
-            var found = hitCount;
+            var near = to.WithRoomFor(end - start);
+            var found = to.Count;
             for (var i = start; i < end; i++)
             {
                 ref var entry = ref all[i];
@@ -213,21 +248,22 @@ namespace Collektive.Unity
                 hit.IdOfNode = entry.Id;
                 hit.Metres = (float)Math.Sqrt(squared);
             }
-            hitCount = found;
+            to.Count = found;
         }
 
         /// <returns>How many there are: <paramref name="wanted"/>, or all hits if these are fewer.</returns>
         private int MoveNearestToFront(int wanted)
         {
+            var all = hits.Items;
             var sorted = 0;
-            for (var i = 0; i < hitCount; i++)
+            for (var i = 0; i < hits.Count; i++)
             {
-                var hit = hits[i];
-                if (sorted == wanted && !IsNearer(hit, hits[sorted - 1])) continue;
+                var hit = all[i];
+                if (sorted == wanted && !IsNearer(hit, all[sorted - 1])) continue;
                 var place = sorted < wanted ? sorted++ : sorted - 1;
                 // The hit in the way was looked at before, or is the farthest of those wanted.
-                for (; place > 0 && IsNearer(hit, hits[place - 1]); place--) hits[place] = hits[place - 1];
-                hits[place] = hit;
+                for (; place > 0 && IsNearer(hit, all[place - 1]); place--) all[place] = all[place - 1];
+                all[place] = hit;
             }
             return sorted;
         }
@@ -276,6 +312,7 @@ namespace Collektive.Unity
                 entries = new Entry[capacity];
                 bucketOf = new int[capacity];
                 nodes = new Node[capacity];
+                expected = new float[capacity];
             }
             var buckets = starts.Length - 1;
             while (buckets < 2 * count) buckets *= 2;

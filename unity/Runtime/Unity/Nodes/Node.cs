@@ -148,6 +148,12 @@ namespace Collektive.Unity
 
         internal Transform Body { get; private set; }
 
+        /// <summary>For the grid alone: its place there, if it is in it.</summary>
+        internal int PlaceInGrid { get; set; }
+
+        /// <summary>For the grid alone: metres of the last search around the node; 0 before.</summary>
+        internal float SearchRadius { get; set; }
+
         /// <summary>The simulation that the node takes part in, or null.</summary>
         internal Simulation Simulation { get; private set; }
 

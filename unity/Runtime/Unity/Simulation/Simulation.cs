@@ -219,6 +219,7 @@ namespace Collektive.Unity
             session = null;
             SightLines.Dispose();
             Queries.Dispose();
+            Grid.Dispose();
         }
 
         /// <summary>A tick in its order. Users' code may end the simulation in any phase; the phases behind it are left out.</summary>
@@ -274,7 +275,7 @@ namespace Collektive.Unity
         {
             present.Clear();
             present.AddRange(Nodes);
-            Grid.Build(present, Grid.MeanRadius);
+            Grid.Build(present, Grid.MeanRadius, Settings.threads > 1);
             SightLines.Begin();
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
@@ -332,8 +333,7 @@ namespace Collektive.Unity
             var count = answer.NodeCount;
             var allAnswered = count == due.Count;
             NoRoundWorked = count == 0 && !allAnswered;
-            var place = 0;
-            for (var i = 0; i < count && IsOpen; i++, place++)
+            for (int i = 0, place = 0; i < count && IsOpen; i++, place++)
             {
                 if (!allAnswered)
                 {

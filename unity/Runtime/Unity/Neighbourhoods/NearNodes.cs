@@ -1,0 +1,29 @@
+using System;
+using System.Threading;
+
+namespace Collektive.Unity
+{
+    /// <summary>What one or several searches found. One thread appends; another one may read what was there before it was told of it.</summary>
+    internal sealed class NearNodes
+    {
+        private NearNode[] items = new NearNode[64];
+
+        /// <summary>Only the first <see cref="Count"/> count.</summary>
+        internal NearNode[] Items => Volatile.Read(ref items);
+
+        internal int Count { get; set; }
+
+        /// <summary>The items, with room for so many more.</summary>
+        internal NearNode[] WithRoomFor(int more)
+        {
+            if (items.Length >= Count + more) return items;
+            var larger = new NearNode[Math.Max(2 * items.Length, Count + more)];
+            Array.Copy(items, larger, Count);
+            Volatile.Write(ref items, larger);
+            return larger;
+        }
+
+        /// <summary>Those that were appended after the first <paramref name="start"/>.</summary>
+        internal Span<NearNode> From(int start) => new Span<NearNode>(items, start, Count - start);
+    }
+}
