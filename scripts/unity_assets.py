@@ -22,7 +22,7 @@ JAR = "Packages/org.collektive.unity/Jvm~/collektive-samples.jar"
 
 # Where a sample scene's camera stands, and by how many degrees it looks down.
 CAMERA = ((0, 55, -45), 52)
-CAMERAS = {"Crowd": ((0, 40, -28), 56)}
+CAMERAS = {"Crowd": ((0, 40, -28), 56), "Swarm": ((0, 110, -190), 12)}
 
 
 class Maker:

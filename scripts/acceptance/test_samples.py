@@ -58,6 +58,14 @@ class TheSamples(Folder):
         for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
             self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
 
+    def test_the_drones_form_each_shape_in_its_turn_though_their_leader_fails(self):
+        rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "hold": 8, "failAfter": 10})
+        # Just before the next shape; the leader fails in the second one.
+        for row in rows[7], rows[15], rows[23]:
+            self.assertGreater(row["formed"], 0.9 * 299, row)
+            self.assertEqual(row["shapes"], 1, row)
+        self.assertGreater(min(row["nearest"] for row in rows), 0.1, "no two drones in one place")
+
     def test_all_nodes_have_a_leader_near_by_and_again_when_the_leaders_failed(self):
         rows = self.rows("LeaderElection")
         before, after = rows[9], rows[-1]

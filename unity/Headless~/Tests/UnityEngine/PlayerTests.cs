@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Headless;
@@ -119,6 +120,20 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(DrawLog.Draws[0].Instances, Is.EqualTo(5));
             Loop.Frame(0.02f);
             Assert.That(DrawLog.Draws, Is.Empty);
+        }
+
+        [Test]
+        public void Instanced_draws_need_a_material_that_allows_them()
+        {
+            var material = new Material(Shader.Find("Standard"));
+            var parameters = new RenderParams(material);
+            var places = new Matrix4x4[10];
+            Assert.That(() => Graphics.RenderMeshInstanced(parameters, null, 0, places, 7), Throws.InvalidOperationException);
+            material.enableInstancing = true;
+            Graphics.RenderMeshInstanced(parameters, null, 0, places, 7);
+            Graphics.RenderMeshInstanced(parameters, null, 0, places);
+            Assert.That(DrawLog.Draws.Select(draw => draw.Instances), Is.EqualTo(new[] { 7, 10 }));
+            Assert.That(() => Graphics.RenderMeshInstanced(parameters, null, 0, places, 7, 4), Throws.InstanceOf<System.ArgumentOutOfRangeException>());
         }
     }
 }

@@ -27,6 +27,18 @@ namespace UnityEngine
             if (rparams.material == null) throw new System.InvalidOperationException("A draw needs a material.");
             Headless.DrawLog.Add(rparams, vertexCount, instanceCount);
         }
+
+        public static void RenderMeshInstanced<T>(
+            in RenderParams rparams, Mesh mesh, int submeshIndex, T[] instanceData, int instanceCount = -1, int startInstance = 0)
+            where T : unmanaged
+        {
+            if (rparams.material == null) throw new System.InvalidOperationException("A draw needs a material.");
+            if (!rparams.material.enableInstancing) throw new System.InvalidOperationException("The material does not allow instancing.");
+            if (instanceData == null) throw new System.ArgumentNullException(nameof(instanceData));
+            var count = instanceCount < 0 ? instanceData.Length - startInstance : instanceCount;
+            if (startInstance < 0 || startInstance + count > instanceData.Length) throw new System.ArgumentOutOfRangeException(nameof(instanceCount));
+            Headless.DrawLog.Add(rparams, 0, count);
+        }
     }
 
     public sealed class Gizmos

@@ -1,0 +1,94 @@
+package drones
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.api.share
+import it.unibo.collektive.aggregate.values
+import it.unibo.collektive.stdlib.consensus.boundedElection
+import it.unibo.collektive.stdlib.util.Point3D
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+import org.collektive.schema.Vector3Value
+import kotlin.math.sqrt
+
+/**
+ * Forms one shape after another. The drones elect a leader, whose clock says which shape it is time for; the news passes from neighbour to
+ * neighbour. A drone flies to the nearest point of the shape and on around its axis, and keeps its distance from others.
+ */
+@Program(
+    "swarm",
+    parameters = [
+        Parameter("radius", "20.0", "Metres: a sphere of it has room for all drones on its surface."),
+        Parameter("hold", "15.0", "Seconds from one shape to the next."),
+        Parameter("speed", "8.0", "Metres per second of a fast drone."),
+    ],
+)
+public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorData {
+    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val here = Point3D(Triple(position.x().toDouble(), position.y().toDouble(), position.z().toDouble()))
+    val radius = device.parameters.double("radius")
+    val leads = boundedElection(MOST_HOPS) == localId
+    val turn = share(NOT_YET) { turns ->
+        val told = turns.all.values.list.max()
+        if (leads) maxOf(told, (device.time / device.parameters.double("hold")).toInt()) else told
+    }
+    var way = here.awayFrom(neighboring(here).neighbors.values.list)
+    var off = 0.0
+    if (turn != NOT_YET) {
+        val fromMiddle = here - Point3D(Triple(0.0, MIDDLE * radius, 0.0))
+        val toShape = SHAPES[turn % SHAPES.size].wayTo(fromMiddle, radius)
+        off = toShape.length
+        way += toShape * PULL + fromMiddle.around() * (SWIRL * device.parameters.double("speed"))
+    }
+    return ActuatorData(
+        target = (here + way).toVector(),
+        shape = if (turn == NOT_YET) NOT_YET else turn % SHAPES.size,
+        off = off.toFloat(),
+        leads = leads,
+    )
+}
+
+/** The sum of pushes from [others] that are too near. */
+private fun Point3D.awayFrom(others: List<Point3D>): Point3D {
+    var x = 0.0
+    var y = 0.0
+    var z = 0.0
+    for (other in others) {
+        val distance = distanceTo(other)
+        if (distance >= COMFORT || distance < TOO_SMALL) continue
+        val push = PUSH * (COMFORT / distance - 1)
+        x += push * (this.x - other.x)
+        y += push * (this.y - other.y)
+        z += push * (this.z - other.z)
+    }
+    return Point3D(Triple(x, y, z))
+}
+
+/** The direction in which a point turns around the vertical axis; 0 on the axis. */
+private fun Point3D.around(): Point3D {
+    val fromAxis = sqrt(x * x + z * z)
+    return if (fromAxis < TOO_SMALL) ORIGIN else Point3D(Triple(-z / fromAxis, 0.0, x / fromAxis))
+}
+
+private fun Point3D.toVector() = Vector3Value(x = x.toFloat(), y = y.toFloat(), z = z.toFloat())
+
+private val ORIGIN = Point3D(Triple(0.0, 0.0, 0.0))
+
+/** Leaders of the whole swarm: no two drones are farther from each other. */
+private const val MOST_HOPS = 120
+private const val NOT_YET = -1
+
+/** Height of the shapes' middle, in radii. */
+private const val MIDDLE = 1.75
+
+/** Metres that a drone goes in a second for each metre from the shape. */
+private const val PULL = 1.5
+
+/** Metres between drones below which they push each other away, and how strongly. */
+private const val COMFORT = 1.5
+private const val PUSH = 3.0
+
+/** Share of the speed with which drones turn around the axis. */
+private const val SWIRL = 0.4
+private const val TOO_SMALL = 1e-6

@@ -1,0 +1,85 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using drones;
+using UnityEngine;
+
+namespace Collektive.Samples.Swarm
+{
+    /// <summary>
+    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers of their own: 10,000 of these would take
+    /// longer than the rest of a frame, and twenty draws of 500 instances do not. Nothing is drawn in batch mode.
+    /// </summary>
+    [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
+    public sealed class DroneView : MonoBehaviour
+    {
+        // Any graphics API takes so many at once.
+        private const int MostInstances = 500;
+
+        private static readonly Color[] Colors =
+        {
+            new Color(0.6f, 0.6f, 0.6f), new Color(0.34f, 0.71f, 0.91f), new Color(0.9f, 0.62f, 0), new Color(0, 0.62f, 0.45f), new Color(0.8f, 0.47f, 0.65f),
+        };
+
+        private readonly Matrix4x4[][] places = new Matrix4x4[Colors.Length][];
+        private readonly int[] counts = new int[Colors.Length];
+        private readonly Material[] materials = new Material[Colors.Length];
+        private Mesh mesh;
+
+        /// <summary>The drones to draw.</summary>
+        public IReadOnlyList<Node> Drones { get; set; } = Array.Empty<Node>();
+
+        /// <summary>Metres from the middle of a drone to its skin.</summary>
+        public float Radius { get; set; } = 0.3f;
+
+        private void Awake()
+        {
+            // A sphere of the editor's brings the mesh, and a material that fits the render pipeline.
+            var model = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            mesh = model.GetComponent<MeshFilter>().sharedMesh;
+            for (var i = 0; i < Colors.Length; i++)
+            {
+                materials[i] = new Material(model.GetComponent<Renderer>().sharedMaterial) { color = Colors[i], enableInstancing = true };
+                places[i] = new Matrix4x4[MostInstances];
+            }
+            Destroy(model);
+        }
+
+        private void LateUpdate()
+        {
+            if (Application.isBatchMode) return;
+            Draw();
+        }
+
+        private void OnDestroy()
+        {
+            foreach (var material in materials) Destroy(material);
+        }
+
+        private void Draw()
+        {
+            var place = Matrix4x4.Scale(2 * Radius * Vector3.one);
+            for (var i = 0; i < Drones.Count; i++)
+            {
+                var drone = Drones[i];
+                if (drone.Id < 0) continue;
+                var position = drone.transform.position;
+                place.m03 = position.x;
+                place.m13 = position.y;
+                place.m23 = position.z;
+                var shape = drone.TryGetAnswer(out ActuatorData answer) ? Mathf.Clamp(answer.Shape + 1, 0, Colors.Length - 1) : 0;
+                places[shape][counts[shape]++] = place;
+                if (counts[shape] == MostInstances) Draw(shape);
+            }
+            for (var shape = 0; shape < Colors.Length; shape++) Draw(shape);
+        }
+
+        private void Draw(int shape)
+        {
+            if (counts[shape] == 0) return;
+            var parameters = new RenderParams(materials[shape]);
+            Graphics.RenderMeshInstanced(parameters, mesh, 0, places[shape], counts[shape]);
+            counts[shape] = 0;
+        }
+    }
+}

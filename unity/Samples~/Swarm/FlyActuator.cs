@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using drones;
+using UnityEngine;
+
+namespace Collektive.Samples.Swarm
+{
+    /// <summary>Flies towards where the program wants the drone to be.</summary>
+    [AddComponentMenu("Collektive/Samples/Swarm/Fly Actuator")]
+    public sealed class FlyActuator : MoveActuator<ActuatorData>
+    {
+        /// <inheritdoc/>
+        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
+    }
+}

@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using drones;
+using UnityEngine;
+
+namespace Collektive.Samples.Swarm
+{
+    /// <summary>Perceives where the drone is.</summary>
+    [AddComponentMenu("Collektive/Samples/Swarm/Position Sensor")]
+    public sealed class PositionSensor : PositionSensor<SensorData>
+    {
+        /// <inheritdoc/>
+        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
+    }
+}

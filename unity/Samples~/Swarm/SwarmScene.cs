@@ -1,0 +1,139 @@
+using System.Collections.Generic;
+using System.Globalization;
+using Collektive.Unity;
+using drones;
+using UnityEngine;
+
+namespace Collektive.Samples.Swarm
+{
+    /// <summary>
+    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and the news
+    /// passes through the swarm from neighbour to neighbour. After a while whoever leads fails, and another drone takes its place.
+    /// </summary>
+    [AddComponentMenu("Collektive/Samples/Swarm Scene")]
+    public sealed class SwarmScene : SceneBuilder
+    {
+        private const float Spacing = 1.8f;
+        private const float Pad = 1.2f;
+        private const float Near = 2.5f;
+        private const float OnSurface = 1;
+
+        private static readonly string[] Names = { "formed", "shapes", "nearest" };
+
+        /// <summary>How many drones.</summary>
+        [Min(1)]
+        public int drones = 10000;
+
+        /// <summary>Simulated seconds from one shape to the next.</summary>
+        [Min(1)]
+        public float hold = 15;
+
+        /// <summary>Simulated seconds after which whoever leads fails.</summary>
+        [Min(0)]
+        public float failAfter = 20;
+
+        /// <summary>Metres per second of the fastest flight.</summary>
+        [Min(0.1f)]
+        public float speed = 8;
+
+        private readonly List<Node> near = new List<Node>();
+        private readonly List<float> distances = new List<float>();
+        private readonly HashSet<int> formed = new HashSet<int>();
+        private SimulationManager manager;
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<string> MetricNames => Names;
+
+        /// <inheritdoc/>
+        public override string ShadeName => "shape";
+
+        /// <inheritdoc/>
+        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Shape : -1;
+
+        /// <summary>
+        /// Drones within a metre of the shape that they form; how many different shapes drones form; and the least distance in metres of two
+        /// drones' centres at the beginning of the tick, at most 2.5.
+        /// </summary>
+        public override void Measure(double[] values)
+        {
+            values[0] = 0;
+            values[2] = Near;
+            formed.Clear();
+            foreach (var node in manager.Nodes)
+            {
+                if (node.TryGetAnswer(out ActuatorData answer) && answer.Shape >= 0)
+                {
+                    formed.Add(answer.Shape);
+                    if (answer.Off <= OnSurface) values[0]++;
+                }
+                manager.FindNodes(node.Position, (float)values[2], near, distances);
+                for (var i = 0; i < near.Count; i++)
+                {
+                    if (near[i] != node && distances[i] < values[2]) values[2] = distances[i];
+                }
+            }
+            values[1] = formed.Count;
+        }
+
+        /// <inheritdoc/>
+        protected override void Build(SimulationManager manager)
+        {
+            if (drones < 1 || !(hold > 0) || !(speed > 0))
+            {
+                manager.Fail("the scene has " + drones + " drones that fly " + speed + " m/s and hold a shape for " + hold
+                    + " s: there must be at least one drone, and some time and speed");
+                return;
+            }
+            this.manager = manager;
+            // A sphere of this radius has room for all drones on its surface.
+            var radius = Spacing * Mathf.Sqrt(drones / (4 * Mathf.PI));
+            var side = Mathf.CeilToInt(Mathf.Sqrt(drones));
+            var field = Mathf.Max(side * Pad, 3 * radius) + 4;
+            MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(field, 1, field));
+            foreach (var x in new[] { -1, 1 })
+            {
+                foreach (var z in new[] { -1, 1 })
+                    MakeBox("Mast", new Vector3(x * field / 2, 1.75f * radius, z * field / 2), new Vector3(0.5f, 3.5f * radius, 0.5f));
+            }
+            for (var i = 0; i < drones; i++) MakeDrone(radius, new Vector3(i % side - (side - 1) / 2f, 0, i / side - (side - 1) / 2f) * Pad);
+            new GameObject("Drone View").AddComponent<DroneView>().Drones = manager.Nodes;
+            manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDestroy()
+        {
+            if (manager != null) manager.Ticked -= FailWhenDue;
+        }
+
+        private void FailWhenDue(SimulationManager manager)
+        {
+            if (manager.SimulatedTime < failAfter) return;
+            manager.Ticked -= FailWhenDue;
+            near.Clear();
+            foreach (var node in manager.Nodes)
+            {
+                if (node.TryGetAnswer(out ActuatorData answer) && answer.Leads) near.Add(node);
+            }
+            foreach (var leader in near) leader.gameObject.SetActive(false);
+        }
+
+        private void MakeDrone(float radius, Vector3 place)
+        {
+            var drone = new GameObject("Drone");
+            drone.SetActive(false);
+            // Not quite in line: drones in one plane would stay there.
+            var random = manager.Random;
+            drone.transform.position = place + new Vector3(random.Range(-0.3f, 0.3f), random.Range(0.3f, 0.9f), random.Range(-0.3f, 0.3f));
+            var parameters = drone.AddComponent<Node>().Parameters;
+            parameters.Add(new NodeParameter("radius", radius.ToString(CultureInfo.InvariantCulture)));
+            parameters.Add(new NodeParameter("hold", hold.ToString(CultureInfo.InvariantCulture)));
+            parameters.Add(new NodeParameter("speed", speed.ToString(CultureInfo.InvariantCulture)));
+            drone.AddComponent<RadiusNeighbourhood>().Radius = Near;
+            drone.AddComponent<PositionSensor>();
+            var fly = drone.AddComponent<FlyActuator>();
+            fly.MaxSpeed = speed;
+            fly.ReachTime = 1;
+            drone.SetActive(true);
+        }
+    }
+}
