@@ -44,7 +44,7 @@ extern "C" {
 #endif
 
 /* Major << 16 | minor << 8 | patch. Another major version has another ABI. */
-#define CLK_VERSION 0x000100
+#define CLK_VERSION 0x000200
 
 /* FRAME, SCHEMA, PROGRAM and SESSION_FAILED are answers of the host, with its error text. */
 #define CLK_ERRORS(X)                                                                             \
