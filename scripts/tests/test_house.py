@@ -37,7 +37,7 @@ class TheHouse(unittest.TestCase):
             if not name.endswith(".md"):
                 continue
             with open(os.path.join(folder, name)) as file:
-                for link in re.findall(r"\]\(([^)h][^)]*)\)", file.read()):
+                for link in re.findall(r"\]\((?!https:)([^)#]+)", file.read()):
                     self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
 
     def test_each_setting_of_the_jvm_is_documented(self):
