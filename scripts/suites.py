@@ -45,7 +45,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
     nunit = ["setup_nunit", *built, "build_csharp_tests"]
     newest = jdks[-1:]
     return [
-        Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint"], quick=True),
+        Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint", "setup_actionlint"], quick=True),
         Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers", "setup_physx"], quick=True),
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
         Suite("stress", ["test_stress"], ["build_jvm"]),

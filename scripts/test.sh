@@ -124,6 +124,15 @@ fetch_ktlint() {
   mvn -B -ntp -f "$ROOT/tools/ktlint/pom.xml" dependency:copy-dependencies -DoutputDirectory="$BUILD/ktlint"
 }
 
+# The linter of the workflows, where there is Go.
+ACTIONLINT=1.7.12
+setup_actionlint() {
+  # shellcheck disable=SC2310 # looks only
+  if have go; then once actionlint "$ACTIONLINT" fetch_actionlint; fi
+}
+
+fetch_actionlint() { GOBIN="$BUILD/go" go install "github.com/rhysd/actionlint/cmd/actionlint@v$ACTIONLINT"; }
+
 # python_tests RESULTS FOLDER OPTION...: the tests below a folder.
 python_tests() {
   local results=$1 tests=$2

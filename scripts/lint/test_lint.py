@@ -62,6 +62,13 @@ def test_kotlin_is_clean_under_ktlint():
           *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "*.kts"))
 
 
+def test_workflows_are_clean_under_actionlint():
+    linter = os.path.join(BUILD, "go/actionlint")
+    if not os.path.exists(linter):
+        pytest.skip("there is no Go to build actionlint with")
+    clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
+
+
 def test_lines_end_within_the_columns_of_editorconfig():
     limits = column_limits()
     long = []

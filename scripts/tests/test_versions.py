@@ -68,4 +68,5 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     for tools in ["python", "site"]:
         for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(f"tools/{tools}/requirements.txt")):
             assert third_party(name) == wanted, name
+    assert third_party("actionlint") == re.search(r"(?m)^ACTIONLINT=(\S+)$", text("scripts/test.sh"))[1]
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")
