@@ -1,4 +1,5 @@
-"""Pages of the site that are made from the code: the command line, error codes, JVM settings, the C# API, the C header."""
+"""Pages of the site that are made from the code: the command line, error codes, JVM settings, the APIs of C#, Kotlin and C."""
+import glob
 import os
 import re
 import subprocess
@@ -136,11 +137,75 @@ def simple(signature):
     return re.sub(r"\b(" + "|".join(ALIASES) + r")\b", lambda match: ALIASES[match[1]], signature).replace("|", "\\|")
 
 
+PUBLIC = re.compile(r"^(\s*)(?:@\w+(?:\([^)]*\))?\s+)*public\s+(?!(?:final |open )?override\b|companion object)(.*)")
+
+
+def kotlin(module, about):
+    """A page of a module's public declarations, from its sources: in explicit API mode they say `public`."""
+    def make(_):
+        page = f"# Kotlin API: {module}\n\n{about}\n"
+        for path in sorted(glob.glob(os.path.join(ROOT, "jvm-host", module, "src/main/kotlin/**/*.kt"), recursive=True)):
+            source = text(os.path.relpath(path, ROOT))
+            found = list(declarations(source.splitlines()))
+            if found:
+                package = re.search(r"(?m)^package (.+)$", source)[1]
+                page += f"\n## {os.path.basename(path).removesuffix('.kt')}\n\n`{package}`\n"
+            for signature, doc in found:
+                page += f"\n```kotlin\n{signature}\n```\n\n{doc}\n"
+        return page
+    return make
+
+
+def declarations(lines):
+    """Signatures of public declarations, with their documentation as Markdown."""
+    doc, at = [], 0
+    while at < len(lines):
+        if lines[at].lstrip().startswith("/**"):
+            end = next(number for number in range(at, len(lines)) if "*/" in lines[number])
+            doc, at = lines[at:end + 1], end + 1
+            continue
+        declared = PUBLIC.match(lines[at])
+        if declared:
+            signature, depth = [], 0
+            while True:
+                signature.append(lines[at].removeprefix(declared[1]))
+                depth += sum(map(lines[at].count, "([")) - sum(map(lines[at].count, ")]"))
+                if depth <= 0 or at + 1 == len(lines):
+                    break
+                at += 1
+            # Without the body.
+            signature[-1] = re.sub(r"(\)(?:: [\w<>?, .*()-]+)?) (?:=(?!=)|\{).*$", r"\1", signature[-1])
+            yield re.sub(r"\s*[{=:]?\s*$", "", "\n".join(signature)), described_kotlin(doc)
+        if lines[at].strip() and not lines[at].lstrip().startswith(("@", "//", "context(")):
+            doc = []
+        at += 1
+
+
+def described_kotlin(lines):
+    """KDoc as Markdown: tags become a list, references become code."""
+    plain_lines = [re.sub(r"^\s*/?\*{1,2}/? ?", "", line).removesuffix("*/").rstrip() for line in lines]
+    body, fenced = [], False
+    for line in plain_lines:
+        fenced ^= line.startswith("```")
+        if not fenced:
+            line = re.sub(r"^@(?:property|param) (\w+)", r"- `\1`:", re.sub(r"^@(throws|return|see)\b", r"- *\1*", line))
+            line = re.sub(r"\[([\w.]+)\](?!\()", r"`\1`", line)
+        if line.startswith("- ") and body and body[-1] and not body[-1].startswith("- "):
+            body.append("")
+        body.append(line)
+    return "\n".join(body).strip()
+
+
 PAGES = {
     "command-line": command_line,
     "jvm-settings": jvm_settings,
     "error-codes": error_codes,
     "csharp-unity": csharp("Collektive.Unity"),
     "csharp-bridge": csharp("Collektive.Bridge"),
+    "kotlin-api": kotlin("api", "What a program sees beside the DSL: its annotation, its device, its parameters."),
+    "kotlin-links": kotlin("links", "What a program knows of its links."),
+    "kotlin-dsl": kotlin("dsl", "Collektive's DSL: the primitives and fields, and what hosts of programs use."),
+    "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library, without the lifted operators, which are those of Kotlin's library for fields."),
+    "kotlin-testing": kotlin("testing", "For tests of programs: `Tools~/collektive-testing.jar`."),
     "c-header": c_header,
 }
