@@ -100,7 +100,7 @@ def main():
 def write_nav(folder, pages):
     """The order of the pages, for MkDocs."""
     named = {name for names in SECTIONS.values() for name in names}
-    lines = ["INHERIT: mkdocs.yml", "nav:", "  - index.md"]
+    lines = ["INHERIT: mkdocs.yml", "nav:", "  - Home: index.md"]
     for section, names in SECTIONS.items():
         late = sorted(pages.keys() - named - {"index"}) if section == LATE else []
         lines.append(f"  - {section}:")

@@ -37,6 +37,20 @@ def jvm_settings(_):
     return page
 
 
+def simulation_settings(_):
+    """From the fields that the inspector shows; Scenario.cs names those that are no keys of a scenario."""
+    source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
+    scenario = text("unity/Headless~/Player/Scenario.cs")
+    apart = re.findall(r"nameof\(SimulationSettings\.(\w+)\)", scenario[scenario.index("Shared ="):scenario.index("private readonly JObject root")])
+    page = ("# Simulation settings\n\nFields of the Simulation Manager in the inspector. Most are keys of a scenario file, too; the others have "
+            "[keys of their own](../headless.md) there.\n\n| Field | Type | Default | Key of a scenario | Meaning |\n|---|---|---|---|---|\n")
+    for tooltip, kind, name, default in re.findall(r'\[Tooltip\("([^"]+)"\)\].*?public ([\w<>]+) (\w+)(?: = ([^;]+))?;', source, re.S):
+        key = "" if name in apart else "yes"
+        default = re.sub(r"new .*|^f$", "", default.removesuffix("f")) if default else "0" if kind == "float" else ""
+        page += f"| `{name}` | `{kind}` | {f'`{default}`' if default else ''} | {key} | {tooltip} |\n"
+    return page
+
+
 def eval_shift(number):
     """The value of `8` and of `1 << 20`."""
     base, _, shift = number.partition("<<")
@@ -198,6 +212,7 @@ def described_kotlin(lines):
 
 PAGES = {
     "command-line": command_line,
+    "simulation-settings": simulation_settings,
     "jvm-settings": jvm_settings,
     "error-codes": error_codes,
     "csharp-unity": csharp("Collektive.Unity"),
