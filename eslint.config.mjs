@@ -1,4 +1,4 @@
-// The scripts of the replay page; ./collektive test lint checks them. COLLEKTIVE_NODE_MODULES names where eslint lies.
+// The scripts of the replay page and of the site; ./collektive test lint checks them. COLLEKTIVE_NODE_MODULES names where eslint lies.
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
@@ -8,10 +8,10 @@ const globals = (names) => Object.fromEntries(names.split(' ').map((name) => [na
 export default [
   js.configs.recommended,
   {
-    files: ['unity/Headless~/Replay/**/*.{js,mjs}'],
+    files: ['unity/Headless~/Replay/**/*.{js,mjs}', 'scripts/site/*.mjs'],
     languageOptions: { globals: globals(
       'Blob Buffer DecompressionStream OffscreenCanvas Response TextDecoder URL atob cancelAnimationFrame console devicePixelRatio document'
-        + ' innerWidth matchMedia performance process requestAnimationFrame window',
+        + ' getComputedStyle innerWidth matchMedia performance process requestAnimationFrame window',
     ) },
     rules: { eqeqeq: 'error', 'no-var': 'error', 'prefer-const': 'error', 'no-unused-vars': ['error', { argsIgnorePattern: '^_' }] },
   },

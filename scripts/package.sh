@@ -88,3 +88,19 @@ stage_package() {
   done
   python3 "$ROOT/scripts/metas.py" "$1"
 }
+
+# Modules whose jars are in the package.
+SHIPPED=host,generator,compiler-plugin,testing,programs
+CYCLONEDX=org.cyclonedx:cyclonedx-maven-plugin:2.9.1
+
+# bill_of_materials FOLDER: what a release consists of, as CycloneDX: FOLDER/bom.json.
+bill_of_materials() {
+  local work
+  setup_flatbuffers
+  work=$(mktemp -d)
+  mvn -B -ntp -q -f "$ROOT/jvm-host/pom.xml" -pl "$SHIPPED" -am "$CYCLONEDX:makeAggregateBom" -DincludeTestScope=false -DincludeProvidedScope=false \
+    -DoutputFormat=json -DoutputDirectory="$work" -DoutputName=maven
+  python3 "$ROOT/scripts/bill_of_materials.py" "$work/maven.json" "$(find_jdk)" >"$work/bom.json"
+  mv "$work/bom.json" "$1/bom.json"
+  rm -rf "$work"
+}

@@ -45,7 +45,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
     nunit = ["setup_nunit", *built, "build_csharp_tests"]
     newest = jdks[-1:]
     return [
-        Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint"], quick=True),
+        Suite("lint", ["test_lint"], ["setup_python", "setup_npm", "setup_ktlint", "setup_actionlint"], quick=True),
         Suite("scripts", ["test_scripts"], ["setup_python", "setup_flatbuffers", "setup_physx"], quick=True),
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
         Suite("stress", ["test_stress"], ["build_jvm"]),
@@ -58,6 +58,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("soak", ["test_soak"], [*nunit, "build_soak"], nunit=True),
         Suite("roundtrip", ["test_roundtrip"], [*built, "setup_python"]),
         Suite("page", ["test_page"], [*built, "build_replay_page"], quick=True),
+        Suite("site", ["test_site"], [*built, "setup_npm", "setup_site"]),
         Suite("acceptance", ["test_acceptance"], [*built, "build_replay_page", "setup_python"]),
         Suite("quick", ["test_acceptance_quick"], [*built, "build_replay_page", "setup_python"], quick=True, label="acceptance-quick"),
         Suite("chaos", ["test_chaos"], [*built, "build_replay_page"]),

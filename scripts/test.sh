@@ -9,7 +9,7 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --c
                         | --fuzz [NAME]... [MINUTES [SEED]] | bare [ROOT]...
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, soak, roundtrip, page,
-acceptance, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
+site, acceptance, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
@@ -123,6 +123,15 @@ fetch_ktlint() {
   rm -rf "$BUILD/ktlint"
   mvn -B -ntp -f "$ROOT/tools/ktlint/pom.xml" dependency:copy-dependencies -DoutputDirectory="$BUILD/ktlint"
 }
+
+# The linter of the workflows, where there is Go.
+ACTIONLINT=1.7.12
+setup_actionlint() {
+  # shellcheck disable=SC2310 # looks only
+  if have go; then once actionlint "$ACTIONLINT" fetch_actionlint; fi
+}
+
+fetch_actionlint() { GOBIN="$BUILD/go" go install "github.com/rhysd/actionlint/cmd/actionlint@v$ACTIONLINT"; }
 
 # python_tests RESULTS FOLDER OPTION...: the tests below a folder.
 python_tests() {
@@ -326,6 +335,13 @@ test_page() {
 page_tests() {
   COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node --test-reporter=spec --test-reporter-destination=stdout --test-reporter=junit \
     --test-reporter-destination="$1" "$ROOT/unity/Headless~/Replay/test.mjs" "${@:2}"
+}
+
+# test_site RESULTS: its pages at three widths, in the light and in the dark; the pictures stay in build/site-pictures.
+test_site() {
+  "$ROOT/collektive" site --out "$BUILD/site"
+  COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node --test-reporter=spec --test-reporter-destination=stdout --test-reporter=junit \
+    --test-reporter-destination="$1/site.xml" "$ROOT/scripts/site/test.mjs" "$BUILD/site" "$BUILD/site-pictures"
 }
 
 # test_acceptance RESULTS: what measures times alone, the rest by two.

@@ -44,7 +44,7 @@ extern "C" {
 #endif
 
 /* Major << 16 | minor << 8 | patch. Another major version has another ABI. */
-#define CLK_VERSION 0x000100
+#define CLK_VERSION 0x000200
 
 /* FRAME, SCHEMA, PROGRAM and SESSION_FAILED are answers of the host, with its error text. */
 #define CLK_ERRORS(X)                                                                             \
@@ -73,10 +73,10 @@ enum clk_error {
 };
 
 enum clk_jvm_state {
-    CLK_STATE_NONE = 0, /* never started in this process */
-    CLK_STATE_RUNNING = 1,
-    CLK_STATE_LOST = 2,   /* it exited, aborted or does not answer; this process gets no other */
-    CLK_STATE_STOPPED = 3 /* ended by clk_jvm_stop; this process gets no other */
+    CLK_STATE_NONE = 0,    /* never started in this process */
+    CLK_STATE_RUNNING = 1, /* it serves calls */
+    CLK_STATE_LOST = 2,    /* it exited, aborted or does not answer; this process gets no other */
+    CLK_STATE_STOPPED = 3  /* ended by clk_jvm_stop; this process gets no other */
 };
 
 /* ---- Version and errors ---------------------------------------------------------------------------------------------- */
@@ -96,9 +96,10 @@ CLK_API int32_t clk_last_error(char *buffer, int32_t capacity);
 
 /* ---- JVM ------------------------------------------------------------------------------------------------------------- */
 
+/* What the JVM is started with. */
 typedef struct clk_jvm_config {
     uint32_t size;
-    int32_t option_count;
+    int32_t option_count;       /* number of `options`, 0 or greater */
     const char *home;           /* root of a JRE or JDK: its lib/server/libjvm.so (bin/server/jvm.dll on Windows) is loaded */
     const char *class_path;     /* jars of the host, with the platform's separator */
     const char *const *options; /* JVM options, one string each, in order; may be NULL when option_count is 0 */
@@ -134,6 +135,7 @@ CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 
 typedef uint64_t clk_slot; /* 0 is never a slot; the upper half is the generation */
 
+/* The memory of a slot, for its owner to read and write. It stays where it is until the slot grows or is released. */
 typedef struct clk_memory {
     uint32_t size;
     int32_t capacity; /* bytes */
@@ -161,9 +163,9 @@ typedef uint64_t clk_session; /* 0 is never a session; the upper half is the gen
  * that of clk_control until the next clk_control; all until clk_jvm_stop. */
 typedef struct clk_answer {
     uint32_t size;
-    int32_t offset;
-    int32_t length;
-    int32_t capacity;
+    int32_t offset;   /* of the frame, in bytes from `address` */
+    int32_t length;   /* of the frame, in bytes */
+    int32_t capacity; /* of the slot, in bytes */
     uint8_t *address; /* of the slot's first byte; the frame begins at address + offset */
 } clk_answer;
 
@@ -194,6 +196,7 @@ enum clk_log_level { CLK_LOG_DEBUG = 0, CLK_LOG_INFO = 1, CLK_LOG_WARNING = 2, C
  * not fit. */
 CLK_API int32_t clk_log_read(int32_t *level, char *buffer, int32_t capacity);
 
+/* Counts since the process began, unless said otherwise. */
 typedef struct clk_stats {
     uint32_t size;
     int32_t sessions;        /* open now */

@@ -66,5 +66,5 @@ import org.collektive.api.Program
     def test_its_picture_and_links_exist(self):
         with open(os.path.join(ROOT, "README.md")) as file:
             text = file.read()
-        for path in re.findall(r"\]\(([^)h][^)]*)\)", text) + re.findall(r"`((?:docs|unity)/[^`]*\.md)`", text):
+        for path in re.findall(r"\]\((?!https:)([^)#]+)", text) + re.findall(r"`((?:docs|unity)/[^`]*\.md)`", text):
             self.assertTrue(os.path.exists(os.path.join(ROOT, path)), path)

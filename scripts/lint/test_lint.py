@@ -49,7 +49,7 @@ def test_python_is_clean_under_ruff():
 
 
 def test_javascript_is_clean_under_eslint():
-    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay")
+    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay", "scripts/site")
 
 
 def test_c_and_cpp_are_formatted_by_clang_format():
@@ -60,6 +60,13 @@ def test_c_and_cpp_are_formatted_by_clang_format():
 def test_kotlin_is_clean_under_ktlint():
     clean(os.environ["COLLEKTIVE_JAVA"], "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
           *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "*.kts"))
+
+
+def test_workflows_are_clean_under_actionlint():
+    linter = os.path.join(BUILD, "go/actionlint")
+    if not os.path.exists(linter):
+        pytest.skip("there is no Go to build actionlint with")
+    clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
 
 
 def test_lines_end_within_the_columns_of_editorconfig():

@@ -37,7 +37,7 @@ class TheHouse(unittest.TestCase):
             if not name.endswith(".md"):
                 continue
             with open(os.path.join(folder, name)) as file:
-                for link in re.findall(r"\]\(([^)h][^)]*)\)", file.read()):
+                for link in re.findall(r"\]\((?!https:)([^)#]+)", file.read()):
                     self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
 
     def test_each_setting_of_the_jvm_is_documented(self):
@@ -48,6 +48,21 @@ class TheHouse(unittest.TestCase):
             page = file.read()
         for key in keys:
             self.assertIn(f"`{key}`", page)
+
+    def test_each_key_of_a_scenario_is_documented(self):
+        with open(os.path.join(ROOT, "unity/Headless~/Player/Scenario.cs")) as file:
+            player = file.read()
+        with open(os.path.join(ROOT, "unity/Runtime/Unity/Manager/SimulationSettings.cs")) as file:
+            settings = re.findall(r"(?m)^        public [\w<>]+ (\w+)(?: = .*)?;", file.read())
+        shared = player[player.index("Shared ="):player.index("private readonly JObject root")]
+        keys = set(settings) - set(re.findall(r"nameof\(SimulationSettings\.(\w+)\)", shared))
+        keys |= set(re.findall(r'"(\w+)"', player[player.index("OwnKeys ="):player.index("};")]))
+        outputs = re.findall(r'"(\w+)"', player[player.index('"outputs.", new[]'):].split("}")[0])
+        self.assertGreater(len(keys), 18)
+        with open(os.path.join(ROOT, "Documentation~/headless.md")) as file:
+            page = file.read()
+        for key in [*keys, *(f"outputs.{name}" for name in outputs[1:])]:
+            self.assertRegex(page, rf"`{re.escape(key)}[`.]", key)
 
     def test_troubleshooting_quotes_messages_that_there_are(self):
         sources = ""

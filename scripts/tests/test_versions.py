@@ -1,11 +1,13 @@
 """A version that several files must name is the same in all of them."""
-import glob
+import fnmatch
 import json
 import os
 import re
+import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+import version
 from places import BUILD, ROOT
 
 POM = "{http://maven.apache.org/POM/4.0.0}"
@@ -20,37 +22,24 @@ def pom(path):
     return ElementTree.fromstring(text(path))
 
 
-VERSION = json.loads(text("package.json"))["version"]
-MODULES = sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "jvm-host/*/pom.xml")))
-
-
-@pytest.mark.parametrize("path", MODULES)
-def test_each_module_of_the_jvm_side_has_the_products_version(path):
-    assert pom("jvm-host/pom.xml").findtext(POM + "version") == VERSION
-    assert pom(path).findtext(f"{POM}parent/{POM}version") == VERSION
-
-
-@pytest.mark.parametrize("path", ["unity/Runtime/Bridge/AssemblyInfo.cs", "unity/Runtime/Unity/AssemblyInfo.cs", "unity/Editor/AssemblyInfo.cs"])
-def test_each_assembly_has_the_products_version(path):
-    assert f'AssemblyVersion("{VERSION}.0")' in text(path)
-
-
-def test_generator():
-    assert f'VERSION: String = "{VERSION}"' in text("jvm-host/generator/src/main/kotlin/org/collektive/generator/Version.kt")
-
-
-def test_the_manifest_for_git_urls_has_the_products_version():
-    assert json.loads(text("unity/package.json"))["version"] == VERSION
+@pytest.mark.parametrize("pattern", version.NAMED)
+def test_each_file_that_names_the_products_version_has_it(pattern):
+    files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
+    assert files
+    for path in files:
+        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/version.py {version.product()}"
 
 
 def test_the_shim_has_the_products_version():
-    major, minor, patch = map(int, VERSION.split("."))
-    assert f"#define CLK_VERSION 0x{major << 16 | minor << 8 | patch:06x}" in text("native-shim/include/collektive_shim.h")
+    assert f"#define CLK_VERSION {version.packed(version.product())}\n" in text(version.SHIM)
 
 
-@pytest.mark.parametrize("path", ["README.md", "Documentation~/getting-started.md"])
-def test_pages_name_the_package_with_its_version(path):
-    assert re.findall(r"org\.collektive\.unity-(\d[\d.]*\d)\.tgz", text(path)) == [VERSION]
+def test_no_other_file_names_it():
+    listed = subprocess.run(["git", "-C", ROOT, "grep", "-lF", version.product()], capture_output=True, text=True).stdout.split("\n")
+    known = {path for path, _ in version.files()}
+    # The changelog names all versions, and other software may have the same one.
+    others = re.compile(r"CHANGELOG\.md|THIRD-PARTY\.md|.*package-lock\.json|.*Cargo\.lock|.*requirements\.txt|")
+    assert [path for path in listed if path not in known and not others.fullmatch(path)] == []
 
 
 def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with():
@@ -70,11 +59,14 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     crate = re.search(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))[1]
     physx = re.search(r'physx-sys = "=([^"]+)"', text("tools/physx/Cargo.toml"))[1]
     with open(os.path.join(BUILD, "physx/physx/physx/include/foundation/PxPhysicsVersion.h")) as file:
-        version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
-    assert third_party("PhysX") == f"{version} ({physx})"
+        physx_version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
+    assert third_party("PhysX") == f"{physx_version} ({physx})"
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
-    for name, version in json.loads(text("tools/npm/package.json"))["dependencies"].items():
-        assert third_party(name) == version, name
-    for name, version in re.findall(r"(?m)^(\S+)==(\S+)$", text("tools/python/requirements.txt")):
-        assert third_party(name) == version, name
+    for tools in ["npm", "site"]:
+        for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
+            assert third_party(name) == wanted, name
+    for tools in ["python", "site"]:
+        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(f"tools/{tools}/requirements.txt")):
+            assert third_party(name) == wanted, name
+    assert third_party("actionlint") == re.search(r"(?m)^ACTIONLINT=(\S+)$", text("scripts/test.sh"))[1]
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")

@@ -76,7 +76,7 @@ namespace Collektive.Headless.Bench
         protected override void Pause() => Measurement.Pause();
     }
 
-    /// <summary>The seed's manner over the same shim: a call for each node.</summary>
+    /// <summary>As collektive.unity does, over the same shim: a call for each node.</summary>
     internal sealed class PerNodeCall : InProcess
     {
         internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads)

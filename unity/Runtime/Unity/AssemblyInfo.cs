@@ -1,7 +1,7 @@
 using System.Reflection;
 using System.Runtime.CompilerServices;
 
-[assembly: AssemblyVersion("0.1.0.0")]
+[assembly: AssemblyVersion("0.2.0.0")]
 [assembly: InternalsVisibleTo("Collektive.Headless.Tests")]
 [assembly: InternalsVisibleTo("Collektive.Player")]
 [assembly: InternalsVisibleTo("Collektive.Unity.Editor")]

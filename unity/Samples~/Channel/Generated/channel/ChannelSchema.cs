@@ -47,7 +47,7 @@ namespace channel
         public override string File => "channel";
 
         /// <inheritdoc/>
-        public override string GeneratorVersion => "0.1.0";
+        public override string GeneratorVersion => "0.2.0";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;

@@ -40,7 +40,7 @@ namespace gradientascent
         public override string File => "gradient_ascent";
 
         /// <inheritdoc/>
-        public override string GeneratorVersion => "0.1.0";
+        public override string GeneratorVersion => "0.2.0";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;

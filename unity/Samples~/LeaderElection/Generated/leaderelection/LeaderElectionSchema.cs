@@ -45,7 +45,7 @@ namespace leaderelection
         public override string File => "leader_election";
 
         /// <inheritdoc/>
-        public override string GeneratorVersion => "0.1.0";
+        public override string GeneratorVersion => "0.2.0";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;

@@ -48,6 +48,15 @@ class TestNetworkTest {
         assertEquals(mapOf(0 to 0.0, 1 to 4.0, 2 to 6.5), run())
     }
 
+    @Test
+    fun `the distance to the source is the length of the shortest way`() = TestNetwork().use { network ->
+        network.add(0, 1, 2)
+        network.link(0, 1, length = 2.5)
+        network.link(1, 2, length = 3.0)
+        val answers = network.rounds(4) { device -> with(device) { distanceTo(localId == 0, metric = distances()) } }
+        assertEquals(mapOf(0 to 0.0, 1 to 2.5, 2 to 5.5), answers)
+    }
+
     @TestFactory
     fun `nodes and links come and go`() = onBoth {
         fun counts() = rounds(2) { neighborhood().neighbors.size }

@@ -19,6 +19,7 @@ public class AlignmentClashException private constructor(
     public val current: SharedData<*, *>,
     override val message: String,
 ) : IllegalStateException(message) {
+    /** The clash at [path]. */
     public constructor(path: Path, previous: PayloadRepresentation<*>?, current: SharedData<*, *>) :
         this(path, previous, current, "$CLASH, '$path'$ADVICE")
 

@@ -4,13 +4,18 @@ import kotlinx.serialization.Serializable
 import kotlinx.serialization.Transient
 import org.collektive.alignment.readable
 
-/** A path as a short text, the [backend]: the digest of its tokens. */
+/**
+ * A path as a short text.
+ *
+ * @property backend the digest of its tokens.
+ */
 @Serializable
 public class SerializablePath internal constructor(
     public val backend: String,
     // For messages; unknown on a received path.
     @Transient internal val known: List<Any?>? = null,
 ) : Path {
+    /** A path that arrived in a message. */
     public constructor(backend: String) : this(backend, null)
 
     override fun toMultilineString(separator: String): String = known?.joinToString(separator, transform = ::readable) ?: backend

@@ -21,7 +21,18 @@ public fun controlRequest(frame: ByteBuffer): ControlRequest =
  * The state of the JVM that a `ControlResponse` reports. Sizes are in bytes, times in milliseconds.
  *
  * @property flags values of JVM flags by name.
+ * @property heapUsed heap in use, garbage included.
+ * @property heapCommitted heap that the system has given to the JVM.
+ * @property heapMaximum limit of the heap.
+ * @property metaspaceUsed memory of loaded classes.
+ * @property classes number of loaded classes.
+ * @property collections garbage collections since the start.
+ * @property collectionMillis their time in all.
  * @property recording a value of `RecordingState`.
+ * @property recordingPath file of the running flight recording, or else of the last one; `null` before the first.
+ * @property recordingError why the last action on a recording failed; `null` if it succeeded.
+ * @property recordingMillis duration of that action.
+ * @property recordingsWritten recordings and dumps written so far.
  */
 public class JvmState(
     public val flags: Map<String, String>,

@@ -1,6 +1,10 @@
 package it.unibo.collektive.aggregate.api
 
-/** Excludes a declaration and everything inside it from the compiler plugin. [explanation] states why that is safe. */
+/**
+ * Excludes a declaration and everything inside it from the compiler plugin.
+ *
+ * @property explanation why that is safe.
+ */
 @Target(
     AnnotationTarget.FILE,
     AnnotationTarget.CLASS,

@@ -5,6 +5,10 @@ import kotlinx.serialization.Serializable
 /**
  * The candidacy of [candidate], with its [strength] and its [distance] from here. A stronger candidacy is greater; of equally strong
  * ones, the nearer is greater. `compareTo` ignores [candidate], so it is inconsistent with `equals`.
+ *
+ * @property candidate the device that wants to lead.
+ * @property distance from the candidate to this device, in units of the election's metric.
+ * @property strength what the election compares first.
  */
 @Serializable
 public data class Candidacy<ID : Any, D : Comparable<D>, S : Comparable<S>>(

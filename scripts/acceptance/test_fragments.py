@@ -1,0 +1,99 @@
+"""Code of the pages that is no file of a tutorial compiles, too: each piece in a place that gives it what the text around it speaks of."""
+import glob
+import json
+import os
+import re
+import textwrap
+import unittest
+
+from command import Folder, collektive
+from places import ROOT
+
+SCHEMA = """
+include "types.fbs";
+namespace swarm;
+table SensorData { intensity: float; source: bool; position: org.collektive.schema.Vector3; }
+struct ActuatorData { target: org.collektive.schema.Vector3; hops: float; distance: float; }
+"""
+USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
+# What stands around members, and around statements.
+CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
+METHOD = CLASS % ("    private void Show(ActuatorData data, ulong ageInTicks) { }\n\n"
+                  "    public void Use(SimulationManager manager)\n    {\n        node = null;\n%s\n    }")
+IMPORTS = """
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.share
+import it.unibo.collektive.stdlib.spreading.distanceTo
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+import org.collektive.links.distances
+import org.collektive.schema.Vector3Value
+import swarm.ActuatorData
+import swarm.SensorData
+"""
+
+
+def fragments(language):
+    """Code blocks without a title of the package's pages, and where they begin."""
+    for path in sorted(glob.glob(os.path.join(ROOT, "Documentation~/*.md"))):
+        with open(path) as file:
+            text = file.read()
+        for found in re.finditer(rf"(?m)^( *)```{language}\n(.*?)^\1```$", text, re.S):
+            place = f"{os.path.relpath(path, ROOT)}:{text.count(chr(10), 0, found.start()) + 1}"
+            yield place, textwrap.dedent(found[2])
+
+
+def csharp(number, place, code):
+    usings = "".join(line + "\n" for line in re.findall(r"(?m)^using [\w.]+;$", code) if line not in USINGS)
+    code = re.sub(r"(?m)^using [\w.]+;\n", "", code)
+    if not re.search(r"\bclass\b", code):
+        code = (CLASS if re.match(r"(?:private|public|protected)\b", code) else METHOD) % code
+    return f"// {place}\n{USINGS}{usings}\nnamespace Fragment{number}\n{{\n{code}\n}}\n"
+
+
+def kotlin(number, place, code):
+    code = re.sub(r"(?m)^(?:package|import) .*\n", lambda line: line[0] if line[0].startswith("import") and line[0] not in IMPORTS else "", code)
+    own = "".join(re.findall(r"(?m)^import .*\n", code))
+    code = re.sub(r"(?m)^import .*\n", "", code)
+    return f"// {place}\npackage fragment{number}\n{IMPORTS}{own}\n" + (code if "fun " in code else "val fragment = " + code)
+
+
+class Fragments(Folder):
+    def written(self, kind, made):
+        """A folder with the fragments, one a file."""
+        os.makedirs(self.path(kind))
+        for number, (place, code) in enumerate(fragments(kind)):
+            # Tests of programs are quoted from the tests of the module testing.
+            if "@Test" not in code:
+                with open(self.path(kind, f"Fragment{number}.{'cs' if kind == 'csharp' else 'kt'}"), "w") as file:
+                    file.write(made(number, place, code))
+        with open(self.path("swarm.fbs"), "w") as file:
+            file.write(SCHEMA)
+        return self.path(kind)
+
+    def test_csharp_compiles(self):
+        result = collektive("step", "scripts_dll", self.path("swarm.fbs"), self.written("csharp", csharp))
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_kotlin_compiles(self):
+        result = collektive("step", "programs_jar", self.path("swarm.fbs"), self.written("kotlin", kotlin))
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_json_is_json(self):
+        for place, code in fragments("json"):
+            with self.subTest(place):
+                json.loads(code if code.startswith("{") else f"{{{code}}}")
+
+
+class Quotations(unittest.TestCase):
+    def test_tests_of_programs_are_quoted_from_tests_that_run(self):
+        sources = ""
+        for path in glob.glob(os.path.join(ROOT, "jvm-host/testing/src/test/kotlin/**/*.kt"), recursive=True):
+            with open(path) as file:
+                sources += file.read()
+        quoted = [code for _, code in fragments("kotlin") if "@Test" in code]
+        self.assertEqual(len(quoted), 1)
+        for code in quoted:
+            self.assertIn(" ".join(code.split()), " ".join(sources.split()))
