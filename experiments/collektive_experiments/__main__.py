@@ -1,11 +1,14 @@
 """The commands ./collektive sweep and plot."""
 import argparse
+import json
 import os
 import sys
 
 from . import experiment as experiments
 from .positions import ExperimentError
-from .sweep import sweep
+from .slurm import run_task, write_job
+from .store import Store
+from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
 
 
 def main(words: list[str]) -> int:
@@ -19,11 +22,21 @@ def main(words: list[str]) -> int:
     sweeping.add_argument("--time-limit", type=_positive, default=3600)
     for flag in ("--resume", "--csv", "--dry-run", "--trust-jvm"):
         sweeping.add_argument(flag, action="store_true")
+    where = sweeping.add_mutually_exclusive_group()
+    where.add_argument("--ray", metavar="ADDRESS")
+    where.add_argument("--slurm", action="store_true")
+    task = commands.add_parser("task")
+    task.add_argument("folder")
+    task.add_argument("index", type=int)
     plotting = commands.add_parser("plot")
     plotting.add_argument("folder")
     options = parser.parse_args(words)
     try:
-        return _plot(options) if options.command == "plot" else _sweep(options)
+        if options.command == "plot":
+            return _plot(options)
+        if options.command == "task":
+            return run_task(options.folder, options.index)
+        return _sweep(options)
     except ExperimentError as error:
         print(f"collektive: {error}", file=sys.stderr)
         return 1
@@ -36,16 +49,36 @@ def _sweep(options: argparse.Namespace) -> int:
     experiment = experiments.read(options.experiment)
     out = options.out or os.path.join("out", os.path.splitext(os.path.basename(options.experiment))[0])
     if options.dry_run:
-        print(f"{experiment.count} runs into {out}, {options.jobs} at once")
+        seconds = estimate(experiment, options.jobs, options.time_limit, options.trust_jvm)
+        print(f"{experiment.count} runs into {out}, {options.jobs} at once, about {duration(seconds)}")
         for _, run in zip(range(5), experiment.runs()):
             print("  " + run.name)
         if experiment.count > 5:
             print("  ...")
         return 0
-    code = sweep(experiment, out, jobs=options.jobs, resume=options.resume, with_csv=options.csv, limit=options.time_limit, trust=options.trust_jvm)
+    store, todo = begin(experiment, out, options.resume, options.trust_jvm)
+    if options.slurm and todo:
+        print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
+        return 0
+    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
     print(os.path.join(out, "runs.parquet"))
     print(os.path.join(out, "series.parquet"))
     return code
+
+
+def _pool(options: argparse.Namespace, store: Store) -> Pool:
+    if options.ray is None:
+        return LocalPool(store, options.jobs, options.time_limit, options.trust_jvm)
+    # Ray is downloaded only for those who use it.
+    from .cluster import RayPool
+    return RayPool(store, options.ray, options.time_limit, options.trust_jvm)
+
+
+def _threads(experiment: experiments.Experiment) -> int:
+    """How many threads a run has at the most."""
+    with open(experiment.scenario) as file:
+        threads = json.load(file).get("threads", 1)
+    return max(run.settings.get("threads", threads) for run in experiment.runs())
 
 
 def _plot(options: argparse.Namespace) -> int:

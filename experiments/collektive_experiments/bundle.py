@@ -92,7 +92,7 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
                 raise ExperimentError(f"the scenario, its scripts, schema or programs are not those that the runs in '{os.path.dirname(bundle)}' were made of: "
                                       "name another folder with --out, or undo the change")
             return
-        command = [os.environ["COLLEKTIVE"], "step", "sweep_bundle", os.path.abspath(scenario), os.path.abspath(inputs), os.path.abspath(work)]
+        command = [os.environ["COLLEKTIVE"], "step", "sweep_bundle", os.path.abspath(scenario), os.path.abspath(work)]
         if subprocess.run(command + (["--trust-jvm"] if trust else [])).returncode != 0:
             raise ExperimentError("the scenario could not be built; see above")
         os.rename(work, bundle)

@@ -3,6 +3,7 @@ import html
 import io
 import os
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -18,7 +19,7 @@ from .store import write
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", "--", "-.", ":")
 COLUMNS = 4
-STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.3, "svg.fonttype": "none",
+STYLE: Any = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.3, "svg.fonttype": "none",
          "svg.hashsalt": "collektive", "legend.frameon": False}
 MAX_PANELS = 24
 
@@ -61,9 +62,9 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
             table = runs.pivot_table(index="run", columns="second", values=metric)
             counts.add(len(table))
             bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
-            style = {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index // len(COLOURS) % len(LINES)]}
-            axes.plot(table.columns, table.mean(), label=value, **style)
-            axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=style["color"], alpha=0.2, linewidth=0)
+            shade = COLOURS[index % len(COLOURS)]
+            axes.plot(table.columns, table.mean(), label=value, color=shade, linestyle=LINES[index // len(COLOURS) % len(LINES)])
+            axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=shade, alpha=0.2, linewidth=0)
         axes.set_xlabel("simulated time [s]")
     _finish(figure, panels, _axis(results, metric), colour, lines=True)
     return figure, f"{_title(metric)} over simulated time: mean and 95 % bootstrap interval of {_runs(counts)} per configuration."

@@ -1,6 +1,5 @@
 """JSON with the line of each value, for messages."""
 import json
-from json.decoder import scanstring
 from typing import Any
 
 Path = tuple[str | int, ...]
@@ -35,6 +34,9 @@ class Located:
             place = place[:-1]
         return ExperimentError(f"{self.path}:{self._lines.get(place, 1)}: {message}")
 
+    def _line(self, at: int) -> int:
+        return self.text.count("\n", 0, at) + 1
+
     def _skip(self, at: int) -> int:
         while at < len(self.text) and self.text[at] in " \t\r\n":
             at += 1
@@ -42,16 +44,16 @@ class Located:
 
     def _read(self, at: int, place: Path) -> int:
         """Notes the lines of the value that begins there; returns where it ends. The text is known to be JSON."""
-        self._lines[place] = self.text.count("\n", 0, at) + 1
+        self._lines[place] = self._line(at)
         if self.text[at] not in "{[":
             return json.JSONDecoder().raw_decode(self.text, at)[1]
         is_object = self.text[at] == "{"
         at, index = self._skip(at + 1), 0
         while self.text[at] not in "}]":
             if is_object:
-                key, at = scanstring(self.text, at + 1)
+                key, at = json.JSONDecoder().raw_decode(self.text, at)
                 if (*place, key) in self._lines:
-                    raise self.error(f"the key '{key}' is given twice", *place, key)
+                    raise ExperimentError(f"{self.path}:{self._line(at)}: the key '{key}' is given twice")
                 at = self._skip(self._skip(at) + 1)
             else:
                 key, index = index, index + 1

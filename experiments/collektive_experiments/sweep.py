@@ -4,10 +4,11 @@ import queue
 import shutil
 import signal
 import sys
+import tempfile
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Protocol
 
 from . import tables
@@ -82,20 +83,40 @@ class LocalPool:
             worker.stop()
 
 
-def sweep(experiment: Experiment, out: str, *, jobs: int, resume: bool, with_csv: bool, limit: float, trust: bool,
-          pool: Callable[[Store], Pool] | None = None) -> int:
-    """Runs what is not done yet. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
+def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[Store, list[Task]]:
+    """Makes the folder with all that runs need, checks the keys, and returns what is not done yet."""
     store = Store(out)
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
     _check_keys(experiment, store, trust)
     todo = [(number, run) for number, run in enumerate(experiment.runs()) if not store.is_complete(run)]
-    done = experiment.count - len(todo)
-    if done:
-        print(f"collektive: {done} of {experiment.count} runs are done already", file=sys.stderr)
-    code = _drive(store, experiment, todo, (pool or (lambda store: LocalPool(store, jobs, limit, trust)))(store), jobs, done)
+    if len(todo) < experiment.count:
+        print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are done already", file=sys.stderr)
+    return store, todo
+
+
+def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool) -> int:
+    """Runs what is not done yet. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
+    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
     tables.write(store, with_csv)
     return code
+
+
+def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
+    """About how many seconds the sweep takes, from two runs of it: the first and the one in the middle, the latter twice in one process."""
+    runs = list(experiment.runs())
+    with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
+        store, _ = begin(experiment, os.path.join(folder, "out"), False, trust)
+        worker = Worker(store.bundle, os.path.join(store.folder, "logs", "trial.txt"), trust)
+        seconds = []
+        for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
+            began = time.monotonic()
+            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit)
+            seconds.append(time.monotonic() - began)
+            if outcome.status != "complete":
+                print(f"collektive: {run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
+        worker.stop()
+    return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 
 def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int) -> int:

@@ -75,7 +75,7 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
     for name, version in json.loads(text("tools/npm/package.json"))["dependencies"].items():
         assert third_party(name) == version, name
-    for path in ("tools/python/requirements.txt", "experiments/requirements.txt"):
+    for path in ["tools/python/requirements.txt", *(f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test"))]:
         for name, version in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
             assert third_party(name) == version, name
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")
