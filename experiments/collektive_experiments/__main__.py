@@ -3,6 +3,7 @@ import argparse
 import json
 import os
 import sys
+from typing import NoReturn
 
 from . import experiment as experiments
 from .positions import ExperimentError
@@ -11,9 +12,19 @@ from .store import Store
 from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
 
 
+class Parser(argparse.ArgumentParser):
+    """Tells errors as the other commands do."""
+
+    def error(self, message: str) -> NoReturn:
+        """Ends the program."""
+        command = self.prog.split()[-1]
+        print(f"collektive: {command}: {message} (see ./collektive {command} --help)", file=sys.stderr)
+        sys.exit(1)
+
+
 def main(words: list[str]) -> int:
     """Runs a command; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="./collektive")
+    parser = Parser(prog="./collektive")
     commands = parser.add_subparsers(dest="command", required=True)
     sweeping = commands.add_parser("sweep")
     sweeping.add_argument("experiment")
@@ -40,6 +51,9 @@ def main(words: list[str]) -> int:
     except ExperimentError as error:
         print(f"collektive: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("collektive: interrupted before the first run", file=sys.stderr)
+        return 130
     except OSError as error:
         print(f"collektive: a file could not be read or written: {error}", file=sys.stderr)
         return 1
@@ -78,7 +92,7 @@ def _threads(experiment: experiments.Experiment) -> int:
     """How many threads a run has at the most."""
     with open(experiment.scenario) as file:
         threads = json.load(file).get("threads", 1)
-    return max(run.settings.get("threads", threads) for run in experiment.runs())
+    return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
 
 
 def _plot(options: argparse.Namespace) -> int:
@@ -90,10 +104,9 @@ def _plot(options: argparse.Namespace) -> int:
 
 
 def _positive(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise ValueError(text)
-    return number
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number above 0")
+    return int(text)
 
 
 if __name__ == "__main__":

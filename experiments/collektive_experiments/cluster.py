@@ -34,7 +34,7 @@ def connect(address: str, bundle: str) -> None:
 
 
 @ray.remote(num_cpus=1, max_restarts=0)
-class RemoteWorker:
+class _RemoteWorker:
     """A worker on some node. Ray has put the bundle into its current folder."""
 
     def __init__(self, trust: bool):
@@ -54,6 +54,10 @@ class RemoteWorker:
         with tarfile.open(fileobj=packed, mode="w:gz") as tar:
             tar.add(out, ".")
         return outcome, seconds, packed.getvalue()
+
+
+# Ray's decorator gives a class that type checkers do not know.
+RemoteWorker: Any = _RemoteWorker
 
 
 class RayPool:
@@ -86,7 +90,8 @@ class RayPool:
             running: dict[Any, tuple[Any, Task]] = {}
             while (self._tasks or running) and not self._stopped:
                 # Nodes may join and leave.
-                wanted = min(int(ray.cluster_resources().get("CPU", 1)), len(self._tasks) + len(running))
+                processors = int(ray.cluster_resources().get("CPU", 1))  # type: ignore[no-untyped-call]
+                wanted = min(processors, len(self._tasks) + len(running))
                 while len(running) + len(idle) < wanted:
                     idle.append(RemoteWorker.remote(self._trust))
                 while idle and self._tasks:

@@ -35,7 +35,13 @@ class Store:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
-        if os.path.exists(path):
+        for name in os.listdir(self.runs):
+            if name.endswith(PART):
+                shutil.rmtree(os.path.join(self.runs, name))
+        if not os.listdir(self.runs):
+            # Nothing is lost of a sweep that did not come to its first result.
+            shutil.rmtree(self.bundle, ignore_errors=True)
+        elif os.path.exists(path):
             if not resume:
                 raise ExperimentError(f"'{self.folder}' has results of a sweep: go on with --resume, or name another folder with --out")
             former = self.asked()
@@ -44,9 +50,6 @@ class Store:
                     raise ExperimentError(f"'{self.folder}' is of a sweep with {json.dumps(former[key])} as its {key}, not {json.dumps(asked[key])}: "
                                           "name another folder with --out")
         write(path, json.dumps(asked, indent=2) + "\n")
-        for name in os.listdir(self.runs):
-            if name.endswith(PART):
-                shutil.rmtree(os.path.join(self.runs, name))
 
     def asked(self) -> dict[str, Any]:
         """What the sweep was asked."""
