@@ -29,7 +29,8 @@ namespace Collektive.Headless
                 var criterion = new Criterion(
                     property.Name, file.Optional(part, "from", double.NegativeInfinity), file.Optional(part, "to", double.PositiveInfinity),
                     file.Optional(part, "seconds", 0.0));
-                if (part["from"] == null && part["to"] == null) throw file.Error(part, "'" + key + "' needs 'from', 'to' or both: the band of the metric's values");
+                if (part["from"] == null && part["to"] == null)
+                    throw file.Error(part, "'" + key + "' needs 'from', 'to' or both: the band of the metric's values");
                 if (!(criterion.From <= criterion.To)) throw file.Error(part, "'" + key + "' has a 'from' that is above its 'to'");
                 if (!(criterion.Seconds >= 0)) throw file.Error(part, "'" + key + ".seconds' must be 0 or greater");
                 convergence.criteria.Add(criterion);

@@ -8,8 +8,8 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// metrics.csv: a row per interval, by default a simulated second; messages are sums over the interval's ticks. Times are means in milliseconds, so that the phases of a tick
-    /// add up to it: what is no phase of <see cref="TickTimes"/> is "other".
+    /// metrics.csv: a row per interval, by default a simulated second; messages are sums over the interval's ticks. Times are means in milliseconds, so that
+    /// the phases of a tick add up to it: what is no phase of <see cref="TickTimes"/> is "other".
     /// </summary>
     internal sealed class MetricsTable : IDisposable
     {

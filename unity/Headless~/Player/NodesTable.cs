@@ -7,6 +7,7 @@ using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
 using UnityEngine;
+using Schema = org.collektive.schema;
 
 namespace Collektive.Headless
 {
@@ -115,8 +116,8 @@ namespace Collektive.Headless
             private static string[] PartsOf(Type type)
             {
                 type = Nullable.GetUnderlyingType(type) ?? type;
-                if (type == typeof(org.collektive.schema.Vector3Value) || type == typeof(Vector3) || type == typeof(org.collektive.schema.Vector3)) return new[] { "x", "y", "z" };
-                return type == typeof(org.collektive.schema.Vector2Value) || type == typeof(org.collektive.schema.Vector2) ? new[] { "x", "y" } : Array.Empty<string>();
+                if (type == typeof(Vector3) || type == typeof(Schema.Vector3Value) || type == typeof(Schema.Vector3)) return new[] { "x", "y", "z" };
+                return type == typeof(Schema.Vector2Value) || type == typeof(Schema.Vector2) ? new[] { "x", "y" } : Array.Empty<string>();
             }
 
             private static string Cell(object value)

@@ -75,7 +75,9 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Throws a <see cref="ScenarioException"/> for what is wrong with a scenario and with its scene's fields. Nothing is built or started.</summary>
+        /// <summary>
+        /// Throws a <see cref="ScenarioException"/> for what is wrong with a scenario and with its scene's fields. Nothing is built or started.
+        /// </summary>
         /// <returns>Names of the scene's metrics.</returns>
         internal static IReadOnlyList<string> Check(Scenario scenario, Options options)
         {
