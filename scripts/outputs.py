@@ -5,7 +5,7 @@ import os
 import sys
 import tempfile
 
-RESULTS = ("manifest.json", "metrics.csv", "replay.html", "run.clkrec", "start.png", "middle.png", "end.png")
+RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "start.png", "middle.png", "end.png")
 UNFINISHED = tuple(name + ".part" for name in RESULTS) + ("replay.tmp",)
 
 

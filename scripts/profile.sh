@@ -2,7 +2,7 @@
 
 help_profile() {
   cat <<'H'
-usage: ./collektive profile SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--set FIELD=VALUE]... [--trust-jvm]
+usage: ./collektive profile SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--set KEY=VALUE]... [--trust-jvm]
 
 Runs a scenario as ./collektive run does, with a flight recording of the JVM, and prints what it tells: times of ticks, for each program
 its rounds and the methods where their time goes, allocation, and pauses. The recording is profile.jfr in --out (default:

@@ -6,13 +6,14 @@ DEMO="$ROOT/unity/Samples~/GradientAscent/scenario.json"
 
 help_run() {
   cat <<'H'
-usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--recording FILE.jfr] [--set FIELD=VALUE]...
+usage: ./collektive run SCENARIO.json [--seed K] [--seconds S] [--out DIR] [--overwrite] [--recording FILE.jfr] [--set KEY=VALUE]...
                        [--keep-going] [--trust-jvm]
 
 Runs a scenario without Unity: compiles its C# scripts and Kotlin programs (only when they changed), plays its scene, writes its
 outputs to --out (default: out/NAME-seedK below the current folder): manifest.json, metrics.csv, replay.html, pictures and
 run.clkrec (all frames, for ./collektive replay and diff), as the scenario asks. A folder with results of a run is refused; --overwrite
-removes them first. --set gives a public field of the scene builder another value. --recording makes a flight recording of the JVM.
+removes them first. --set gives a key of the scenario another value: network.loss=0.1, parameters.PROGRAM.NAME=2; a name that is no key is a public
+field of the scene builder: nodes=100. --recording makes a flight recording of the JVM.
 A tick of which every round fails ends the run; with --keep-going it goes on.
 --trust-jvm lets the file's JVM settings write files, open ports and load code, which else are refused: Documentation~/trust.md.
 The scenario file's keys are described in Documentation~/headless.md.
@@ -177,7 +178,8 @@ cmd_run() {
       --folder) [ $# -ge 2 ] || fail "run: --folder needs a folder"; reading+=(--folder "$2"); shift 2 ;;
       --trust-jvm) reading+=(--trust-jvm); shift ;;
       --keep-going) arguments+=("$1"); shift ;;
-      --seconds | --set | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
+      --set) [ $# -ge 2 ] || fail "run: --set needs a value"; reading+=(--set "$2"); shift 2 ;;
+      --seconds | --recording) [ $# -ge 2 ] || fail "run: $1 needs a value"; arguments+=("$1" "$2"); shift 2 ;;
       -*) fail "run: unknown option $1 (see ./collektive run --help)" ;;
       *) [ -z "$scenario" ] || fail "run: one scenario at a time"; scenario=$1; shift ;;
     esac

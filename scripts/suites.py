@@ -61,6 +61,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("site", ["test_site"], [*built, "setup_npm", "setup_site"]),
         Suite("acceptance", ["test_acceptance"], [*built, "build_replay_page", "setup_python"]),
         Suite("quick", ["test_acceptance_quick"], [*built, "build_replay_page", "setup_python"], quick=True, label="acceptance-quick"),
+        Suite("experiments", ["test_experiments"], [*built, "setup_experiments_tests"]),
         Suite("chaos", ["test_chaos"], [*built, "build_replay_page"]),
         Suite("fuzz", ["test_fuzz"], ["build_csharp", "build_fuzz"]),
         Suite("bench", ["test_bench"], [*built, "setup_python"]),

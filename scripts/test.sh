@@ -9,7 +9,7 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --c
                         | --fuzz [NAME]... [MINUTES [SEED]] | bare [ROOT]...
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, csharp, assets, faults, exits, soak, roundtrip, page,
-site, acceptance, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
+site, acceptance, experiments, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table

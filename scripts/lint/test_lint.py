@@ -59,7 +59,7 @@ def test_c_and_cpp_are_formatted_by_clang_format():
 
 def test_kotlin_is_clean_under_ktlint():
     clean(os.environ["COLLEKTIVE_JAVA"], "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
-          *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "*.kts"))
+          *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "experiments/*.kt", "*.kts"))
 
 
 def test_workflows_are_clean_under_actionlint():

@@ -65,8 +65,9 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     for tools in ["npm", "site"]:
         for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
             assert third_party(name) == wanted, name
-    for tools in ["python", "site"]:
-        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(f"tools/{tools}/requirements.txt")):
+    experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]
+    for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", *experiments]:
+        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
             assert third_party(name) == wanted, name
     assert third_party("actionlint") == re.search(r"(?m)^ACTIONLINT=(\S+)$", text("scripts/test.sh"))[1]
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")

@@ -13,6 +13,9 @@ namespace Collektive.Headless
     {
         private static readonly Regex Include = new Regex("^\\s*include\\s+\"([^\"]+)\"", RegexOptions.Multiline);
 
+        // By path: a process that runs several scenarios reads their inputs once.
+        private static readonly Dictionary<string, string> Known = new Dictionary<string, string>();
+
         internal static JObject Of(Scenario scenario)
         {
             var hashes = new JObject(
@@ -24,6 +27,12 @@ namespace Collektive.Headless
         }
 
         internal static string OfFile(string path)
+        {
+            if (!Known.TryGetValue(path, out var hash)) Known.Add(path, hash = Compute(path));
+            return hash;
+        }
+
+        private static string Compute(string path)
         {
             using (var sha = SHA256.Create())
             using (var file = File.OpenRead(path)) return Hex(sha.ComputeHash(file));

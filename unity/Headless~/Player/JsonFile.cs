@@ -95,6 +95,7 @@ namespace Collektive.Headless
                 if (type == typeof(string) && kind == JTokenType.String) return (string)token;
                 if (type == typeof(bool) && kind == JTokenType.Boolean) return (bool)token;
                 if (type == typeof(int) && kind == JTokenType.Integer) return (int)token;
+                if (type == typeof(long) && kind == JTokenType.Integer) return (long)token;
                 if (type == typeof(ulong) && kind == JTokenType.Integer) return (ulong)token;
                 if (type == typeof(float) && number) return (float)token;
                 if (type == typeof(double) && number) return (double)token;
@@ -131,7 +132,7 @@ namespace Collektive.Headless
         /// <summary>Name of a type in messages.</summary>
         internal static string NameOf(Type type)
         {
-            if (type == typeof(int)) return "whole number";
+            if (type == typeof(int) || type == typeof(long)) return "whole number";
             if (type == typeof(ulong)) return "whole number from 0 to 2^64 - 1";
             if (type == typeof(float) || type == typeof(double)) return "number";
             if (type == typeof(string[]) || type == typeof(List<string>)) return "list of strings";

@@ -40,15 +40,16 @@ namespace Collektive.Headless
 
         /// <param name="parameters">Parameters of the programs that ran.</param>
         /// <param name="ticks">Ticks that were done.</param>
+        /// <param name="calls">Calls into the JVM.</param>
         internal void AddResults(
             SimulationManager manager, JObject parameters, int ticks, SceneBuilder scene, IReadOnlyList<double> start, IReadOnlyList<double> end,
-            double wallSeconds)
+            double wallSeconds, ulong calls)
         {
             var description = Jvm.Description.Split('\n');
             Root.Add(new JProperty("parameters", parameters));
             Root.Add(new JProperty("nodes", manager.Nodes.Count));
             Root.Add(new JProperty("ticks", ticks));
-            Root.Add(new JProperty("shim_calls", Jvm.StepCalls));
+            Root.Add(new JProperty("shim_calls", calls));
             Root.Add(new JProperty("digest", manager.Digest.ToString("x16")));
             Root.Add(new JProperty("errors", manager.ErrorCount));
             Root.Add(new JProperty("start", Metrics(scene, start)));
@@ -62,12 +63,18 @@ namespace Collektive.Headless
                     new JProperty("os", Environment.OSVersion.ToString()))));
         }
 
+        /// <summary>Simulated seconds at which metrics have converged.</summary>
+        internal void AddConvergence(JObject times) => Root.Add("converged", times);
+
         /// <summary>Quantiles over all ticks, in milliseconds.</summary>
         internal void AddTimes(List<double> rounds, List<double> step, List<double> total)
         {
             Root.Add("rounds_ms_median", Math.Round(Quantiles.Of(rounds, 0.5), 4));
             Root.Add("step_ms_median", Math.Round(Quantiles.Of(step, 0.5), 4));
             Root.Add("step_ms_p99", Math.Round(Quantiles.Of(step, 0.99), 4));
+            var sum = 0.0;
+            foreach (var time in total) sum += time;
+            Root.Add("ticks_ms", Math.Round(sum, 4));
             Root.Add("tick_ms_median", Math.Round(Quantiles.Of(total, 0.5), 4));
             Root.Add("tick_ms_p99", Math.Round(Quantiles.Of(total, 0.99), 4));
         }

@@ -8,8 +8,8 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// metrics.csv: a row per simulated second; messages are sums over the second's ticks. Times are means in milliseconds, so that the phases of a tick
-    /// add up to it: what is no phase of <see cref="TickTimes"/> is "other".
+    /// metrics.csv: a row per interval, by default a simulated second; messages are sums over the interval's ticks. Times are means in milliseconds, so that
+    /// the phases of a tick add up to it: what is no phase of <see cref="TickTimes"/> is "other".
     /// </summary>
     internal sealed class MetricsTable : IDisposable
     {
@@ -51,10 +51,10 @@ namespace Collektive.Headless
         /// <summary>Adds what passed on the clock from the end of the former tick to the end of this one, in milliseconds.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
-        internal void EndSecond(int number, int links)
+        internal void EndInterval(double second, int links)
         {
             scene.Measure(values);
-            var row = number.ToString(CultureInfo.InvariantCulture);
+            var row = second.ToString("0.######", CultureInfo.InvariantCulture);
             foreach (var value in values) row += "," + Text(value);
             row += "," + links.ToString(CultureInfo.InvariantCulture);
             foreach (var count in new[] { sent, dropped, delayed, expired }) row += "," + count.ToString(CultureInfo.InvariantCulture);

@@ -8,10 +8,11 @@ namespace Collektive.Headless
     internal sealed class Options
     {
         internal const string Usage =
-            "Player plan SCENARIO [--folder DIR] [--trust-jvm]\n" +
+            "Player plan SCENARIO [--set KEY=VALUE]... [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
-            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set FIELD=VALUE]... [--folder DIR]\n" +
+            "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
             "           [--keep-going] [--trust-jvm]\n" +
+            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR [--template HTML] [--keep-going] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -46,11 +47,23 @@ namespace Collektive.Headless
         /// <summary>Whether the run goes on after a tick of which all rounds failed.</summary>
         internal bool KeepGoing { get; private set; }
 
-        internal List<string> Assignments { get; } = new List<string>();
+        /// <summary>Values of the scenario's keys that the command line gives.</summary>
+        internal List<Assignment> Assignments { get; } = new List<Assignment>();
+
+        /// <summary>The same for fields of the scene, as <c>FIELD=VALUE</c>.</summary>
+        internal List<string> FieldAssignments { get; } = new List<string>();
+
+        /// <summary>The options of one of several runs, with a folder of its own.</summary>
+        internal Options For(string folder)
+        {
+            var options = (Options)MemberwiseClone();
+            options.Out = folder;
+            return options;
+        }
 
         internal static Options Parse(string[] arguments)
         {
-            if (arguments.Length < 2 || arguments[0] != "plan" && arguments[0] != "run") throw new ScenarioException("usage:\n" + Usage);
+            if (arguments.Length < 2 || Array.IndexOf(new[] { "plan", "run", "serve" }, arguments[0]) < 0) throw new ScenarioException("usage:\n" + Usage);
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {
@@ -67,6 +80,12 @@ namespace Collektive.Headless
             return options;
         }
 
+        private void AddAssignment(Assignment assignment, string field)
+        {
+            if (assignment == null) FieldAssignments.Add(field);
+            else Assignments.Add(assignment);
+        }
+
         private void Set(string name, string value)
         {
             switch (name)
@@ -79,7 +98,7 @@ namespace Collektive.Headless
                 case "--folder": Folder = value; break;
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
-                case "--set": Assignments.Add(value); break;
+                case "--set": AddAssignment(Assignment.Parse(value, out var field), field); break;
                 case "--seed":
                     if (!ulong.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out var seed))
                     {

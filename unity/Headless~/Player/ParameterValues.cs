@@ -32,8 +32,9 @@ namespace Collektive.Headless
             var values = new SortedSet<string>(StringComparer.Ordinal);
             foreach (var node in nodes)
             {
-                var place = node.Parameters.FindLastIndex(set => set.name == parameter.Name);
-                values.Add(place < 0 ? parameter.DefaultValue : node.Parameters[place].value);
+                var set = node.Simulation.Settings.ParametersOf(node);
+                var place = set.FindLastIndex(each => each.name == parameter.Name);
+                values.Add(place < 0 ? parameter.DefaultValue : set[place].value);
             }
             return values.Count == 1 ? new JValue(values.Min) : (JToken)new JArray(values);
         }

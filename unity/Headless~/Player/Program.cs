@@ -37,29 +37,34 @@ namespace Collektive.Headless
             try
             {
                 var options = Options.Parse(arguments);
-                var scenario = Scenario.Read(options.Scenario, options.Folder, options.TrustJvm);
+                if (options.Command == "serve")
+                {
+                    new Server(options).Serve();
+                    return 0;
+                }
+                var scenario = Scenario.Read(options.Scenario, options.Folder, options.TrustJvm, options.Assignments.ToArray());
                 if (options.Command == "plan")
                 {
                     Plan(scenario);
                     return 0;
                 }
-                return new ScenarioRun(scenario, options).Run();
-            }
-            catch (Exception error) when (error is ScenarioException || error is BridgeException)
-            {
-                Console.Error.WriteLine("collektive: " + error.Message);
-                return 1;
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
-                return 1;
+                return new ScenarioRun(scenario, options, new Interrupt()).Run();
             }
             catch (Exception error)
             {
-                Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
-                return 1;
+                return Report(error);
             }
+        }
+
+        /// <summary>Prints why a run ended.</summary>
+        /// <returns>The exit code.</returns>
+        internal static int Report(Exception error)
+        {
+            if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
+            else if (error is IOException || error is UnauthorizedAccessException)
+                Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
+            else Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
+            return 1;
         }
 
         /// <summary>What the command must build before the run, one "key=value" a line.</summary>

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Reflection;
@@ -20,7 +21,7 @@ namespace Collektive.Headless
 
         private static readonly string[] OwnKeys =
         {
-            "version", "scene", "scripts", "schema", "programs", "fields", "seconds", "jvm", "outputs",
+            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "converged", "stopWhenConverged", "jvm", "outputs",
         };
 
         /// <summary>The inspector's settings that are keys of a scenario, too. For the others a scenario has keys of its own.</summary>
@@ -31,12 +32,15 @@ namespace Collektive.Headless
                 nameof(SimulationSettings.record),
             }.Contains(field.Name)).ToArray();
 
+        /// <summary>All keys at the top of a scenario.</summary>
+        internal static IEnumerable<string> Keys => OwnKeys.Concat(Shared.Select(field => field.Name));
+
         private readonly JObject root;
 
         private Scenario(JsonFile file, string path, JObject root, string folder, bool trustsJvm)
         {
             this.root = root;
-            file.RefuseUnknown(root, "", OwnKeys.Concat(Shared.Select(field => field.Name)));
+            file.RefuseUnknown(root, "", Keys);
             var version = file.Required<int>(root, "version");
             if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
             File = file;
@@ -50,6 +54,11 @@ namespace Collektive.Headless
             Seconds = file.Required<double>(root, "seconds");
             file.Required<string>(root, nameof(SimulationSettings.program));
             file.Fill(Settings, Shared, root, "");
+            ReadParameters(file, file.Optional(root, "parameters", new JObject()));
+            Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
+            StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
+            if (StopWhenConverged && Convergence.Criteria.Count == 0)
+                throw file.Error(root["stopWhenConverged"], "'stopWhenConverged' needs 'converged', which says when a metric has converged");
             if (Settings.runtime == AggregateRuntime.Collektive)
             {
                 RuntimeJars = Existing(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
@@ -58,8 +67,13 @@ namespace Collektive.Headless
             }
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder, trustsJvm);
             var outputs = file.Optional(root, "outputs", new JObject());
-            file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "replay", "pictures", "record" });
+            file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "interval", "nodes", "replay", "pictures", "record" });
             Metrics = file.Optional(outputs, "metrics", true);
+            Interval = ReadInterval(file, outputs, "outputs.");
+            var nodes = file.Optional(outputs, "nodes", new JObject());
+            file.RefuseUnknown(nodes, "outputs.nodes.", new[] { "fields", "interval" });
+            NodeFields = file.Optional(nodes, "fields", new string[0]);
+            NodeInterval = ReadInterval(file, nodes, "outputs.nodes.");
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
             Record = file.Optional(outputs, "record", false);
@@ -106,6 +120,21 @@ namespace Collektive.Headless
 
         internal bool Metrics { get; }
 
+        /// <summary>Simulated seconds from one row of the metrics to the next.</summary>
+        internal double Interval { get; }
+
+        /// <summary>Fields of the nodes that are written over time; none: no table of nodes.</summary>
+        internal string[] NodeFields { get; }
+
+        /// <summary>Simulated seconds from one row of each node to the next.</summary>
+        internal double NodeInterval { get; }
+
+        /// <summary>When metrics have converged.</summary>
+        internal Convergence Convergence { get; }
+
+        /// <summary>Whether the run ends when all metrics of <see cref="Convergence"/> have converged.</summary>
+        internal bool StopWhenConverged { get; }
+
         internal bool Replay { get; }
 
         internal bool Pictures { get; }
@@ -115,12 +144,14 @@ namespace Collektive.Headless
         /// <param name="path">A scenario file, or the manifest of a run.</param>
         /// <param name="folder">Where relative paths start; null: at the file, and for a manifest where they did in its run.</param>
         /// <param name="trustsJvm">Whether the file's JVM settings may write files, open ports and load code.</param>
-        internal static Scenario Read(string path, string folder, bool trustsJvm)
+        /// <param name="assignments">Values that keys get instead of the file's; a manifest's run has none.</param>
+        internal static Scenario Read(string path, string folder, bool trustsJvm, params Assignment[] assignments)
         {
             var file = JsonFile.Read(path);
             path = FullPath(path);
             if (!(file.Root[FormerRun.ScenarioKey] is JObject run))
             {
+                foreach (var assignment in assignments) assignment.Apply(file.Root);
                 return new Scenario(file, path, file.Root, FullPath(folder ?? System.IO.Path.GetDirectoryName(path)), trustsJvm);
             }
             var former = new FormerRun(file, path);
@@ -144,6 +175,50 @@ namespace Collektive.Headless
             foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
             settings.runtimeJars = RuntimeJars;
             settings.runtimePlugin = RuntimePlugin;
+            foreach (var parameters in Settings.ProgramParameters) settings.ProgramParameters.Add(parameters.Key, parameters.Value);
+        }
+
+        private void ReadParameters(JsonFile file, JObject programs)
+        {
+            foreach (var program in programs.Properties())
+            {
+                var values = new List<NodeParameter>();
+                var key = "parameters." + program.Name;
+                foreach (var value in ((JObject)file.Convert(program.Value, typeof(JObject), key)).Properties())
+                {
+                    var type = value.Value.Type == JTokenType.Boolean ? typeof(bool) : value.Value.Type == JTokenType.Integer ? typeof(long)
+                        : value.Value.Type == JTokenType.Float ? typeof(double) : typeof(string);
+                    values.Add(new NodeParameter(value.Name, ProgramText(file.Convert(value.Value, type, key + "." + value.Name))));
+                }
+                Settings.ProgramParameters.Add(program.Name, values);
+            }
+        }
+
+        /// <summary>A value as programs read it.</summary>
+        private static string ProgramText(object value) =>
+            value is bool truth ? truth ? "true" : "false" : value is double number ? number.ToString("R", System.Globalization.CultureInfo.InvariantCulture)
+                : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
+
+        private JObject ParametersToJson()
+        {
+            var programs = new JObject();
+            foreach (var program in Settings.ProgramParameters)
+            {
+                var values = new JObject();
+                foreach (var parameter in program.Value) values.Add(parameter.name, parameter.value);
+                programs.Add(program.Key, values);
+            }
+            return programs;
+        }
+
+        private double ReadInterval(JsonFile file, JObject part, string place)
+        {
+            var interval = file.Optional(part, "interval", System.Math.Max(1.0, Settings.deltaTime));
+            // Of a delta time of 0.1f, 0.1 is a little less.
+            if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks) return interval;
+            throw file.Error(
+                part["interval"] ?? root,
+                "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds that is not below 'deltaTime', " + Text(Settings.deltaTime));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -157,11 +232,16 @@ namespace Collektive.Headless
                 new JProperty("scripts", root["scripts"]),
                 new JProperty("schema", root["schema"]),
                 new JProperty("programs", root["programs"]),
+                new JProperty("parameters", ParametersToJson()),
                 new JProperty("fields", fields),
                 new JProperty("seconds", Seconds),
+                new JProperty("converged", Convergence.ToJson()),
+                new JProperty("stopWhenConverged", StopWhenConverged),
                 new JProperty("jvm", jvm),
                 new JProperty("outputs", new JObject(
                     new JProperty("metrics", Metrics),
+                    new JProperty("interval", Interval),
+                    new JProperty("nodes", new JObject(new JProperty("fields", new JArray(NodeFields)), new JProperty("interval", NodeInterval))),
                     new JProperty("replay", Replay),
                     new JProperty("pictures", Pictures),
                     new JProperty("record", Record))));

@@ -18,7 +18,9 @@ namespace Collektive.Headless
     {
         private readonly Scenario scenario;
         private readonly Options options;
-        private readonly Interrupt interrupt = new Interrupt();
+        private readonly Interrupt interrupt;
+        private readonly DateTime began;
+        private readonly ulong callsBefore = Jvm.StepCalls;
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
         private readonly List<double> roundTimes = new List<double>();
@@ -27,11 +29,14 @@ namespace Collektive.Headless
         private MetricsTable metrics;
         private int done;
 
-        internal ScenarioRun(Scenario scenario, Options options)
+        /// <param name="began">When the run began; by default, when the process did.</param>
+        internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? began = null)
         {
             this.scenario = scenario;
             this.options = options;
-            if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count > 0))
+            this.interrupt = interrupt;
+            this.began = began ?? Process.GetCurrentProcess().StartTime;
+            if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
                 throw new ScenarioException(scenario.Path
                     + ": a manifest's run is repeated as it was: leave out --seed, --seconds and --set, or run its scenario");
@@ -70,6 +75,23 @@ namespace Collektive.Headless
             }
         }
 
+        /// <summary>
+        /// Throws a <see cref="ScenarioException"/> for what is wrong with a scenario and with its scene's fields. Nothing is built or started.
+        /// </summary>
+        /// <returns>Names of the scene's metrics.</returns>
+        internal static IReadOnlyList<string> Check(Scenario scenario, Options options)
+        {
+            var run = new ScenarioRun(scenario, options, null);
+            run.FindProblem(scenario.Settings);
+            return run.AddScene(new GameObject("Scene")).MetricNames;
+        }
+
+        private void FindProblem(SimulationSettings settings)
+        {
+            var problem = settings.FindProblem();
+            if (problem != null) throw new ScenarioException(scenario.Path + ": " + problem);
+        }
+
         private SimulationManager MakeManager()
         {
             var manager = new GameObject("Simulation Manager").AddComponent<SimulationManager>();
@@ -80,8 +102,7 @@ namespace Collektive.Headless
             if (scenario.Record) settings.record = Path.Combine(options.Out, "run.clkrec");
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = scenario.Jvm;
-            var problem = settings.FindProblem();
-            if (problem != null) throw new ScenarioException(scenario.Path + ": " + problem);
+            FindProblem(settings);
             manager.enabled = true;
             // Subscribed before the scene's handlers, which may throw.
             manager.Ticked += Count;
@@ -90,13 +111,25 @@ namespace Collektive.Headless
 
         private void Count(SimulationManager manager)
         {
-            if (++done == 1) firstTick = DateTime.Now - Process.GetCurrentProcess().StartTime;
+            if (++done == 1) firstTick = DateTime.Now - began;
             metrics.Add(manager.Times, manager.Network);
             stepTimes.Add(manager.Times.Step);
             roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
         }
 
         private SceneBuilder MakeScene(SimulationManager manager)
+        {
+            var holder = new GameObject("Scene");
+            var scene = AddScene(holder);
+            manifest = new Manifest(scenario, options, SceneFields.Get(scene));
+            scenario.Former?.TellDifferences(manifest, "inputs");
+            holder.SetActive(true);
+            if (manager.Failure.Length > 0) throw new ScenarioException(manager.Failure);
+            return scene;
+        }
+
+        /// <summary>Adds the scene builder to an object, which it leaves inactive: nothing is built yet.</summary>
+        private SceneBuilder AddScene(GameObject holder)
         {
             var type = Assembly.LoadFrom(options.Scripts).GetType(scenario.Scene);
             if (type == null || !typeof(SceneBuilder).IsAssignableFrom(type) || type.IsAbstract)
@@ -105,14 +138,11 @@ namespace Collektive.Headless
                     scenario.Path + ": 'scene' names '" + scenario.Scene + "': there must be a class of that full name in " + scenario.Scripts
                         + " that derives from SceneBuilder");
             }
-            var holder = new GameObject(type.Name);
+            holder.name = type.Name;
             holder.SetActive(false);
             var scene = (SceneBuilder)holder.AddComponent(type);
-            SceneFields.Set(scene, scenario, options.Assignments);
-            manifest = new Manifest(scenario, options, SceneFields.Get(scene));
-            scenario.Former?.TellDifferences(manifest, "inputs");
-            holder.SetActive(true);
-            if (manager.Failure.Length > 0) throw new ScenarioException(manager.Failure);
+            SceneFields.Set(scene, scenario, options.FieldAssignments);
+            scenario.Convergence.Bind(scene.MetricNames);
             return scene;
         }
 
@@ -126,14 +156,18 @@ namespace Collektive.Headless
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
+            using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
             using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)
             {
-                metrics.EndSecond(0, 0);
+                metrics.EndInterval(0, 0);
+                scenario.Convergence.Add(0, metrics.Values);
+                nodes?.Add(0);
                 var start = new List<double>(metrics.Values);
                 replay?.Add(0);
-                var second = 0;
+                var rows = 1;
+                var nodeRows = 1;
                 var ended = Stopwatch.GetTimestamp();
-                for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished; frame++)
+                for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
                     var before = done;
                     Loop.Frame(scenario.Settings.deltaTime);
@@ -146,19 +180,25 @@ namespace Collektive.Headless
                     }
                     if (stopsAtFailures && manager.Simulation.NoRoundWorked)
                         throw new ScenarioException("stopped at tick " + done + ": all its rounds failed; the messages are above (--keep-going goes on)");
-                    parameters = parameters ?? ParameterValues.Of(manager);
+                    parameters = parameters ?? ProgramsWithParameters(manager);
                     replay?.Add(manager.SimulatedTime);
                     var now = Stopwatch.GetTimestamp();
                     totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
                     ended = now;
                     metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
-                    if (manager.SimulatedTime >= second + 1 - 1e-6) metrics.EndSecond(++second, manager.LinkCount);
-                    if (progress.Due || frame == ticks) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
+                    if (manager.SimulatedTime >= rows * scenario.Interval - 1e-6)
+                    {
+                        metrics.EndInterval(rows * scenario.Interval, manager.LinkCount);
+                        scenario.Convergence.Add(rows++ * scenario.Interval, metrics.Values);
+                    }
+                    if (nodes != null && manager.SimulatedTime >= nodeRows * scenario.NodeInterval - 1e-6) nodes.Add(nodeRows++ * scenario.NodeInterval);
+                    if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
                 }
                 progress.End();
                 scene.Measure((double[])metrics.Values);
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
-                manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds);
+                manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                manifest.AddConvergence(scenario.Convergence.Times());
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
                 if (replay != null) manifest.AddReplay(replay.Milliseconds);
@@ -170,7 +210,7 @@ namespace Collektive.Headless
                 manifest.Outcome = "interrupted";
                 return interrupt.ExitCode;
             }
-            if (done < ticks && !manager.Finished && !Loop.QuitRequested)
+            if (done < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
             {
                 var problem = done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager";
                 Console.Error.WriteLine("collektive: " + problem + "; end a run with Application.Quit or a stop condition");
@@ -184,6 +224,26 @@ namespace Collektive.Headless
             Console.Error.WriteLine(
                 "collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");
             return 1;
+        }
+
+        /// <summary>Whether the scenario ends now, since all has converged.</summary>
+        private bool HasConverged => scenario.StopWhenConverged && scenario.Convergence.IsComplete;
+
+        private JObject ProgramsWithParameters(SimulationManager manager)
+        {
+            foreach (var program in scenario.Settings.ProgramParameters)
+            {
+                var names = new List<string>();
+                ProgramInfo found = null;
+                foreach (var known in manager.Programs)
+                {
+                    names.Add(known.Name);
+                    if (known.Name == program.Key) found = known;
+                }
+                if (found == null)
+                    throw new ScenarioException("'parameters." + program.Key + "': there is no program of that name; there are: " + string.Join(", ", names));
+            }
+            return ParameterValues.Of(manager);
         }
 
         private static string Text(SceneBuilder scene, MetricsTable metrics)

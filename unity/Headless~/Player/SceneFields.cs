@@ -34,7 +34,6 @@ namespace Collektive.Headless
             foreach (var assignment in assignments)
             {
                 var equals = assignment.IndexOf('=');
-                if (equals <= 0) throw new ScenarioException("--set " + assignment + ": write it as --set FIELD=VALUE");
                 var field = Find(builder, assignment.Substring(0, equals));
                 field.SetValue(builder, Value(scenario.File, Token(assignment.Substring(equals + 1), field), field));
             }

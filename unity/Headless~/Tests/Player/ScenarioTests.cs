@@ -72,6 +72,65 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Assert.Throws<ScenarioException>(() => Read(root)).Message, Is.StringContaining(message));
         }
 
+        [TestCase("parameters", "{\"p\": 3}", "'parameters.p' is 3, it must be of type object")]
+        [TestCase("parameters", "{\"p\": {\"width\": [1]}}", "'parameters.p.width' is [1], it must be of type string")]
+        [TestCase("converged", "{\"error\": {\"seconds\": 1}}", "'converged.error' needs 'from', 'to' or both")]
+        [TestCase("converged", "{\"error\": {\"from\": 2, \"to\": 1}}", "'converged.error' has a 'from' that is above its 'to'")]
+        [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
+        [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is not below 'deltaTime'")]
+        [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
+        public void So_is_what_is_wrong_with_the_keys_of_experiments(string key, string value, string message) =>
+            What_is_wrong_is_named_with_its_place(key, value, message);
+
+        [Test]
+        public void Each_key_can_be_set_from_outside()
+        {
+            var root = Minimal();
+            root["network"] = JObject.Parse("{\"loss\": 0.5, \"delay\": 2}");
+            var scenario = Read(
+                root, "network.loss=0.25", "timing.period=0.5", "program=other", "parameters.a.b.width=3", "parameters.a.b.wide=true", "jvm.maximumHeapMb=100",
+                "outputs.interval=2", "seed=18446744073709551615");
+            Assert.That(scenario.Settings.network.loss, Is.EqualTo(0.25));
+            Assert.That(scenario.Settings.network.delay, Is.EqualTo(2));
+            Assert.That(scenario.Settings.timing.period, Is.EqualTo(0.5f));
+            Assert.That(scenario.Settings.program, Is.EqualTo("other"));
+            Assert.That(scenario.Settings.seed, Is.EqualTo(ulong.MaxValue));
+            Assert.That(scenario.Jvm.maximumHeapMb, Is.EqualTo(100));
+            Assert.That(scenario.Interval, Is.EqualTo(2));
+            var set = scenario.Settings.ProgramParameters["a.b"];
+            Assert.That(set.ConvertAll(parameter => parameter.name + "=" + parameter.value), Is.EqualTo(new[] { "width=3", "wide=true" }));
+        }
+
+        [TestCase("nodes=3", "nodes=3")]
+        [TestCase("fields.nodes=3", "nodes=3")]
+        public void A_name_that_is_no_key_is_a_field_of_the_scene(string text, string field)
+        {
+            Assert.That(Assignment.Parse(text, out var found), Is.Null);
+            Assert.That(found, Is.EqualTo(field));
+        }
+
+        [TestCase("network.los=1", "unknown key 'network.los'")]
+        [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is no object")]
+        [TestCase("threads=many", "'threads' is \"many\", it must be of type whole number")]
+        [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
+        public void What_is_wrong_from_outside_is_named(string assignment, string message) =>
+            Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal(), assignment)).Message, Is.StringContaining(message));
+
+        [TestCase(1, null)]
+        [TestCase(2, 3.0)]
+        public void A_metric_has_converged_when_it_stayed_in_its_band_for_long_enough(double to, double? expected)
+        {
+            var root = Minimal();
+            root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", to), new JProperty("seconds", 2))));
+            var convergence = Read(root).Convergence;
+            convergence.Bind(new[] { "other", "error" });
+            var values = new[] { 9.0, 2, 8, 1, 2, 1.5, 7 };
+            for (var i = 0; i < values.Length; i++) convergence.Add(i, new[] { 0, values[i] });
+            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
+            Assert.That(convergence.IsComplete, Is.EqualTo(expected != null));
+            Assert.That(Assert.Throws<ScenarioException>(() => convergence.Bind(new[] { "other" })).Message, Is.StringContaining("it has: other"));
+        }
+
         [TestCase("-Xmx1g")]
         [TestCase("-XX:+UseZGC")]
         [TestCase("-XX:-OmitStackTraceInFastThrow")]
@@ -160,11 +219,18 @@ namespace Collektive.Headless.Tests.Player
             return Read(root, trustsJvm);
         }
 
-        private Scenario Read(JObject root, bool trustsJvm = false)
+        private Scenario Read(JObject root, bool trustsJvm)
         {
             var path = Path.Combine(folder, "scenario.json");
             File.WriteAllText(path, root.ToString());
             return Scenario.Read(path, null, trustsJvm);
+        }
+
+        private Scenario Read(JObject root, params string[] assignments)
+        {
+            var path = Path.Combine(folder, "scenario.json");
+            File.WriteAllText(path, root.ToString());
+            return Scenario.Read(path, null, false, Array.ConvertAll(assignments, text => Assignment.Parse(text, out _)));
         }
 
         private static JObject Minimal() => JObject.Parse(

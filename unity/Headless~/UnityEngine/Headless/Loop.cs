@@ -14,6 +14,8 @@ namespace UnityEngine.Headless
         };
 
         static bool started;
+        static int searched;
+        static List<MethodInfo> found;
 
         /// What `Application.isEditor` says: whether the process goes on after `Quit`, as the editor does when play mode is left.
         public static bool IsEditor { get; set; }
@@ -116,10 +118,14 @@ namespace UnityEngine.Headless
             ExitCode = exitCode;
         }
 
-        /// Of the assemblies that use UnityEngine, by assembly name and place in the assembly, so that every run has one order.
+        /// Of the assemblies that use UnityEngine, by assembly name and place in the assembly, so that every run has one order. Looking through all types takes
+        /// as long as a short run, so what was found is kept until another assembly is loaded.
         static List<MethodInfo> InitializeMethods()
         {
-            var methods = new List<MethodInfo>();
+            var loaded = AppDomain.CurrentDomain.GetAssemblies().Length;
+            if (loaded == searched) return found;
+            searched = loaded;
+            var methods = found = new List<MethodInfo>();
             var engine = typeof(Loop).Assembly.GetName().Name;
             var assemblies = new List<Assembly>();
             foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())

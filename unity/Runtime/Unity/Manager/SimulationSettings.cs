@@ -91,6 +91,21 @@ namespace Collektive.Unity
         [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
+        /// <summary>By program, values of its parameters on nodes that have none of their own.</summary>
+        internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
+
+        /// <summary>The parameters that a node's program gets: the node's own, and those of the program that it has no value for.</summary>
+        internal List<NodeParameter> ParametersOf(Node node)
+        {
+            if (!ProgramParameters.TryGetValue(node.Program.Length > 0 ? node.Program : program, out var common)) return node.Parameters;
+            var all = new List<NodeParameter>(node.Parameters);
+            foreach (var parameter in common)
+            {
+                if (!node.Parameters.Exists(own => own.name == parameter.name)) all.Add(parameter);
+            }
+            return all;
+        }
+
         /// <summary>What of it the session's opening sends to the JVM.</summary>
         internal SessionSettings ToSession(DataSchema schema) => new SessionSettings
         {

@@ -109,11 +109,9 @@ namespace Collektive.Unity
 
         private static KeyValuePair<string, string>[] ParametersOf(Node node)
         {
-            var parameters = new KeyValuePair<string, string>[node.Parameters.Count];
-            for (var i = 0; i < parameters.Length; i++)
-            {
-                parameters[i] = new KeyValuePair<string, string>(node.Parameters[i].name, node.Parameters[i].value);
-            }
+            var values = node.Simulation.Settings.ParametersOf(node);
+            var parameters = new KeyValuePair<string, string>[values.Count];
+            for (var i = 0; i < parameters.Length; i++) parameters[i] = new KeyValuePair<string, string>(values[i].name, values[i].value);
             return parameters;
         }
 

@@ -1,0 +1,113 @@
+"""The commands ./collektive sweep and plot."""
+import argparse
+import json
+import os
+import sys
+from typing import NoReturn
+
+from . import experiment as experiments
+from .positions import ExperimentError
+from .slurm import run_task, write_job
+from .store import Store
+from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
+
+
+class Parser(argparse.ArgumentParser):
+    """Tells errors as the other commands do."""
+
+    def error(self, message: str) -> NoReturn:
+        """Ends the program."""
+        command = self.prog.split()[-1]
+        print(f"collektive: {command}: {message} (see ./collektive {command} --help)", file=sys.stderr)
+        sys.exit(1)
+
+
+def main(words: list[str]) -> int:
+    """Runs a command; returns the exit code."""
+    parser = Parser(prog="./collektive")
+    commands = parser.add_subparsers(dest="command", required=True)
+    sweeping = commands.add_parser("sweep")
+    sweeping.add_argument("experiment")
+    sweeping.add_argument("--out")
+    sweeping.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)))
+    sweeping.add_argument("--time-limit", type=_positive, default=3600)
+    for flag in ("--resume", "--csv", "--dry-run", "--trust-jvm"):
+        sweeping.add_argument(flag, action="store_true")
+    where = sweeping.add_mutually_exclusive_group()
+    where.add_argument("--ray", metavar="ADDRESS")
+    where.add_argument("--slurm", action="store_true")
+    task = commands.add_parser("task")
+    task.add_argument("folder")
+    task.add_argument("index", type=int)
+    plotting = commands.add_parser("plot")
+    plotting.add_argument("folder")
+    options = parser.parse_args(words)
+    try:
+        if options.command == "plot":
+            return _plot(options)
+        if options.command == "task":
+            return run_task(options.folder, options.index)
+        return _sweep(options)
+    except ExperimentError as error:
+        print(f"collektive: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("collektive: interrupted before the first run", file=sys.stderr)
+        return 130
+    except OSError as error:
+        print(f"collektive: a file could not be read or written: {error}", file=sys.stderr)
+        return 1
+
+
+def _sweep(options: argparse.Namespace) -> int:
+    experiment = experiments.read(options.experiment)
+    out = options.out or os.path.join("out", os.path.splitext(os.path.basename(options.experiment))[0])
+    if options.dry_run:
+        seconds = estimate(experiment, options.jobs, options.time_limit, options.trust_jvm)
+        print(f"{experiment.count} runs into {out}, {options.jobs} at once, about {duration(seconds)}")
+        for _, run in zip(range(5), experiment.runs()):
+            print("  " + run.name)
+        if experiment.count > 5:
+            print("  ...")
+        return 0
+    store, todo = begin(experiment, out, options.resume, options.trust_jvm)
+    if options.slurm and todo:
+        print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
+        return 0
+    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
+    print(os.path.join(out, "runs.parquet"))
+    print(os.path.join(out, "series.parquet"))
+    return code
+
+
+def _pool(options: argparse.Namespace, store: Store) -> Pool:
+    if options.ray is None:
+        return LocalPool(store, options.jobs, options.time_limit, options.trust_jvm)
+    # Ray is downloaded only for those who use it.
+    from .cluster import RayPool
+    return RayPool(store, options.ray, options.time_limit, options.trust_jvm)
+
+
+def _threads(experiment: experiments.Experiment) -> int:
+    """How many threads a run has at the most."""
+    with open(experiment.scenario) as file:
+        threads = json.load(file).get("threads", 1)
+    return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
+
+
+def _plot(options: argparse.Namespace) -> int:
+    # Matplotlib takes half a second that sweeps need not wait for.
+    from .figures import plot
+    for path in plot(options.folder):
+        print(path)
+    return 0
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no whole number above 0")
+    return int(text)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,135 @@
+"""Runs of a sweep on a Ray cluster. Each worker of ours is an actor; the bundle and this package travel as Ray's runtime environment."""
+import io
+import logging
+import os
+import queue
+import tarfile
+import tempfile
+import threading
+import time
+from collections import deque
+from typing import Any
+
+import ray
+
+from .positions import ExperimentError
+from .store import Store
+from .sweep import Ended, Task
+from .worker import Outcome, Worker, WorkerError
+
+MAX_LOSSES = 3
+"""How many workers a run may lose: then it is the run that ends them."""
+WAIT_SECONDS = 0.5
+
+
+def connect(address: str, bundle: str) -> None:
+    """Joins the cluster; `auto` is the one that runs here, or else one that is started for the sweep."""
+    environment = {"working_dir": bundle, "py_modules": [os.path.dirname(os.path.abspath(__file__))]}
+    try:
+        ray.init(address=address, runtime_env=environment, log_to_driver=False, logging_level=logging.ERROR)
+    except ConnectionError as error:
+        if address != "auto":
+            raise ExperimentError(f"there is no Ray cluster at {address}: {error}") from error
+        ray.init(runtime_env=environment, include_dashboard=False, log_to_driver=False, logging_level=logging.ERROR)
+
+
+@ray.remote(num_cpus=1, max_restarts=0)
+class _RemoteWorker:
+    """A worker on some node. Ray has put the bundle into its current folder."""
+
+    def __init__(self, trust: bool):
+        self._folder = tempfile.TemporaryDirectory(prefix="collektive-")
+        self._worker = Worker(os.getcwd(), os.path.join(self._folder.name, "worker.txt"), trust)
+        self._count = 0
+
+    def run(self, settings: dict[str, Any], jvm: str, limit: float) -> tuple[Outcome, float, bytes]:
+        """How the run ended, its seconds, and its folder as a tar."""
+        self._count += 1
+        out = os.path.join(self._folder.name, str(self._count))
+        os.mkdir(out)
+        began = time.monotonic()
+        outcome = self._worker.run(settings, jvm, out, limit)
+        seconds = time.monotonic() - began
+        packed = io.BytesIO()
+        with tarfile.open(fileobj=packed, mode="w:gz") as tar:
+            tar.add(out, ".")
+        return outcome, seconds, packed.getvalue()
+
+
+# Ray's decorator gives a class that type checkers do not know.
+RemoteWorker: Any = _RemoteWorker
+
+
+class RayPool:
+    """Workers on all processors of a cluster. A run whose worker vanishes is given to another; only the result that arrives counts."""
+
+    def __init__(self, store: Store, address: str, limit: float, trust: bool):
+        connect(address, os.path.abspath(store.bundle))
+        self._store, self._limit, self._trust = store, limit, trust
+        self._thread = threading.Thread(target=self._work)
+        self._stopped = False
+        self._tasks: deque[Task] = deque()
+        self._losses: dict[int, int] = {}
+
+    def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        """Begins with the runs, those with the same JVM after each other."""
+        self._ended = ended
+        self._tasks.extend(sorted(tasks, key=lambda task: task[1].jvm))
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Ends the runs at hand, and leaves the cluster."""
+        self._stopped = True
+        if self._thread.is_alive():
+            self._thread.join()
+        ray.shutdown()
+
+    def _work(self) -> None:
+        try:
+            idle: list[Any] = []
+            running: dict[Any, tuple[Any, Task]] = {}
+            while (self._tasks or running) and not self._stopped:
+                # Nodes may join and leave.
+                processors = int(ray.cluster_resources().get("CPU", 1))  # type: ignore[no-untyped-call]
+                wanted = min(processors, len(self._tasks) + len(running))
+                while len(running) + len(idle) < wanted:
+                    idle.append(RemoteWorker.remote(self._trust))
+                while idle and self._tasks:
+                    worker, task = idle.pop(), self._tasks.popleft()
+                    running[worker.run.remote(task[1].settings, task[1].jvm, self._limit)] = worker, task
+                # A worker that was asked for may wait for the processor of one that has nothing to do, when a node is lost.
+                while idle:
+                    ray.kill(idle.pop())
+                done, _ = ray.wait(list(running), timeout=WAIT_SECONDS)
+                for reference in done:
+                    worker, task = running.pop(reference)
+                    if self._take(reference, task):
+                        idle.append(worker)
+        except BaseException as error:
+            self._ended.put(error)
+
+    def _take(self, reference: Any, task: Task) -> bool:
+        """Takes a result; returns whether its worker is still there."""
+        number, _ = task
+        try:
+            outcome, seconds, packed = ray.get(reference)
+        except (ray.exceptions.RayActorError, ray.exceptions.ObjectLostError):
+            self._losses[number] = self._losses.get(number, 0) + 1
+            if self._losses[number] < MAX_LOSSES:
+                self._tasks.appendleft(task)
+                return False
+            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers vanished during the run"), 0.0, b""
+            self._finish(number, task, outcome, seconds, packed)
+            return False
+        except ray.exceptions.RayTaskError as error:
+            raise WorkerError(str(error.cause)) from error
+        self._finish(number, task, outcome, seconds, packed)
+        return True
+
+    def _finish(self, number: int, task: Task, outcome: Outcome, seconds: float, packed: bytes) -> None:
+        place = self._store.place(task[1])
+        if packed:
+            with tarfile.open(fileobj=io.BytesIO(packed)) as tar:
+                tar.extractall(place, filter="data")
+        self._store.finish(task[1], number, outcome, seconds)
+        self._ended.put((number, task[1], outcome, seconds))

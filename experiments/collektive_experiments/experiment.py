@@ -1,0 +1,205 @@
+"""Experiment files: a scenario, the keys that vary, and what is measured."""
+import hashlib
+import itertools
+import json
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from .positions import ExperimentError, Located
+
+KEYS = ("version", "scenario", "vary", "zip", "set", "measure")
+VERSION = 1
+MAX_RUNS = 100_000
+MAX_NAME = 180
+"""Bytes of a folder's name: file systems allow 255."""
+FIXED = ("version", "scene", "scripts", "schema", "programs", "runtime", "runtimeJars", "runtimePlugin")
+"""Keys that decide what is compiled, which is done once for all runs."""
+NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
+RANGE = re.compile(r"(-?\d+)-(-?\d+)(?::(\d+))?")
+
+Values = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of an experiment."""
+    name: str
+    """Of its folder: the values of the keys that vary."""
+    values: Values = field(hash=False)
+    """These, by key."""
+    settings: Values = field(hash=False)
+    """All keys that the run sets."""
+
+    @property
+    def jvm(self) -> str:
+        """The settings of its JVM: a process starts one JVM."""
+        return json.dumps({key: value for key, value in self.settings.items() if key == "jvm" or key.startswith("jvm.")}, sort_keys=True)
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """An experiment file that was checked."""
+    path: str
+    scenario: str
+    """Path of the scenario file."""
+    product: list[tuple[str, list[Any]]]
+    """Keys that vary with all values of the others."""
+    together: list[tuple[str, list[Any]]]
+    """Keys that vary together."""
+    fixed: Values
+    """Keys that are the same in all runs."""
+    measure: dict[str, str]
+    """Units of the metrics in tables and figures, in order; none: all metrics of the scene."""
+    located: Located = field(repr=False)
+
+    @property
+    def keys(self) -> list[str]:
+        """The keys that vary."""
+        return [key for key, _ in self.product + self.together]
+
+    @property
+    def count(self) -> int:
+        """How many runs there are."""
+        count = len(self.together[0][1]) if self.together else 1
+        for _, values in self.product:
+            count *= len(values)
+        return count
+
+    def runs(self) -> Iterator[Run]:
+        """All runs in the order of the file, the last key the fastest."""
+        rows = [dict(zip([key for key, _ in self.together], row)) for row in zip(*(values for _, values in self.together))] or [{}]
+        for chosen in itertools.product(*(values for _, values in self.product)):
+            for row in rows:
+                values = {**dict(zip([key for key, _ in self.product], chosen)), **row}
+                yield Run(name_of(values), values, {**self.fixed, **values})
+
+
+def name_of(values: Values) -> str:
+    """The name of a run's folder."""
+    name = ",".join(f"{key}={text(value)}" for key, value in values.items()) or "run"
+    name = re.sub(r"[^A-Za-z0-9._+,=-]", "_", name)
+    if len(name) <= MAX_NAME:
+        return name
+    return name[:MAX_NAME - 13] + "," + hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:12]
+
+
+def text(value: Any) -> str:
+    """A value in names and legends."""
+    if isinstance(value, list):
+        return "_".join(map(text, value))
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def read(path: str) -> Experiment:
+    """Reads an experiment file strictly. Raises `ExperimentError` with the line of what is wrong."""
+    located = Located(path)
+    root = located.root
+    if not isinstance(root, dict):
+        raise located.error("the file must hold one JSON object")
+    for key in root:
+        if key not in KEYS:
+            raise located.error(f"unknown key '{key}'; known here: {', '.join(KEYS)}", key)
+    for key, kind, name in (("version", int, "a whole number"), ("scenario", str, "a string"), ("vary", dict, "an object"), ("zip", dict, "an object"),
+                            ("set", dict, "an object")):
+        if key in root and (not isinstance(root[key], kind) or isinstance(root[key], bool)):
+            raise located.error(f"'{key}' is {json.dumps(root[key])}, it must be {name}", key)
+    for key in ("version", "scenario"):
+        if key not in root:
+            raise located.error(f"the key '{key}' is missing")
+    if root["version"] != VERSION:
+        raise located.error(f"version {root['version']} is not known; this program reads version {VERSION}", "version")
+    scenario = os.path.join(os.path.dirname(path), root["scenario"])
+    if not os.path.isfile(scenario):
+        raise located.error(f"'scenario' names no file: {scenario}", "scenario")
+    experiment = Experiment(path, scenario, _varied(located, "vary"), _varied(located, "zip"), _fixed(located), _measure(located), located)
+    _check(experiment)
+    return experiment
+
+
+def _varied(located: Located, part: str) -> list[tuple[str, list[Any]]]:
+    varied = []
+    for key, values in located.root.get(part, {}).items():
+        _refuse_fixed(located, part, key)
+        if isinstance(values, str):
+            values = _range(located, part, key, values)
+        if not isinstance(values, list):
+            raise located.error(f"'{part}.{key}' is {json.dumps(values)}, it must be a list or a range, like \"1-20\"", part, key)
+        if not values:
+            raise located.error(f"'{part}.{key}' is an empty list: there would be no run", part, key)
+        for index, value in enumerate(values):
+            numbers = isinstance(value, list) and value and all(isinstance(number, (int, float)) and not isinstance(number, bool) for number in value)
+            if not numbers and not isinstance(value, (str, int, float, bool)):
+                raise located.error(f"'{part}.{key}[{index}]' is {json.dumps(value)}, it must be a number, a string, true, false or a list of numbers",
+                                    part, key, index)
+        varied.append((key, values))
+    return varied
+
+
+def _range(located: Located, part: str, key: str, range_text: str) -> list[int]:
+    match = RANGE.fullmatch(range_text)
+    if not match:
+        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}, which is no range: write \"1-20\", or \"0-100:10\" for every tenth", part, key)
+    first, last, step = int(match[1]), int(match[2]), int(match[3] or 1)
+    if first > last or step == 0:
+        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}: there would be no run", part, key)
+    if (last - first) // step >= MAX_RUNS:
+        raise located.error(f"'{part}.{key}' has {(last - first) // step + 1:,} values: a sweep has at most {MAX_RUNS:,} runs", part, key)
+    return list(range(first, last + 1, step))
+
+
+def _fixed(located: Located) -> Values:
+    for key in located.root.get("set", {}):
+        _refuse_fixed(located, "set", key)
+    return dict(located.root.get("set", {}))
+
+
+def _refuse_fixed(located: Located, part: str, key: str) -> None:
+    if key.split(".")[0] in FIXED:
+        raise located.error(f"'{key}' is the same for all runs, which are compiled once: write it in the scenario", part, key)
+    if key in NOT_FOR_RUNS or key == "outputs":
+        raise located.error(f"'{key}' is not for sweeps, whose runs write metrics and no pages", part, key)
+
+
+def _measure(located: Located) -> dict[str, str]:
+    measure = located.root.get("measure", {})
+    if isinstance(measure, list) and measure and all(isinstance(name, str) for name in measure):
+        return dict.fromkeys(measure, "")
+    if isinstance(measure, dict) and all(isinstance(unit, str) for unit in measure.values()):
+        return dict(measure)
+    raise located.error("'measure' must be a list of metrics' names, or an object with the unit of each", "measure")
+
+
+def _check(experiment: Experiment) -> None:
+    located = experiment.located
+    seen: dict[str, str] = {}
+    for part in ("vary", "zip", "set"):
+        for key in located.root.get(part, {}):
+            if key in seen:
+                raise located.error(f"'{key}' is in '{seen[key]}', too", part, key)
+            seen[key] = part
+    for key, values in experiment.together:
+        first = experiment.together[0]
+        if len(values) != len(first[1]):
+            raise located.error(f"'zip.{key}' has {len(values)} values and 'zip.{first[0]}' has {len(first[1])}: keys of 'zip' vary together", "zip", key)
+    if experiment.count > MAX_RUNS:
+        raise located.error(f"these are {experiment.count:,} runs: a sweep has at most {MAX_RUNS:,}", "vary")
+    for key, values in experiment.product:
+        _refuse_twins(located, "vary", key, [name_of({key: value}) for value in values])
+    if experiment.together:
+        keys = [key for key, _ in experiment.together]
+        rows = [name_of(dict(zip(keys, row))) for row in zip(*(values for _, values in experiment.together))]
+        _refuse_twins(located, "zip", keys[0], rows)
+
+
+def _refuse_twins(located: Located, part: str, key: str, names: list[str]) -> None:
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise located.error(f"two runs would have one name: '{name}' comes twice", part, key, index)
+
+
+__all__ = ["Experiment", "ExperimentError", "Run", "read"]

@@ -1,0 +1,103 @@
+"""The tables of a sweep, for notebooks and figures."""
+import itertools
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from .experiment import text
+from .store import Store
+
+RESAMPLES = 2000
+"""Bootstrap samples: an interval's ends then repeat to about a fortieth of its length."""
+
+
+@dataclass(frozen=True)
+class Results:
+    """What `load` has read."""
+    runs: pd.DataFrame
+    """A row for each run: parameters, `seed`, `status`, `digest`, metrics at the end, times, versions."""
+    series: pd.DataFrame
+    """A row for each complete run and interval of metrics (by default a simulated second)."""
+    keys: list[str]
+    """The keys that vary."""
+    units: dict[str, str]
+    """Units of the metrics that the experiment file measures; empty if it names none."""
+
+    @property
+    def configuration(self) -> list[str]:
+        """The keys that tell configurations apart: all but the seed. Runs that differ in nothing else are repetitions."""
+        return [key for key in self.keys if key != "seed"]
+
+    @property
+    def metrics(self) -> list[str]:
+        """The metrics of the scene."""
+        if self.units:
+            return list(self.units)
+        columns = list(self.series.columns)
+        return columns[columns.index("second") + 1:columns.index("links")]
+
+    @property
+    def complete(self) -> pd.DataFrame:
+        """The runs that are complete."""
+        return self.runs[self.runs["status"] == "complete"]
+
+
+def load(folder: str) -> Results:
+    """Reads the tables of a sweep's folder."""
+    asked = Store(folder).asked()
+    return Results(pd.read_parquet(f"{folder}/runs.parquet"), pd.read_parquet(f"{folder}/series.parquet"), asked["keys"], asked["measure"])
+
+
+def interval(values: np.ndarray, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:
+    """
+    A percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The resampling starts from a fixed seed:
+    the same values give the same interval. Not a number for fewer than two values.
+    """
+    if len(values) < 2:
+        return float("nan"), float("nan")
+    random = np.random.default_rng(0)
+    estimates = statistic(values[random.integers(0, len(values), (RESAMPLES, len(values)))], axis=1)
+    low, high = np.quantile(estimates, [(1 - confidence) / 2, (1 + confidence) / 2])
+    return float(low), float(high)
+
+
+def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
+    """
+    Compares the end values of a metric, or any other number of the runs' table, between each two values of a key, for each combination of
+    the other keys. A row has both means, `difference` of the means with the 95 % bootstrap interval `difference_low` to `difference_high`, and
+    Cliff's `delta` with its interval: the probability that a run of `b` has the greater value, less the probability that it has the smaller
+    one; -1 to 1, 0 for no effect. `p` is that of a permutation test of the difference. Runs without a value do not count: see `n_a` and `n_b`.
+    """
+    rows = []
+    others = [key for key in results.configuration if key != by]
+    groups = results.complete.groupby(others, sort=False, dropna=False) if others else [((), results.complete)]
+    for place, group in groups:
+        samples = {value: part[metric].dropna().to_numpy(float) for value, part in group.groupby(by, sort=False)}
+        for first, second in itertools.combinations(samples, 2):
+            a, b = samples[first], samples[second]
+            rows.append({**dict(zip(others, place)), "a": first, "b": second, "n_a": len(a), "n_b": len(b), **_effect(a, b)})
+    return pd.DataFrame(rows)
+
+
+def _effect(a: np.ndarray, b: np.ndarray) -> dict[str, float]:
+    names = ("mean_a", "mean_b", "difference", "difference_low", "difference_high", "delta", "delta_low", "delta_high", "p")
+    if len(a) < 2 or len(b) < 2:
+        return dict.fromkeys(names, float("nan"))
+    random = np.random.default_rng(0)
+    samples_a = a[random.integers(0, len(a), (RESAMPLES, len(a)))]
+    samples_b = b[random.integers(0, len(b), (RESAMPLES, len(b)))]
+    differences = np.quantile(samples_b.mean(axis=1) - samples_a.mean(axis=1), [0.025, 0.975])
+    deltas = np.quantile(np.sign(samples_b[:, None, :] - samples_a[:, :, None]).mean(axis=(1, 2)), [0.025, 0.975])
+    difference = b.mean() - a.mean()
+    both = np.concatenate([a, b])
+    shuffled = random.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
+    extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - 1e-12
+    values = (a.mean(), b.mean(), difference, *differences, np.sign(b[None, :] - a[:, None]).mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
+    return dict(zip(names, map(float, values)))
+
+
+def label(values: tuple[Any, ...], keys: list[str]) -> str:
+    """A configuration in titles: the last part of each key and its value."""
+    return ", ".join(f"{key.split('.')[-1]} {text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(keys, values))

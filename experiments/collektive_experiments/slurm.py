@@ -1,0 +1,66 @@
+"""A sweep as an array job of Slurm: its tasks share the sweep's folder."""
+import json
+import os
+import shlex
+import sys
+import time
+
+from .experiment import Run
+from .store import Store, write
+from .sweep import Task
+from .worker import Worker
+
+MAX_TASKS = 1000
+"""Slurm's usual limit for the size of an array is 1001."""
+SCRIPT = """#!/usr/bin/env bash
+# Runs {count} runs of a sweep: sbatch {path}
+# Then ./collektive sweep EXPERIMENT --out {folder} --resume makes the tables, or runs what is missing.
+#SBATCH --job-name={name}
+#SBATCH --array=0-{last}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={threads}
+#SBATCH --output={folder}/logs/slurm-%a.txt
+set -euo pipefail
+export PYTHONPATH={package}
+exec {python} -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK_ID:?run this with sbatch}}"
+"""
+
+
+def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust: bool) -> str:
+    """Writes `tasks.json` and `slurm.sh` into the sweep's folder; returns the path of the script."""
+    folder = os.path.abspath(store.folder)
+    size = -(-len(todo) // MAX_TASKS)
+    chunks = [todo[start:start + size] for start in range(0, len(todo), size)]
+    tasks = {"limit": limit, "trust": trust,
+             "tasks": [[{"number": number, "name": run.name, "values": run.values, "settings": run.settings} for number, run in chunk] for chunk in chunks]}
+    write(os.path.join(folder, "tasks.json"), json.dumps(tasks) + "\n")
+    path = os.path.join(folder, "slurm.sh")
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    write(path, SCRIPT.format(
+        count=len(todo), path=shlex.quote(path), folder=shlex.quote(folder), name="collektive-" + "".join(c for c in os.path.basename(folder) if c.isalnum()),
+        last=len(chunks) - 1, threads=threads, package=shlex.quote(package), python=shlex.quote(sys.executable)))
+    os.chmod(path, 0o755)
+    return path
+
+
+def run_task(folder: str, index: int) -> int:
+    """Runs the runs of one task that are not complete; returns the exit code."""
+    store = Store(folder)
+    with open(os.path.join(folder, "tasks.json")) as file:
+        job = json.load(file)
+    worker = Worker(store.bundle, os.path.join(folder, "logs", f"task-{index}.txt"), job["trust"])
+    failed = False
+    try:
+        for task in job["tasks"][index]:
+            run = Run(task["name"], task["values"], task["settings"])
+            if store.is_complete(run):
+                continue
+            began = time.monotonic()
+            outcome = worker.run(run.settings, run.jvm, store.place(run), job["limit"])
+            store.finish(run, task["number"], outcome, time.monotonic() - began)
+            if outcome.status != "complete":
+                failed = True
+                print(f"{run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
+    finally:
+        worker.stop()
+    return 1 if failed else 0

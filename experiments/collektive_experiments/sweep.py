@@ -1,0 +1,243 @@
+"""Runs an experiment: local workers, one progress line, tables at the end."""
+import os
+import queue
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import time
+from collections import deque
+from collections.abc import Iterable
+from typing import Protocol
+
+from . import tables
+from .bundle import prepare
+from .experiment import Experiment, Run
+from .positions import ExperimentError
+from .store import Store
+from .worker import Outcome, Worker, WorkerError
+
+LEAST_ROOM = 1 << 20
+"""Bytes that a disk must have left for the next run."""
+
+Task = tuple[int, Run]
+Ended = tuple[int, Run, Outcome, float]
+
+
+class Pool(Protocol):
+    """Does runs; each that ends is put into a queue, with the results in its place in the store."""
+
+    def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        """Begins with the runs, in order."""
+
+    def stop(self) -> None:
+        """Ends the runs at hand."""
+
+
+class LocalPool:
+    """Workers of this machine, each with a process of its own."""
+
+    def __init__(self, store: Store, jobs: int, limit: float, trust: bool):
+        self._store = store
+        self._limit = limit
+        logs = os.path.join(store.folder, "logs")
+        os.makedirs(logs, exist_ok=True)
+        self._workers = [Worker(store.bundle, os.path.join(logs, f"worker-{index + 1}.txt"), trust) for index in range(jobs)]
+        self._tasks: deque[Task] = deque()
+        self._threads: list[threading.Thread] = []
+        self._stopped = False
+
+    def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        """Begins with the runs, those with the same JVM after each other."""
+        self._tasks.extend(sorted(tasks, key=lambda task: task[1].jvm))
+        self._threads = [threading.Thread(target=self._work, args=(worker, ended)) for worker in self._workers]
+        for thread in self._threads:
+            thread.start()
+
+    def stop(self) -> None:
+        """Ends the runs at hand, and the workers."""
+        self._stopped = True
+        for worker in self._workers:
+            worker.kill()
+        for thread in self._threads:
+            thread.join()
+
+    def _work(self, worker: Worker, ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        try:
+            while not self._stopped:
+                try:
+                    number, run = self._tasks.popleft()
+                except IndexError:
+                    break
+                began = time.monotonic()
+                outcome = worker.run(run.settings, run.jvm, self._store.place(run), self._limit)
+                if self._stopped:
+                    break
+                seconds = time.monotonic() - began
+                self._store.finish(run, number, outcome, seconds)
+                ended.put((number, run, outcome, seconds))
+        except BaseException as error:
+            ended.put(error)
+        finally:
+            worker.stop()
+
+
+def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[Store, list[Task]]:
+    """Makes the folder with all that runs need, checks the keys, and returns what is not done yet."""
+    store = Store(out)
+    store.open(experiment, resume)
+    prepare(experiment.scenario, store.bundle, trust)
+    _check_keys(experiment, store, trust)
+    todo = [(number, run) for number, run in enumerate(experiment.runs()) if not store.is_complete(run)]
+    if len(todo) < experiment.count:
+        print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are done already", file=sys.stderr)
+    return store, todo
+
+
+def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool) -> int:
+    """Runs what is not done yet. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
+    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
+    tables.write(store, with_csv)
+    return code
+
+
+def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
+    """About how many seconds the sweep takes, from two runs of it: the first and the one in the middle, the latter twice in one process."""
+    runs = list(experiment.runs())
+    with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
+        store, _ = begin(experiment, os.path.join(folder, "out"), False, trust)
+        worker = Worker(store.bundle, os.path.join(store.folder, "logs", "trial.txt"), trust)
+        seconds = []
+        for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
+            began = time.monotonic()
+            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit)
+            seconds.append(time.monotonic() - began)
+            if outcome.status != "complete":
+                print(f"collektive: {run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
+        worker.stop()
+    return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
+
+
+def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int) -> int:
+    ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
+    progress = Progress(experiment.count, done, jobs)
+    interrupted: list[int] = []
+    handlers = {number: signal.signal(number, lambda number, frame: interrupted.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
+    failed = 0
+    try:
+        pool.start(todo, ended)
+        left = len(todo)
+        while left and not interrupted:
+            try:
+                event = ended.get(timeout=0.2)
+            except queue.Empty:
+                progress.show()
+                continue
+            if isinstance(event, BaseException):
+                raise event
+            left -= 1
+            _, run, outcome, _ = event
+            if outcome.status != "complete":
+                failed += 1
+                progress.say(f"{run.name}: {outcome.status}: {outcome.message}")
+                _require_room(store)
+            progress.ended(outcome)
+    except (OSError, WorkerError) as error:
+        progress.end()
+        raise ExperimentError(f"the sweep stops: {error}; what is done is kept: go on with --resume") from error
+    finally:
+        pool.stop()
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+    progress.end()
+    if interrupted:
+        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are done: go on with --resume", file=sys.stderr)
+        return 128 + interrupted[0]
+    if failed:
+        print(f"collektive: {failed} of {experiment.count} runs are not complete; --resume runs these again", file=sys.stderr)
+    return 1 if failed else 0
+
+
+def _require_room(store: Store) -> None:
+    if shutil.disk_usage(store.folder).free < LEAST_ROOM:
+        raise OSError(f"the disk of '{store.folder}' is full")
+
+
+def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
+    """Asks the player about each value of each key, with the first values of the others."""
+    os.makedirs(os.path.join(store.folder, "logs"), exist_ok=True)
+    worker = Worker(store.bundle, os.path.join(store.folder, "logs", "check.txt"), trust)
+    located = experiment.located
+    try:
+        metrics: list[str] = []
+        base = {**experiment.fixed, **{key: values[0] for key, values in experiment.product + experiment.together}}
+        candidates: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = [
+            *((dict(list(experiment.fixed.items())[:count + 1]), ("set", key)) for count, key in enumerate(experiment.fixed)),
+            *(({**base, key: value}, (part, key, index)) for part, varied in (("vary", experiment.product), ("zip", experiment.together))
+              for key, values in varied for index, value in enumerate(_sample(values))),
+            (base, ())]
+        for settings, place in candidates:
+            problem, metrics = worker.check(settings)
+            if problem:
+                raise located.error(problem, *place)
+        for name in experiment.measure:
+            if name not in metrics:
+                raise located.error(f"the scene has no metric '{name}'; it has: {', '.join(metrics)}", "measure", name)
+    except WorkerError as error:
+        raise ExperimentError(str(error)) from error
+    finally:
+        worker.stop()
+
+
+def _sample(values: list[object]) -> list[object]:
+    """Ranges are of one kind: their ends tell as much as all of them."""
+    return values if len(values) <= 100 else [*values[:99], values[-1]]
+
+
+class Progress:
+    """One line on a terminal; elsewhere one every ten seconds."""
+
+    def __init__(self, total: int, done: int, jobs: int):
+        self.done = done
+        self._total, self._jobs = total, jobs
+        self._before = done
+        self._failed = 0
+        self._began = time.monotonic()
+        self._next = self._began + (0 if sys.stderr.isatty() else 10)
+
+    def ended(self, outcome: Outcome) -> None:
+        """Counts a run."""
+        self.done += outcome.status == "complete"
+        self._failed += outcome.status != "complete"
+        self.show()
+
+    def show(self, at_once: bool = False) -> None:
+        """Shows the line if it is time to."""
+        now = time.monotonic()
+        if now < self._next and not at_once:
+            return
+        self._next = now + (0.2 if sys.stderr.isatty() else 10)
+        ended = self.done + self._failed
+        left = self._total - ended
+        rate = (ended - self._before) / (now - self._began) if now > self._began else 0
+        remaining = f", {duration(left / rate)} left" if rate and left else ""
+        line = f"{ended}/{self._total} runs, {self._failed} failed, {min(self._jobs, left)} running{remaining}"
+        print("\r" + line + "\033[K" if sys.stderr.isatty() else line, end="" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
+
+    def say(self, line: str) -> None:
+        """Prints a line of its own."""
+        print(("\r\033[K" if sys.stderr.isatty() else "") + line, file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        """Shows the last line."""
+        self.show(at_once=True)
+        if sys.stderr.isatty():
+            print(file=sys.stderr)
+
+
+def duration(seconds: float) -> str:
+    """A time in words."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

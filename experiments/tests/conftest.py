@@ -1,0 +1,75 @@
+"""Sweeps of a project with its own schema, Kotlin, C# and scenario; shared by the tests."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+COLLEKTIVE = str(ROOT / "collektive")
+PROJECT = ROOT / "scripts/acceptance/foreign"
+GRADIENTS = ROOT / "experiments/gradients"
+
+
+class Project:
+    """A copy of a project, and sweeps of it."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        shutil.copytree(PROJECT, folder / "project")
+
+    def experiment(self, **keys: Any) -> str:
+        """Writes an experiment file; returns its path."""
+        path = self.folder / "experiment.json"
+        path.write_text(json.dumps({"version": 1, "scenario": "project/lamps.json", **keys}, indent=1))
+        return str(path)
+
+    def command(self, *words: str) -> list[str]:
+        return [sys.executable, "-m", "collektive_experiments", *words]
+
+    def start(self, *words: str, out: str = "out", **keys: Any) -> subprocess.Popen[str]:
+        """Starts a sweep into a folder."""
+        return subprocess.Popen(self.command("sweep", self.experiment(**keys), "--out", str(self.folder / out), "--jobs", "2", *words), text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=os.environ, start_new_session=True)
+
+    def sweep(self, *words: str, out: str = "out", **keys: Any) -> subprocess.CompletedProcess[str]:
+        """Does a whole sweep; two minutes at the most."""
+        process = self.start(*words, out=out, **keys)
+        try:
+            output, errors = process.communicate(timeout=120)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+        return subprocess.CompletedProcess(process.args, process.returncode, output, errors)
+
+    def table(self, out: str = "out", name: str = "runs") -> pd.DataFrame:
+        return pd.read_parquet(self.folder / out / f"{name}.parquet")
+
+    def digests(self, out: str = "out") -> dict[str, str]:
+        """By run."""
+        table = self.table(out)
+        return dict(zip(table["run"], table["digest"]))
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def lamps(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A sweep of eight runs in `out`, which tests only read."""
+    swept = Project(tmp_path_factory.mktemp("lamps"))
+    result = swept.sweep("--csv", **EIGHT)
+    assert result.returncode == 0, result.stderr
+    return swept
+
+
+EIGHT: dict[str, Any] = {"vary": {"fields.lamps": [5, 10], "network.loss": [0, 0.3], "seed": "1-2"},
+                         "set": {"outputs.nodes": {"fields": ["brightest", "position"], "interval": 0.5}, "converged.agreeing": {"from": 5, "seconds": 0.2}},
+                         "measure": {"agreeing": "lamps"}}

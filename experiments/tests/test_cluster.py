@@ -1,0 +1,34 @@
+"""A sweep on a Ray cluster of two nodes, of which one is lost."""
+from collections.abc import Iterator
+
+import pytest
+from conftest import Project
+from ray.cluster_utils import Cluster
+from test_sweep import await_runs
+
+KEYS = {"vary": {"seed": "1-16", "network.loss": [0.3]}, "set": {"seconds": 10}}
+
+
+@pytest.fixture
+def cluster() -> Iterator[Cluster]:
+    """Two nodes, each of processes of its own, on the loopback."""
+    # A lost node is noticed within two seconds, not twenty.
+    checks = {"health_check_initial_delay_ms": 0, "health_check_period_ms": 500, "health_check_failure_threshold": 3}
+    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False, "_system_config": checks})
+    made.add_node(num_cpus=1)
+    made.wait_for_nodes()
+    yield made
+    made.shutdown()
+
+
+def test_a_node_that_is_lost_loses_no_run_and_does_none_twice(project: Project, cluster: Cluster) -> None:
+    other = next(iter(cluster.worker_nodes))
+    driver = project.start("--ray", cluster.address, **KEYS)
+    await_runs(project, 4)
+    cluster.remove_node(other, allow_graceful=False)
+    _, errors = driver.communicate(timeout=120)
+    assert driver.returncode == 0, errors
+    local = project.sweep(out="local", **KEYS)
+    assert local.returncode == 0, local.stderr
+    assert project.digests() == project.digests("local")
+    assert list(project.table()["run"]) == list(project.table("local")["run"])

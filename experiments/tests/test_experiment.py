@@ -1,0 +1,63 @@
+"""Experiment files: what is wrong is an error with its line, before anything starts."""
+import json
+from pathlib import Path
+
+import pytest
+from collektive_experiments import ExperimentError, read
+from collektive_experiments.experiment import name_of
+
+
+def write(folder: Path, text: str) -> str:
+    (folder / "scenario.json").write_text("{}")
+    path = folder / "experiment.json"
+    path.write_text(text)
+    return str(path)
+
+
+@pytest.mark.parametrize(("line", "text", "message"), [
+    (1, '{"version": 1}', "the key 'scenario' is missing"),
+    (3, '{"version": 1,\n"scenario": "scenario.json",\n"varry": {}}', "unknown key 'varry'; known here: version, scenario, vary"),
+    (2, '{"version": 1,\n"scenario": 3}', "'scenario' is 3, it must be a string"),
+    (2, '{"version": 1,\n"scenario": "other.json"}', "'scenario' names no file"),
+    (1, '{"version": 2, "scenario": "scenario.json"}', "version 2 is not known"),
+    (1, '{"version": true, "scenario": "scenario.json"}', "'version' is true, it must be a whole number"),
+    (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": []}}', "'vary.seed' is an empty list"),
+    (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": 3}}', "'vary.seed' is 3, it must be a list or a range"),
+    (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": "1 to 3"}}', "is no range"),
+    (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": "3-1"}}', "there would be no run"),
+    (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": "1-1000000"}}', "'vary.seed' has 1,000,000 values: a sweep has at most 100,000 runs"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"seed": "1-1000", "fields.a": "1-1000"}}', "these are 1,000,000 runs"),
+    (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n{}]}}', "'vary.fields.a[1]' is {}, it must be a number"),
+    (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n1.0]}}', "two runs would have one name: 'fields.a=1' comes twice"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1, 1], "fields.b": [2, 2]}}', "two runs would have one name"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1], "fields.b": [2, 2]}}', "keys of 'zip' vary together"),
+    (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1]},\n"set": {\n"seed": 2}}', "'seed' is in 'vary', too"),
+    (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1],\n\n"seed": [2]}}', "the key 'seed' is given twice"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"scripts": ["a", "b"]}}', "'scripts' is the same for all runs"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"set": {"outputs.replay": true}}', "'outputs.replay' is not for sweeps"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"measure": {"error": 3}}', "'measure' must be a list of metrics' names"),
+    (2, '{"version": 1,\n}', "not valid JSON"),
+])
+def test_what_is_wrong_is_named_with_its_line(tmp_path: Path, line: int, text: str, message: str) -> None:
+    with pytest.raises(ExperimentError) as error:
+        read(write(tmp_path, text))
+    assert f"experiment.json:{line}: " in str(error.value)
+    assert message in str(error.value)
+
+
+def test_all_combinations_are_run_and_keys_of_zip_vary_together(tmp_path: Path) -> None:
+    experiment = read(write(tmp_path, json.dumps({
+        "version": 1, "scenario": "scenario.json", "vary": {"program": ["a", "b"], "seed": "1-5:2"},
+        "zip": {"fields.n": [1, 2], "fields.at": [[0, 1, 2], [3, 4, 5]]},
+        "set": {"seconds": 3}})))
+    runs = list(experiment.runs())
+    assert experiment.count == len(runs) == 12
+    assert runs[0].name == "program=a,seed=1,fields.n=1,fields.at=0_1_2"
+    assert runs[-1].settings == {"seconds": 3, "program": "b", "seed": 5, "fields.n": 2, "fields.at": [3, 4, 5]}
+
+
+def test_any_value_makes_a_name_that_folders_may_have() -> None:
+    assert name_of({"fields.title": "a/b c.\n", "fields.on": True}) == "fields.title=a_b_c._,fields.on=true"
+    long = [name_of({f"fields.{'x' * 100}": 1, f"fields.{'y' * 100}": value}) for value in (1, 2)]
+    assert long[0] != long[1]
+    assert max(map(len, long)) <= 180

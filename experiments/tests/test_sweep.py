@@ -1,0 +1,271 @@
+"""Whole sweeps, and what may befall them."""
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+from collektive_experiments import compare, load
+from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
+
+MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
+"""Long enough to be disturbed."""
+
+
+def await_runs(project: Project, count: int, out: str = "out") -> None:
+    """Waits until so many runs have ended."""
+    end = time.monotonic() + 60
+    runs = project.folder / out / "runs"
+    while not runs.is_dir() or sum(not name.endswith(".part") for name in os.listdir(runs)) < count:
+        assert time.monotonic() < end, "no run ends"
+        time.sleep(0.02)
+
+
+def workers(project: Project) -> list[int]:
+    """Ids of the processes that run scenarios of the project."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            words = Path(f"/proc/{pid}/cmdline").read_bytes()
+        except OSError:
+            continue
+        if b"serve" in words and str(project.folder).encode() in words:
+            found.append(int(pid))
+    return found
+
+
+def await_no_worker(project: Project) -> None:
+    end = time.monotonic() + 20
+    while workers(project):
+        assert time.monotonic() < end, "workers are left"
+        time.sleep(0.05)
+
+
+def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> None:
+    runs = lamps.table()
+    assert list(runs.columns[:8]) == ["run", "fields.lamps", "network.loss", "seed", "status", "message", "digest", "nodes"]
+    assert len(runs) == 8
+    assert set(runs["status"]) == {"complete"}
+    assert list(runs["nodes"]) == list(runs["fields.lamps"])
+    assert list(runs["run"][:2]) == ["fields.lamps=5,network.loss=0,seed=1", "fields.lamps=5,network.loss=0,seed=2"]
+    assert list(runs.loc[runs["network.loss"] == 0, "agreeing"]) == [5, 5, 10, 10]
+    assert "seen" not in runs.columns, "only what is measured"
+    assert list(runs.loc[runs["network.loss"] == 0, "converged.agreeing"]) == [1.0] * 4 or runs["converged.agreeing"].isna().any()
+
+
+def test_each_simulated_second_is_a_row_and_each_node_too(lamps: Project) -> None:
+    series = lamps.table(name="series")
+    assert list(series["second"]) == [0, 1] * 8
+    assert list(series.columns[:6]) == ["run", "fields.lamps", "network.loss", "seed", "second", "agreeing"]
+    nodes = lamps.table(name="nodes")
+    assert len(nodes) == 3 * 4 * (5 + 10)
+    last = nodes[(nodes["fields.lamps"] == 10) & (nodes["network.loss"] == 0) & (nodes["second"] == 1)]
+    assert set(last["brightest"]) == {10.0}
+    assert list(last["position.x"][:10]) == list(range(10))
+
+
+def test_tables_are_csv_too(lamps: Project) -> None:
+    for name in ("runs", "series"):
+        table = pd.read_csv(lamps.folder / "out" / f"{name}.csv")
+        assert list(table.columns) == pq.read_schema(lamps.folder / "out" / f"{name}.parquet").names
+        assert len(table) == len(lamps.table(name=name))
+
+
+def test_one_worker_or_two_or_a_process_for_each_run_give_the_same_digests(lamps: Project, tmp_path: Path) -> None:
+    result = lamps.sweep("--jobs", "1", out="one", **EIGHT)
+    assert result.returncode == 0, result.stderr
+    assert lamps.digests("one") == lamps.digests()
+    manifest = lamps.folder / "out/runs/fields.lamps=10,network.loss=0.3,seed=2/manifest.json"
+    repeated = subprocess.run([COLLEKTIVE, "repeat", str(manifest), "--out", str(tmp_path / "again")], capture_output=True, text=True)
+    assert repeated.returncode == 0, repeated.stderr
+    assert "repeated: 10 ticks" in repeated.stdout
+
+
+def test_a_sweep_that_is_done_does_nothing_again_and_takes_more_values(lamps: Project) -> None:
+    record = lamps.folder / "out/runs/fields.lamps=5,network.loss=0,seed=1/run.json"
+    before = record.stat().st_mtime_ns
+    refused = lamps.sweep(**EIGHT)
+    assert refused.returncode == 1
+    assert "go on with --resume" in refused.stderr
+    resumed = lamps.sweep("--resume", "--csv", **EIGHT)
+    assert resumed.returncode == 0, resumed.stderr
+    assert "8 of 8 runs are done already" in resumed.stderr
+    assert record.stat().st_mtime_ns == before
+    other = lamps.sweep("--resume", **{**EIGHT, "set": {"seconds": 3}})
+    assert "name another folder with --out" in other.stderr
+
+
+def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -> None:
+    keys = {"vary": {"seed": [1]}}
+    assert project.sweep(vary={"sed": [1]}).returncode == 1
+    # A sweep that did not come to its first run leaves the folder free.
+    assert project.sweep(**keys).returncode == 0
+    scene = project.folder / "project/scene/Lamps.cs"
+    scene.write_text(scene.read_text() + "\n// other\n")
+    result = project.sweep("--resume", **keys)
+    assert result.returncode == 1
+    assert "are not those that the runs in" in result.stderr
+
+
+@pytest.mark.parametrize(("keys", "line", "message"), [
+    ({"vary": {"fields.lampz": [1]}}, 6, "has no public field 'lampz'; it has: lamps, loop"),
+    ({"vary": {"fields.lamps": [1, "many"]}}, 7, "'lamps' is \"many\", it must be of type whole number"),
+    ({"set": {"network.los": 1}}, 5, "unknown key 'network.los'"),
+    ({"vary": {"seed": [1]}, "measure": ["glow"]}, 9, "the scene has no metric 'glow'; it has: agreeing, seen"),
+])
+def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
+        lamps: Project, keys: dict[str, object], line: int, message: str, tmp_path: Path) -> None:
+    result = lamps.sweep("--csv", out=str(tmp_path / "out"), **keys)
+    assert result.returncode == 1
+    assert message in result.stderr
+    assert f"experiment.json:{line}: " in result.stderr
+    assert not os.listdir(tmp_path / "out/runs")
+
+
+def test_a_dry_run_tells_how_many_runs_there_are(project: Project) -> None:
+    result = project.sweep("--dry-run", **MANY)
+    assert result.returncode == 0, result.stderr
+    assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
+    assert not (project.folder / "out").exists()
+
+
+def test_a_run_that_fails_crashes_or_hangs_is_told_and_the_others_are_done(project: Project) -> None:
+    scene = project.folder / "project/scene/Lamps.cs"
+    # 1: an exception; 2: the process dies; 3: it hangs.
+    scene.write_text(scene.read_text().replace("public bool loop;", "public bool loop;\n        public int fate;").replace(
+        "for (var i = 0; i < lamps; i++)\n",
+        'if (fate == 1) throw new System.InvalidOperationException("no luck");\n'
+        '            if (fate == 2) System.Diagnostics.Process.GetCurrentProcess().Kill();\n'
+        '            while (fate == 3) System.Threading.Thread.Sleep(10);\n            for (var i = 0; i < lamps; i++)\n', 1))
+    keys = {"vary": {"fields.fate": "0-4"}}
+    result = project.sweep("--time-limit", "8", **keys)
+    assert result.returncode == 1
+    assert "3 of 5 runs are not complete" in result.stderr
+    runs = project.table().set_index("fields.fate")
+    assert list(runs["status"]) == ["complete", "failed", "crashed", "timeout", "complete"]
+    assert "no luck" in runs.loc[1, "message"]
+    assert "SIGKILL" in runs.loc[2, "message"]
+    assert runs.loc[0, "digest"] == runs.loc[4, "digest"]
+    assert runs["digest"].notna().sum() == 2
+    await_no_worker(project)
+
+
+def test_after_kill_9_of_the_driver_and_of_a_worker_it_goes_on_to_the_same_table(project: Project) -> None:
+    driver = project.start(**MANY)
+    await_runs(project, 3)
+    os.kill(workers(project)[0], signal.SIGKILL)
+    await_runs(project, 8)
+    driver.kill()
+    driver.communicate()
+    await_no_worker(project)
+    resumed = project.sweep("--resume", **MANY)
+    assert resumed.returncode == 0, resumed.stderr
+    assert "of 30 runs are done already" in resumed.stderr
+    whole = project.sweep(out="whole", **MANY)
+    assert whole.returncode == 0, whole.stderr
+    assert project.digests() == project.digests("whole")
+    assert list(project.table()["run"]) == list(project.table("whole")["run"])
+    assert list(project.table(name="series")["agreeing"]) == list(project.table("whole", "series")["agreeing"])
+
+
+def test_ctrl_c_leaves_what_is_done_and_tables_of_it(project: Project) -> None:
+    driver = project.start(**MANY)
+    await_runs(project, 3)
+    driver.send_signal(signal.SIGINT)
+    _, errors = driver.communicate(timeout=30)
+    assert driver.returncode == 130
+    assert "interrupted; " in errors
+    assert 3 <= len(project.table()) < 30
+    assert set(project.table()["status"]) == {"complete"}
+    await_no_worker(project)
+
+
+def can_mount() -> bool:
+    return subprocess.run(["unshare", "--mount", "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True).returncode == 0
+
+
+@pytest.mark.skipif(not can_mount(), reason="no small disk can be mounted here")
+def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: Project, lamps: Project) -> None:
+    disk = project.folder / "disk"
+    disk.mkdir()
+    keep = project.folder / "out"
+    bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
+    # Copies of inputs, and runs of 0.1 MB, of which only some have room.
+    size = f"{bundle // 1024 + 2500}k"
+    script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
+    nodes = {"fields": ["position"], "interval": 0.1}
+    experiment = project.experiment(vary={"seed": "1-40"}, set={"seconds": 40, "outputs.interval": 0.1, "outputs.nodes": nodes})
+    command = project.command("sweep", experiment, "--out", str(disk / "out"), "--jobs", "2")
+    full = subprocess.run(["unshare", "--mount", "bash", "-c", script, "bash", size, str(disk), str(keep), *command], capture_output=True, text=True,
+                          timeout=120)
+    assert full.returncode == 1, full.stderr
+    assert "No space left on device" in full.stderr or "is full" in full.stderr
+    done = sum(json.loads(path.read_text())["status"] == "complete" for path in keep.glob("runs/*/run.json"))
+    assert 0 < done < 40
+    resumed = subprocess.run(project.command("sweep", experiment, "--out", str(keep), "--resume"), capture_output=True, text=True, timeout=120)
+    assert resumed.returncode == 0, resumed.stderr
+    assert f"{done} of 40 runs are done already" in resumed.stderr
+    assert len(set(project.table()["run"])) == 40
+
+
+def test_the_worked_study_runs_to_its_figures(tmp_path: Path) -> None:
+    experiment = json.loads((GRADIENTS / "experiment.json").read_text())
+    experiment["scenario"] = str(GRADIENTS / "scenario.json")
+    experiment["vary"] |= {"network.loss": [0, 0.4], "seed": "1-3"}
+    (tmp_path / "experiment.json").write_text(json.dumps(experiment))
+    out = tmp_path / "out"
+    for words in (["sweep", str(tmp_path / "experiment.json"), "--out", str(out)], ["plot", str(out)]):
+        result = subprocess.run([COLLEKTIVE, *words], capture_output=True, text=True, timeout=300)
+        assert result.returncode == 0, result.stderr
+    results = load(str(out))
+    effects = compare(results, "converged.error", "program").set_index(["network.loss", "a", "b"])
+    # Without loss all converge; with it, distances alone take longer than paths.
+    assert results.runs["converged.error"].notna().all()
+    assert effects.loc[(0.4, "path-vector", "bellman-ford"), "difference"] > 0
+    assert {"error-time.svg", "error-time.pdf", "error-end.svg", "reached-time.svg", "converged.error-end.pdf"} <= set(os.listdir(out / "figures"))
+    page = (out / "figures.html").read_text()
+    assert page.count("<svg") == 5
+    assert "95 % bootstrap interval of 3 runs per configuration" in page
+
+
+def test_the_notebook_runs(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    notebook = json.loads((ROOT / "experiments/example.ipynb").read_text())
+    monkeypatch.setenv("SWEEP", str(lamps.folder / "out"))
+    names: dict[str, object] = {}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+    assert len(names["results"].runs) == 8  # type: ignore[attr-defined]
+
+
+def test_the_package_can_be_installed_with_pip(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "pip", "install", "--no-deps", "--no-build-isolation", "--no-index", "--target", str(tmp_path), str(ROOT / "experiments")]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "collektive_experiments/__init__.py").exists()
+
+
+def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
+    keys = {**EIGHT, "vary": {**EIGHT["vary"], "fields.lamps": [5]}}
+    written = lamps.sweep("--slurm", out="slurm", **keys)
+    assert written.returncode == 0, written.stderr
+    script = lamps.folder / "slurm/slurm.sh"
+    checked = subprocess.run([ROOT / "build/python/bin/shellcheck", script], capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout
+    text = script.read_text()
+    assert "#SBATCH --array=0-3\n" in text
+    assert "#SBATCH --cpus-per-task=2\n" in text
+    for index in (0, 1, 3):
+        subprocess.run([script], check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": str(index)})
+    # A task that never ran is made up for.
+    resumed = lamps.sweep("--resume", out="slurm", **keys)
+    assert resumed.returncode == 0, resumed.stderr
+    assert "3 of 4 runs are done already" in resumed.stderr
+    digests = lamps.digests()
+    assert lamps.digests("slurm") == {run: digest for run, digest in digests.items() if "lamps=5" in run}

@@ -1,0 +1,78 @@
+using System;
+using System.Linq;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>A value that a key of a scenario gets instead of the file's: <c>--set KEY=VALUE</c>, or a key that a sweep varies.</summary>
+    internal sealed class Assignment
+    {
+        private const string Fields = "fields";
+        private const string Parameters = "parameters";
+
+        private readonly string[] path;
+        private readonly JToken value;
+
+        /// <param name="key">Names of keys, one in the other, with dots between them.</param>
+        internal Assignment(string key, JToken value)
+        {
+            Key = key;
+            this.value = value;
+            path = Path(key);
+        }
+
+        internal string Key { get; }
+
+        /// <summary>
+        /// Reads <c>KEY=VALUE</c>. A key that no scenario has is a field of the scene; its value stays text until the field's type is known.
+        /// </summary>
+        /// <param name="field">The field and its value, <c>FIELD=VALUE</c>; null for other keys.</param>
+        /// <returns>Null for a field.</returns>
+        internal static Assignment Parse(string text, out string field)
+        {
+            field = null;
+            var equals = text.IndexOf('=');
+            if (equals <= 0) throw new ScenarioException("--set " + text + ": write it as --set KEY=VALUE");
+            var key = text.Substring(0, equals);
+            if (key.StartsWith(Fields + ".", StringComparison.Ordinal)) field = text.Substring(Fields.Length + 1);
+            else if (!Scenario.Keys.Contains(key.Split('.')[0])) field = text;
+            return field == null ? new Assignment(key, Json(text.Substring(equals + 1))) : null;
+        }
+
+        /// <summary>Puts the value into a scenario.</summary>
+        internal void Apply(JObject root)
+        {
+            var part = root;
+            for (var i = 0; i < path.Length - 1; i++)
+            {
+                if (part[path[i]] == null) part.Add(path[i], new JObject());
+                part = part[path[i]] as JObject
+                    ?? throw new ScenarioException("'" + Key + "' cannot be set: '" + string.Join(".", path.Take(i + 1)) + "' is no object");
+            }
+            part[path[path.Length - 1]] = value;
+        }
+
+        /// <summary>Names of programs may have dots, those of parameters have none.</summary>
+        private static string[] Path(string key)
+        {
+            var names = key.Split('.');
+            if (names[0] != Parameters || names.Length < 4) return names;
+            return new[] { Parameters, string.Join(".", names.Skip(1).Take(names.Length - 2)), names[names.Length - 1] };
+        }
+
+        /// <summary>Text of the command line. Strings need no quotes.</summary>
+        private static JToken Json(string text)
+        {
+            try
+            {
+                // Without lines: they would be taken for those of the file.
+                return JToken.Parse(text, new JsonLoadSettings { LineInfoHandling = LineInfoHandling.Ignore });
+            }
+            catch (JsonReaderException)
+            {
+                return new JValue(text);
+            }
+        }
+    }
+}

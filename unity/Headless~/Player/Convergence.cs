@@ -1,0 +1,117 @@
+using System;
+using System.Collections.Generic;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// Says which metrics have converged: a metric has once its value stayed in a band for so many simulated seconds. Its time of convergence is the
+    /// beginning of that stay. Values between two rows of the metrics do not count.
+    /// </summary>
+    internal sealed class Convergence
+    {
+        private readonly List<Criterion> criteria = new List<Criterion>();
+
+        internal IReadOnlyList<Criterion> Criteria => criteria;
+
+        /// <summary>Whether there are criteria, and all metrics have converged.</summary>
+        internal bool IsComplete => criteria.Count > 0 && criteria.TrueForAll(criterion => criterion.Time != null);
+
+        /// <summary>Reads the bands, by metric.</summary>
+        internal static Convergence Read(JsonFile file, JObject metrics)
+        {
+            var convergence = new Convergence();
+            foreach (var property in metrics.Properties())
+            {
+                var key = "converged." + property.Name;
+                var part = (JObject)file.Convert(property.Value, typeof(JObject), key);
+                file.RefuseUnknown(part, key + ".", new[] { "from", "to", "seconds" });
+                var criterion = new Criterion(
+                    property.Name, file.Optional(part, "from", double.NegativeInfinity), file.Optional(part, "to", double.PositiveInfinity),
+                    file.Optional(part, "seconds", 0.0));
+                if (part["from"] == null && part["to"] == null)
+                    throw file.Error(part, "'" + key + "' needs 'from', 'to' or both: the band of the metric's values");
+                if (!(criterion.From <= criterion.To)) throw file.Error(part, "'" + key + "' has a 'from' that is above its 'to'");
+                if (!(criterion.Seconds >= 0)) throw file.Error(part, "'" + key + ".seconds' must be 0 or greater");
+                convergence.criteria.Add(criterion);
+            }
+            return convergence;
+        }
+
+        /// <summary>Finds the metrics among those of the scene.</summary>
+        internal void Bind(IReadOnlyList<string> names)
+        {
+            foreach (var criterion in criteria)
+            {
+                criterion.Index = new List<string>(names).IndexOf(criterion.Metric);
+                if (criterion.Index >= 0) continue;
+                throw new ScenarioException(
+                    "'converged." + criterion.Metric + "': the scene has no metric of that name; it has: " + string.Join(", ", names));
+            }
+        }
+
+        /// <summary>Takes a row of the metrics.</summary>
+        internal void Add(double second, IReadOnlyList<double> values)
+        {
+            foreach (var criterion in criteria) criterion.Add(second, values[criterion.Index]);
+        }
+
+        internal JObject ToJson()
+        {
+            var json = new JObject();
+            foreach (var criterion in criteria) json.Add(criterion.Metric, criterion.ToJson());
+            return json;
+        }
+
+        /// <summary>Times of convergence in simulated seconds, by metric; null for those that have not converged.</summary>
+        internal JObject Times()
+        {
+            var json = new JObject();
+            foreach (var criterion in criteria) json.Add(criterion.Metric, criterion.Time);
+            return json;
+        }
+
+        /// <summary>The band of one metric.</summary>
+        internal sealed class Criterion
+        {
+            private double? since;
+
+            internal Criterion(string metric, double from, double to, double seconds)
+            {
+                Metric = metric;
+                From = from;
+                To = to;
+                Seconds = seconds;
+            }
+
+            internal string Metric { get; }
+
+            internal double From { get; }
+
+            internal double To { get; }
+
+            internal double Seconds { get; }
+
+            internal int Index { get; set; }
+
+            /// <summary>When the metric came to stay; null while it has not converged.</summary>
+            internal double? Time { get; private set; }
+
+            internal void Add(double second, double value)
+            {
+                if (!(value >= From && value <= To)) since = null;
+                else since = since ?? second;
+                if (since != null && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6);
+            }
+
+            internal JObject ToJson()
+            {
+                var json = new JObject();
+                if (!double.IsInfinity(From)) json.Add("from", From);
+                if (!double.IsInfinity(To)) json.Add("to", To);
+                json.Add("seconds", Seconds);
+                return json;
+            }
+        }
+    }
+}
