@@ -10,7 +10,8 @@ class TheCommand(unittest.TestCase):
     def test_each_command_has_help(self):
         whole = collektive("--help")
         self.assertEqual(whole.returncode, 0)
-        for command in ["setup", "generate", "demo", "run", "repeat", "sweep", "plot", "profile", "replay", "diff", "test", "bench", "package", "site", "clean"]:
+        commands = ["setup", "generate", "demo", "run", "repeat", "sweep", "plot", "profile", "replay", "diff", "test", "bench", "package", "site", "clean"]
+        for command in commands:
             self.assertIn(command, whole.stdout)
             part = collektive(command, "--help")
             self.assertEqual(part.returncode, 0, command)

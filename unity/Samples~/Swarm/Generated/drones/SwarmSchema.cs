@@ -43,7 +43,7 @@ namespace drones
         public override string File => "swarm";
 
         /// <inheritdoc/>
-        public override string GeneratorVersion => "0.1.0";
+        public override string GeneratorVersion => "0.2.0";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
