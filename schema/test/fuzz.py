@@ -11,6 +11,7 @@ import sys
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+CORPUS = os.path.join(HERE, "corpus")
 ROOT = os.path.dirname(os.path.dirname(HERE))
 COLLEKTIVE = os.path.join(ROOT, "collektive")
 
@@ -162,8 +163,8 @@ def write_batch(folder, seed, count):
     """Writes random schemas to `cases`, each in a folder that is named as its namespace."""
     source = random.Random(seed)
     for i in range(count):
-        # One has a hostile namespace; the others cannot have the same.
-        root = source.choice(HOSTILE_NAMESPACES) if i == 0 else f"case{i}"
+        # One has a hostile namespace, none of the corpus; the others cannot have the same.
+        root = source.choice([name for name in HOSTILE_NAMESPACES if name not in os.listdir(CORPUS)]) if i == 0 else f"case{i}"
         schema = RandomSchema(source, root)
         case = os.path.join(folder, "cases", root)
         os.makedirs(case)
@@ -217,7 +218,7 @@ def batch(folder, seed, count):
     """Runs random schemas, and those of `corpus` that once found a defect."""
     shutil.rmtree(folder, ignore_errors=True)
     write_batch(folder, seed, count)
-    shutil.copytree(os.path.join(HERE, "corpus"), os.path.join(folder, "cases"), dirs_exist_ok=True)
+    shutil.copytree(CORPUS, os.path.join(folder, "cases"), dirs_exist_ok=True)
     return run(folder)
 
 

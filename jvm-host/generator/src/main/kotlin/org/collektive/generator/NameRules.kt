@@ -43,6 +43,7 @@ internal class NameRules(
         val namespace = parts.dropLast(1)
         if (simple in Words.reserved || simple in Words.types) refuse(name, "generated code uses a type of this name; rename the type")
         namespace.find { it in Words.reserved }?.let { refuse(name, "the namespace has the keyword '$it' in it; rename the namespace") }
+        namespace.find { it in Words.types }?.let { refuse(name, "generated code uses a type of the name $it; rename the namespace") }
         if (namespace.firstOrNull() in Words.roots || namespace.joinToString(".") in Words.packages) {
             refuse(
                 name,
@@ -86,7 +87,7 @@ internal class NameRules(
             val member = upperCamel(field.name())
             checkWord(place, field.name())
             if (member in RESERVED_MEMBERS) refuse(place, "C# or Java has a member of this name in every class; rename the field")
-            if (!member.first().isLetter()) refuse(place, "a name begins with a letter; rename the field")
+            if (!field.name().first().isLetter()) refuse(place, "a name begins with a letter; rename the field")
             seen.put(member, field.name())?.let {
                 refuse(place, "generated code calls both this field and $it $member; rename one of them")
             }

@@ -98,6 +98,7 @@ internal class RefusalTest {
                 "user.fbs:4: b: a namespace has the same name",
             type("enum E : byte { names }") to "user.fbs:3: E.names: generated code has a member of this name",
             fields("_: int;") to "user.fbs:4: SensorData._: a name needs a letter",
+            fields("__assign: int;") to "user.fbs:4: SensorData.__assign: a name begins with a letter",
             fields("_1: int;") to "user.fbs:4: SensorData._1: a name begins with a letter",
             fields("foo_bar: int;\nfooBar: int;") to
                 "user.fbs:5: SensorData.fooBar: generated code calls both this field and foo_bar FooBar; rename",
@@ -109,6 +110,7 @@ internal class RefusalTest {
             fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: generated code of y has",
             namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class' in it",
             namespace("a.fun") to "the namespace has the keyword 'fun' in it; rename the namespace",
+            namespace("String.inner") to "generated code uses a type of the name String; rename the namespace",
             namespace("java.util") to "the namespace java.util is that of a library",
             namespace("kotlin") to "the namespace kotlin is that of a library",
             namespace("org.collektive.frames") to "the namespace org.collektive.frames is that of a library",
