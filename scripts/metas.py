@@ -9,11 +9,15 @@ import os
 import re
 import sys
 
-# In a package two kinds of files come from the build. The native library is for one platform, the managed one for all.
+# In a package two kinds of files come from the build. The native libraries are for one platform each, by their folder; the managed one is for all.
 PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
           "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
           "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
 PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
+# By platform: the editor's processor and system, None where there is no editor; the player's platform and processor.
+NATIVE = {"win-x64": (("x86_64", "Windows"), "Win64", "x86_64"), "linux-x64": (("x86_64", "Linux"), "Linux64", "x86_64"),
+          "linux-arm64": (None, "Linux64", "ARM64"), "mac-x64": (("x86_64", "OSX"), "OSXUniversal", "x86_64"),
+          "mac-arm64": (("ARM64", "OSX"), "OSXUniversal", "ARM64")}
 TEXT = "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
 # Samples are copied into a project with their metas when the user imports them.
@@ -29,9 +33,6 @@ IMPORTERS = {
     ".shader": "ShaderImporter:\n  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n  preprocessorOverride: 0\n"
                "  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".dll": PLUGIN % (PLATFORM % ("Any: ", 1, " {}") + PLATFORM % ("Editor: Editor", 0, "\n        DefaultValueInitialized: true")),
-    ".so": PLUGIN % (PLATFORM % ("Any: ", 0, " {}")
-                     + PLATFORM % ("Editor: Editor", 1, "\n        CPU: x86_64\n        DefaultValueInitialized: true\n        OS: Linux")
-                     + PLATFORM % ("Standalone: Linux64", 1, "\n        CPU: x86_64")),
     ".json": TEXT,
     "package.json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
 }
@@ -52,9 +53,9 @@ def assets(root):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 
-def guid_for(asset):
+def guid_for(asset, package="org.collektive.unity"):
     """The GUID that a new asset gets."""
-    return hashlib.md5(("org.collektive.unity/" + asset.replace(os.sep, "/")).encode()).hexdigest()
+    return hashlib.md5((package + "/" + asset.replace(os.sep, "/")).encode()).hexdigest()
 
 
 def guid_in(meta):
@@ -63,12 +64,24 @@ def guid_in(meta):
     return match and match.group(1)
 
 
-def meta_of(root, asset):
+def native(platform):
+    """The importer of a platform's native library."""
+    editor, player, processor = NATIVE[platform]
+    in_editor = "\n        DefaultValueInitialized: true"
+    if editor:
+        in_editor = f"\n        CPU: {editor[0]}{in_editor}\n        OS: {editor[1]}"
+    return PLUGIN % (PLATFORM % ("Any: ", 0, " {}") + PLATFORM % ("Editor: Editor", 1 if editor else 0, in_editor)
+                     + PLATFORM % ("Standalone: " + player, 1, "\n        CPU: " + processor))
+
+
+def meta_of(root, asset, package="org.collektive.unity"):
     path = os.path.join(root, asset)
-    head = f"fileFormatVersion: 2\nguid: {guid_for(asset)}\n"
+    head = f"fileFormatVersion: 2\nguid: {guid_for(asset, package)}\n"
     if os.path.isdir(path):
         return head + "folderAsset: yes\n" + DEFAULT
-    name = os.path.basename(asset)
+    name, folder = os.path.basename(asset), os.path.basename(os.path.dirname(asset))
+    if folder in NATIVE:
+        return head + native(folder)
     return head + IMPORTERS.get(name, IMPORTERS.get(os.path.splitext(name)[1], DEFAULT))
 
 

@@ -2,7 +2,8 @@
 """./collektive test: runs suites and adds up the results that they write.
 
 A suite is a step of scripts/test.sh. It gets an empty folder, build/results/NAME, writes its results there as JUnit XML, and ends with a code
-other than 0 when a test failed. One that writes no results, or ends badly though no test failed, counts as a failure.
+other than 0 when a test failed. One that writes no results, or ends badly though no test failed, counts as a failure. What it writes to the file
+`notes` of that folder, such as what it could not run and why, is shown; with notes it may have run no test.
 """
 import functools
 import glob
@@ -50,6 +51,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("jvm", ["test_jvm"], ["setup_flatc"], quick=True),
         Suite("stress", ["test_stress"], ["build_jvm"]),
         *(Suite("shim", ["test_shim", jdk], ["build_native"], [jdk] == newest, label="shim-on-" + os.path.basename(jdk)) for jdk in jdks),
+        Suite("platforms", ["test_platforms"], [*built, "setup_python"]),
         Suite("csharp", ["test_unity"], nunit, quick=True, nunit=True, label="unity"),
         *(Suite("csharp", ["test_csharp", jdk], nunit, [jdk] == newest, True, "csharp-on-" + os.path.basename(jdk)) for jdk in jdks),
         Suite("assets", ["test_assets"], [*built, "setup_python"], quick=True),
@@ -108,11 +110,19 @@ def results(folder: str, code: int) -> list[junit.Case]:
             cases += junit.read(path)
         except ValueError as error:
             broken.append(junit.Case(os.path.basename(path), str(error)))
-    if not broken and not cases:
+    if not broken and not cases and not (code == 0 and notes(folder)):
         broken.append(junit.Case("results", f"the suite wrote no results and ended with code {code}"))
     if not broken and code != 0 and not any(case.failure for case in cases):
         broken.append(junit.Case("end", f"the suite ended with code {code} though no test failed"))
     return cases + broken
+
+
+def notes(folder: str) -> str:
+    path = os.path.join(folder, "notes")
+    if not os.path.exists(path):
+        return ""
+    with open(path) as file:
+        return file.read()
 
 
 def run(suite: Suite, build: str) -> list[junit.Case]:
@@ -130,6 +140,7 @@ def run(suite: Suite, build: str) -> list[junit.Case]:
             sys.stderr.write("".join(file.readlines()[-60:]))
         for case in failed:
             print(f"FAILED {suite.title}: {case.name}: {case.failure.splitlines()[0][:200]}", file=sys.stderr)
+    sys.stderr.write(notes(folder))
     say(f"test {suite.title}: {len(cases) - len(failed)} passed, {len(failed)} failed")
     return cases
 

@@ -26,7 +26,7 @@ typedef void(JNICALL halt_function)(jint);
 
 /* Guarded by the turn, except atomics and semaphores. */
 static struct {
-    struct launch launch; /* of the last start; the JVM reads it as long as it lives */
+    struct launch launch; /* of the last start */
     JavaVM *vm;
     char version[256];
     int32_t stop_limit_ms;
@@ -113,7 +113,11 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     options[0] = (JavaVMOption){(char[]){"vfprintf"}, (void *)(uintptr_t)hook_print};
     options[1] = (JavaVMOption){(char[]){"exit"}, (void *)(uintptr_t)hook_exit};
     options[2] = (JavaVMOption){(char[]){"abort"}, (void *)(uintptr_t)hook_abort};
-    for (int32_t i = 0; i < jvm.launch.option_count; i++) options[HOOKS + i] = (JavaVMOption){jvm.launch.options[i], NULL};
+    /* The JVM reads these texts as long as it lives. */
+    for (int32_t i = 0; i < jvm.launch.option_count; i++) {
+        options[HOOKS + i] = (JavaVMOption){prim_jvm_text(jvm.launch.options[i]), NULL};
+        if (options[HOOKS + i].optionString == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+    }
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
     prim_signals_save();
     prim_semaphore_init(&jvm.halt_wake, 0);

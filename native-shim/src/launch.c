@@ -70,12 +70,18 @@ static bool add_option(struct launch *launch, const char *prefix, const char *re
     return option != NULL;
 }
 
-/* A JVM that cannot write its archive to the end aborts: without room it writes none. */
-static void check_room_for_archive(struct launch *launch) {
+/* A JVM that cannot write its archive to the end aborts: without room, or a path that it can read, it writes none. */
+static void check_archive(struct launch *launch) {
     const char *archive = options_archive(launch->options, launch->option_count);
-    if (archive == NULL || prim_room(archive) >= ARCHIVE_BYTES) return;
-    log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: less than 32 MB are free for %s",
-               archive);
+    if (archive == NULL) return;
+    if (!prim_jvm_reads(archive)) {
+        log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: " PRIM_FOREIGN_TEXT, archive);
+    } else if (prim_room(archive) < ARCHIVE_BYTES) {
+        log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: less than 32 MB are free for %s",
+                   archive);
+    } else {
+        return;
+    }
     int32_t kept = 0;
     for (int32_t i = 0; i < launch->option_count; i++) {
         if (options_write_archive(launch->options[i])) {
@@ -102,7 +108,7 @@ static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     launch->own_count = launch->option_count;
     for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(launch, config->options[i], "");
     if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
-    check_room_for_archive(launch);
+    check_archive(launch);
     return CLK_OK;
 }
 
@@ -128,19 +134,29 @@ static int32_t check_home_file(const char *home, const char *file) {
     }
 }
 
-/* A home without a file `release`, which names the version, is accepted. */
+static int32_t check_release(const char *home, int version, const char *system, const char *architecture) {
+    if (version < OLDEST_JAVA) {
+        return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is of Java %d; use a JRE or JDK of version %d or newer", home, version,
+                         OLDEST_JAVA);
+    }
+    if (strcmp(system, PRIM_SYSTEM) == 0 && strcmp(architecture, PRIM_ARCHITECTURE) == 0) return CLK_OK;
+    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is for %s on %s; this process needs one for " PRIM_SYSTEM " on " PRIM_ARCHITECTURE,
+                     home, system, architecture);
+}
+
+/* What the file `release` does not tell, or a home without one, is accepted. */
 static int32_t check_version(const char *home) {
-    char text[4096];
-    snprintf(text, sizeof text, "%s/release", home);
-    FILE *file = fopen(text, "r");
+    char line[4096], system[32] = PRIM_SYSTEM, architecture[32] = PRIM_ARCHITECTURE;
+    snprintf(line, sizeof line, "%s/release", home);
+    FILE *file = prim_file_read(line);
     if (file == NULL) return CLK_OK;
     int version = OLDEST_JAVA;
-    while (fgets(text, sizeof text, file) != NULL) {
-        if (sscanf(text, "JAVA_VERSION=\"%d", &version) == 1) break;
+    while (fgets(line, sizeof line, file) != NULL) {
+        (void)(sscanf(line, "JAVA_VERSION=\"%d", &version) == 1 || sscanf(line, "OS_NAME=\"%31[^\"]", system) == 1 ||
+               sscanf(line, "OS_ARCH=\"%31[^\"]", architecture) == 1);
     }
     fclose(file);
-    if (version >= OLDEST_JAVA) return CLK_OK;
-    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is of Java %d; use a JRE or JDK of version %d or newer", home, version, OLDEST_JAVA);
+    return check_release(home, version, system, architecture);
 }
 
 /* Without these files JNI_CreateJavaVM ends the process before it knows the exit hook. */
@@ -151,9 +167,10 @@ static int32_t check_home(const char *home) {
         case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; check its permissions", home);
         default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
     }
-    int32_t result = check_home_file(home, PRIM_LIBJVM);
-    if (result == CLK_OK) result = check_home_file(home, "lib/modules");
-    return result != CLK_OK ? result : check_version(home);
+    /* Another platform's JVM has other files. */
+    int32_t result = check_version(home);
+    if (result == CLK_OK) result = check_home_file(home, PRIM_LIBJVM);
+    return result != CLK_OK ? result : check_home_file(home, "lib/modules");
 }
 
 static int32_t check_class_path(const char *class_path) {
@@ -174,14 +191,9 @@ static int32_t check_class_path(const char *class_path) {
     return CLK_OK;
 }
 
-/* In a locale other than UTF-8 the JVM decodes the path wrongly and does not find its own files or the host's. */
+/* A JVM that decodes a path wrongly finds neither its own files nor the host's; on Windows it then ends the process. */
 static int32_t check_characters(int32_t code, const char *path) {
-    for (const char *at = path; *at != '\0'; at++) {
-        if ((unsigned char)*at >= 0x80 && !prim_locale_is_utf8()) {
-            return error_set(code, "the locale of the process cannot express %s; set LC_ALL=C.UTF-8 or use a path of plain ASCII", path);
-        }
-    }
-    return CLK_OK;
+    return prim_jvm_reads(path) ? CLK_OK : error_set(code, PRIM_FOREIGN_TEXT, path);
 }
 
 /* ---- The whole check ------------------------------------------------------------------------------------------------- */

@@ -1,21 +1,61 @@
 /*
- * What the shim needs from the platform. Only the files prim_* know the operating system.
+ * What the shim needs from the platform. Only the files prim_* know the operating system: prim_posix.c and prim_signals_posix.c serve Linux and
+ * macOS, which have semaphores of their own, prim_windows.c serves Windows. Paths, names and texts are UTF-8 everywhere.
  * Any thread may call these functions, unless said otherwise.
  */
 #ifndef COLLEKTIVE_PRIM_H
 #define COLLEKTIVE_PRIM_H
 
-#include <pthread.h>
-#include <semaphore.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdnoreturn.h>
+#include <stdio.h>
 
+/* SYSTEM and ARCHITECTURE are OS_NAME and OS_ARCH in the file `release` of a JVM. FOREIGN_TEXT says why a JVM does not read a text, and what to do. */
+#if defined(_WIN32)
+#define PRIM_PATH_SEPARATOR ';'
+#define PRIM_LIBJVM "bin/server/jvm.dll"
+#define PRIM_JAVA "bin/java.exe"
+#define PRIM_NULL_FILE "NUL"
+#define PRIM_SYSTEM "Windows"
+#define PRIM_FOREIGN_TEXT "the code page of Windows cannot express %s; use a path of plain ASCII"
+typedef struct {
+    void *lock;
+} prim_mutex;
+#define PRIM_MUTEX_INIT {0}
+typedef void *prim_semaphore;
+typedef union {
+    void *once;
+} prim_once;
+#define PRIM_ONCE_INIT {0}
+#else
+#include <pthread.h>
 #define PRIM_PATH_SEPARATOR ':'
-#define PRIM_LIBJVM "lib/server/libjvm.so"
 #define PRIM_JAVA "bin/java"
 #define PRIM_NULL_FILE "/dev/null"
+#define PRIM_FOREIGN_TEXT "the locale of the process cannot express %s; set LC_ALL=C.UTF-8 or use a path of plain ASCII"
+typedef pthread_mutex_t prim_mutex;
+#define PRIM_MUTEX_INIT PTHREAD_MUTEX_INITIALIZER
+typedef pthread_once_t prim_once;
+#define PRIM_ONCE_INIT PTHREAD_ONCE_INIT
+#if defined(__APPLE__)
+#define PRIM_LIBJVM "lib/server/libjvm.dylib"
+#define PRIM_SYSTEM "Darwin"
+typedef void *prim_semaphore;
+#else
+#define PRIM_LIBJVM "lib/server/libjvm.so"
+#define PRIM_SYSTEM "Linux"
+typedef struct {
+    _Atomic uint32_t count, waiting;
+} prim_semaphore;
+#endif
+#endif
+
+#if defined(__aarch64__)
+#define PRIM_ARCHITECTURE "aarch64"
+#else
+#define PRIM_ARCHITECTURE "x86_64"
+#endif
 
 /* ---- Time: monotonic nanoseconds, also as deadlines ------------------------------------------------------------------ */
 
@@ -25,22 +65,20 @@ int64_t prim_now(void);
 
 /* ---- Locks and semaphores -------------------------------------------------------------------------------------------- */
 
-typedef pthread_mutex_t prim_mutex;
-#define PRIM_MUTEX_INIT PTHREAD_MUTEX_INITIALIZER
 void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
-typedef sem_t prim_semaphore;
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
 void prim_semaphore_post(prim_semaphore *semaphore);
+bool prim_semaphore_try(prim_semaphore *semaphore);
+/* Sleeps at once. False when the deadline passed first; INT64_MAX is none. */
+bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline);
 /* Both waits spin for half a millisecond before they sleep. */
 void prim_semaphore_wait(prim_semaphore *semaphore);
 /* False when the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
 
 /* Runs `init` once per process. */
-typedef pthread_once_t prim_once;
-#define PRIM_ONCE_INIT PTHREAD_ONCE_INIT
 void prim_run_once(prim_once *once, void (*init)(void));
 
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
@@ -48,14 +86,18 @@ void prim_run_once(prim_once *once, void (*init)(void));
 /* Starts a detached thread. `name` has at most 15 bytes and is never freed. False when there is no memory for it. */
 bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes);
 
+/* Lets another thread run. */
+void prim_yield(void);
+
 /* Blocks the calling thread for ever, with all signals masked. */
-noreturn void prim_park(void);
+_Noreturn void prim_park(void);
 
 /* Calls `child` in each process forked from now on, in the only thread that it has. */
 void prim_at_fork(void (*child)(void));
 
 /* ---- Signal handlers -------------------------------------------------------------------------------------------------
- * HotSpot replaces the process's handlers in JNI_CreateJavaVM, and passes on to them the signals that are not its own. */
+ * HotSpot replaces the process's handlers in JNI_CreateJavaVM, and passes on to them the signals that are not its own. On Windows the handler is
+ * the filter of unhandled exceptions; vectored handlers of others live on beside HotSpot and must pass on what they do not know. */
 
 /* Remembers the process's handlers. Call it before JNI_CreateJavaVM. */
 void prim_signals_save(void);
@@ -88,8 +130,14 @@ int64_t prim_room(const char *file);
 int prim_folder_lock(const char *file, int64_t deadline);
 void prim_folder_unlock(int lock);
 
-/* Whether the locale of the environment, which the JVM uses for paths, is UTF-8. */
-bool prim_locale_is_utf8(void);
+/* Opens a file to read its text; NULL when it cannot be opened. */
+FILE *prim_file_read(const char *path);
+
+/* Whether the JVM, which decodes its options by the locale or the code page, reads all characters of a text. */
+bool prim_jvm_reads(const char *text);
+
+/* The text in the JVM's encoding; the caller frees it. NULL when there is no memory. */
+char *prim_jvm_text(const char *text);
 
 /* Loads a library for the rest of the process. NULL on failure, with the reason in `why`. */
 void *prim_library_open(const char *path, char *why, size_t why_size);
@@ -97,7 +145,7 @@ void *prim_library_symbol(void *library, const char *name);
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Hides a variable from getenv and child processes until prim_environment_show(hidden). Other threads may read the environment
+/* Hides a variable from getenv and child processes until prim_environment_show(hidden). Other threads may read other variables
  * meanwhile, and no two threads may hide at once. `name` has at most 62 bytes. False when it is not set. */
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);

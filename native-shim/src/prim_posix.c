@@ -1,4 +1,5 @@
-#define _GNU_SOURCE /* sem_clockwait, pthread_setname_np */
+#define _GNU_SOURCE      /* pthread_setname_np, pipe2 */
+#define _DARWIN_C_SOURCE /* the same on macOS */
 #include "prim.h"
 
 #include <dlfcn.h>
@@ -19,13 +20,17 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
+#if defined(__APPLE__)
+#include <crt_externs.h>
+#include <xlocale.h>
+#define environ (*_NSGetEnviron())
+#else
 extern char **environ;
+#endif
 
 /* ---- Time ------------------------------------------------------------------------------------------------------------ */
 
 #define NANOS_PER_SECOND INT64_C(1000000000)
-#define SPIN_NANOS INT64_C(500000)
 
 int64_t prim_now(void) {
     struct timespec now;
@@ -33,41 +38,11 @@ int64_t prim_now(void) {
     return (int64_t)now.tv_sec * NANOS_PER_SECOND + now.tv_nsec;
 }
 
-/* ---- Locks and semaphores -------------------------------------------------------------------------------------------- */
+/* ---- Locks ----------------------------------------------------------------------------------------------------------- */
 
 void prim_lock(prim_mutex *mutex) { pthread_mutex_lock(mutex); }
 
 void prim_unlock(prim_mutex *mutex) { pthread_mutex_unlock(mutex); }
-
-void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { sem_init(semaphore, 0, count); }
-
-void prim_semaphore_post(prim_semaphore *semaphore) { sem_post(semaphore); }
-
-/* Spins briefly: waking an idle core of a virtual machine costs more than a small tick. Yields to any other thread. */
-static bool spin(prim_semaphore *semaphore, int64_t deadline) {
-    int64_t end = prim_now() + SPIN_NANOS < deadline ? prim_now() + SPIN_NANOS : deadline;
-    while (sem_trywait(semaphore) != 0) {
-        if (prim_now() >= end) return false;
-        sched_yield();
-    }
-    return true;
-}
-
-void prim_semaphore_wait(prim_semaphore *semaphore) {
-    if (spin(semaphore, INT64_MAX)) return;
-    while (sem_wait(semaphore) != 0 && errno == EINTR) { /* interrupted by a signal handler */
-    }
-}
-
-bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline) {
-    if (spin(semaphore, deadline)) return true;
-    struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
-    int result;
-    do {
-        result = sem_clockwait(semaphore, CLOCK_MONOTONIC, &until);
-    } while (result != 0 && errno == EINTR);
-    return result == 0;
-}
 
 void prim_run_once(prim_once *once, void (*init)(void)) { pthread_once(once, init); }
 
@@ -81,7 +56,11 @@ struct thread_start {
 static void *thread_main(void *argument) {
     struct thread_start start = *(struct thread_start *)argument;
     free(argument);
+#if defined(__APPLE__)
+    pthread_setname_np(start.name);
+#else
     pthread_setname_np(pthread_self(), start.name);
+#endif
     start.body();
     return NULL;
 }
@@ -103,7 +82,9 @@ bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes)
     return started;
 }
 
-noreturn void prim_park(void) {
+void prim_yield(void) { sched_yield(); }
+
+_Noreturn void prim_park(void) {
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, NULL);
@@ -114,7 +95,10 @@ void prim_at_fork(void (*child)(void)) { pthread_atfork(NULL, NULL, child); }
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-void *prim_allocate(size_t bytes) { return aligned_alloc(64, bytes); }
+void *prim_allocate(size_t bytes) {
+    void *memory;
+    return posix_memalign(&memory, 64, bytes) == 0 ? memory : NULL;
+}
 
 void prim_free(void *memory) { free(memory); }
 
@@ -163,13 +147,29 @@ int prim_folder_lock(const char *file, int64_t deadline) {
 
 void prim_folder_unlock(int lock) { close(lock); }
 
-bool prim_locale_is_utf8(void) {
+FILE *prim_file_read(const char *path) { return fopen(path, "r"); }
+
+/* On macOS the JVM always uses UTF-8. */
+static bool locale_is_utf8(void) {
+#if defined(__APPLE__)
+    return true;
+#else
     locale_t locale = newlocale(LC_CTYPE_MASK, "", (locale_t)0);
     if (locale == (locale_t)0) return false;
     bool is_utf8 = strcmp(nl_langinfo_l(CODESET, locale), "UTF-8") == 0;
     freelocale(locale);
     return is_utf8;
+#endif
 }
+
+bool prim_jvm_reads(const char *text) {
+    for (const char *at = text; *at != '\0'; at++) {
+        if ((unsigned char)*at >= 0x80) return locale_is_utf8();
+    }
+    return true;
+}
+
+char *prim_jvm_text(const char *text) { return strdup(text); }
 
 void *prim_library_open(const char *path, char *why, size_t why_size) {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -282,11 +282,20 @@ static bool spawn(char *const argv[], int output, pid_t *child) {
     return spawned;
 }
 
+/* Without pipe2 a process that another thread spawns meanwhile inherits the pipe; it then ends the wait for output late. */
+static bool make_pipe(int ends[2]) {
+#if defined(__APPLE__)
+    return pipe(ends) == 0 && fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;
+#else
+    return pipe2(ends, O_CLOEXEC) == 0;
+#endif
+}
+
 enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
     int ends[2];
     pid_t child;
     output[0] = '\0';
-    if (pipe2(ends, O_CLOEXEC) != 0) return PRIM_NOT_STARTED;
+    if (!make_pipe(ends)) return PRIM_NOT_STARTED;
     bool spawned = spawn(argv, ends[1], &child);
     close(ends[1]);
     bool done = spawned && read_all(ends[0], deadline, output, output_size) && reap(child, deadline, status);

@@ -15,6 +15,9 @@
 #define CHECK_CODE(code, mention, call) check_code(__FILE__, __LINE__, #call, code, mention, call)
 #define CHECK_OK(call) CHECK_CODE(CLK_OK, NULL, call)
 
+/* Ends a case that this platform, or this JVM, has no place for. */
+_Noreturn void skip(const char *reason);
+
 _Noreturn void fail(const char *file, int line, const char *what);
 void check_code(const char *file, int line, const char *call, int32_t expected, const char *mention, int32_t got);
 
@@ -22,10 +25,12 @@ void check_code(const char *file, int line, const char *call, int32_t expected, 
 const char *java_home(void);
 bool java_is_17(void);
 extern const char *const host_classes;
+extern const char *const host_jar; /* the same classes */
 extern const char *const misfit_classes;
 
 /* Makes a folder below the current one. Static storage, valid until the next call. */
 const char *scratch_folder(void);
+void make_folder(const char *folder, const char *name);
 
 /* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
 int32_t start(const char *const *options);
@@ -63,7 +68,7 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
 #define CASES(X) \
     X(version_and_sizes) X(structs_of_other_sizes) X(errors_have_names) X(last_error_is_cut_at_a_character) \
     X(slot_arguments) X(slot_handles) X(slot_growth_keeps_the_tail) X(slots_are_reused) X(slots_agree_with_a_model) \
-    X(home_missing) X(home_of_an_old_version) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
+    X(home_missing) X(home_of_an_old_version) X(home_of_another_platform) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
     X(home_with_a_broken_libjvm) X(home_without_java_command) \
     X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
     X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) \

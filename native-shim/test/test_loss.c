@@ -1,16 +1,19 @@
 #define _XOPEN_SOURCE 700
-#include <fcntl.h>
 #include <pthread.h>
-#include <setjmp.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <setjmp.h>
+#include <signal.h>
+#include <sys/wait.h>
+#endif
+#include "prim.h"
 #include "test.h"
 
 static clk_session session;
@@ -69,6 +72,29 @@ void waiting_callers_learn_of_the_loss(void) {
 
 /* ---- Faults: the host process has handlers of its own ---------------------------------------------------------------- */
 
+#if defined(_WIN32)
+/* As Mono's: it knows the faults of its own memory and passes on all others. */
+static char *guarded;
+
+static LONG CALLBACK on_fault(EXCEPTION_POINTERS *exception) {
+    DWORD before;
+    const EXCEPTION_RECORD *record = exception->ExceptionRecord;
+    if (record->ExceptionCode != (DWORD)EXCEPTION_ACCESS_VIOLATION || record->ExceptionInformation[1] != (ULONG_PTR)guarded)
+        return EXCEPTION_CONTINUE_SEARCH;
+    return VirtualProtect(guarded, 1, PAGE_READWRITE, &before) ? EXCEPTION_CONTINUE_EXECUTION : EXCEPTION_CONTINUE_SEARCH;
+}
+
+static void catch_faults(void) {
+    guarded = VirtualAlloc(NULL, 1, MEM_RESERVE | MEM_COMMIT, PAGE_NOACCESS);
+    CHECK(guarded != NULL && AddVectoredExceptionHandler(1, on_fault) != NULL);
+}
+
+static void fault(void) {
+    DWORD before;
+    *(volatile char *)guarded = 1;
+    CHECK(VirtualProtect(guarded, 1, PAGE_NOACCESS, &before) && before == PAGE_READWRITE);
+}
+#else
 static sigjmp_buf recover;
 
 static void on_fault(int signal, siginfo_t *info, void *context) {
@@ -89,6 +115,7 @@ __attribute__((no_sanitize("address", "undefined"))) static void fault(void) {
         fail(__FILE__, __LINE__, "the fault was not noticed");
     }
 }
+#endif
 
 void implicit_null_checks_and_host_faults(void) {
     catch_faults();
@@ -109,6 +136,13 @@ void crash_loses_the_jvm(void) {
     check_all_lost("it aborted");
 }
 
+#if defined(_WIN32)
+void signal_handlers_are_repaired(void) { skip("Windows has no signal handlers"); }
+
+void fork_loses_the_jvm(void) { skip("Windows has no fork"); }
+
+void stop_while_the_start_hangs(void) { skip("Windows has no pipes among the files, on which a start would hang"); }
+#else
 void signal_handlers_are_repaired(void) {
     struct sigaction before, now;
     clk_session other;
@@ -148,6 +182,18 @@ void fork_loses_the_jvm(void) {
     CHECK_OK(step(session, EMPTY, 0, 60000));
 }
 
+/* JNI_CreateJavaVM hangs: it opens a pipe that nobody reads. */
+void stop_while_the_start_hangs(void) {
+    char pipe[128], log[192];
+    snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());
+    snprintf(log, sizeof log, "-Xlog:gc:file=%s", pipe);
+    CHECK(mkfifo(pipe, 0600) == 0);
+    CHECK_CODE(CLK_TIMEOUT, NULL, start_at(java_home(), host_classes, (const char *const[]){log, NULL}, false, 1000));
+    CHECK_CODE(CLK_JVM_LOST, "did not come up within 1000 ms", clk_jvm_stop(1000));
+}
+
+#endif
+
 /* ---- The end in order ------------------------------------------------------------------------------------------------ */
 
 void stop_ends_all(void) {
@@ -172,23 +218,22 @@ static void *stop_in_a_thread(void *unused) {
 }
 
 void stop_waits_while_another_writes_its_classes(void) {
-    if (java_is_17()) return; /* which has no such option */
+    char option[128], base[4096];
+    if (java_is_17()) skip("Java 17 has no such option");
+    snprintf(base, sizeof base, "%s/" PRIM_LIBJVM, java_home());
+    snprintf(strrchr(base, '/'), sizeof "/classes.jsa", "/classes.jsa");
+    if (access(base, F_OK) != 0) skip("this JVM has no archive of its own classes, and so makes none");
     const char *folder = scratch_folder();
-    char option[128], jar[128], command[16384];
     pthread_t stopping;
-    /* The JVM makes no archive of classes in folders. */
-    snprintf(jar, sizeof jar, "%s/host.jar", folder);
-    snprintf(command, sizeof command, "'%s/bin/jar' --create --file '%s' -C '%s' .", java_home(), jar, host_classes);
-    CHECK(system(command) == 0);
     snprintf(option, sizeof option, "-XX:SharedArchiveFile=%s/classes.jsa", folder);
     const char *archive = strchr(option, '=') + 1;
-    CHECK_OK(start_at(java_home(), jar, OPTIONS("-Xmx64m", "-XX:+AutoCreateSharedArchive", option), true, 60000));
-    int other = open(folder, O_RDONLY | O_DIRECTORY);
-    CHECK(flock(other, LOCK_EX) == 0);
+    CHECK_OK(start_at(java_home(), host_jar, OPTIONS("-Xmx64m", "-XX:+AutoCreateSharedArchive", option), true, 60000));
+    int other = prim_folder_lock(archive, prim_now());
+    CHECK(other >= 0);
     CHECK(pthread_create(&stopping, NULL, stop_in_a_thread, NULL) == 0);
     for (int i = 0; i < 3; i++) sleep_ms(500); /* longer than an end takes */
     CHECK(clk_jvm_state() == CLK_STATE_RUNNING && access(archive, F_OK) != 0);
-    close(other);
+    prim_folder_unlock(other);
     CHECK(pthread_join(stopping, NULL) == 0);
     CHECK(access(archive, F_OK) == 0);
 }
@@ -217,16 +262,6 @@ void stop_times_out(void) {
     CHECK(now_ns() - begin < 10000000000);
     CHECK(clk_jvm_state() == CLK_STATE_STOPPED);
     CHECK_CODE(CLK_JVM_NOT_RUNNING, "only once", step(session, EMPTY, 0, 200));
-}
-
-/* JNI_CreateJavaVM hangs: it opens a pipe that nobody reads. */
-void stop_while_the_start_hangs(void) {
-    char pipe[128], log[192];
-    snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());
-    snprintf(log, sizeof log, "-Xlog:gc:file=%s", pipe);
-    CHECK(mkfifo(pipe, 0600) == 0);
-    CHECK_CODE(CLK_TIMEOUT, NULL, start_at(java_home(), host_classes, (const char *const[]){log, NULL}, false, 1000));
-    CHECK_CODE(CLK_JVM_LOST, "did not come up within 1000 ms", clk_jvm_stop(1000));
 }
 
 void stop_after_a_hang(void) {

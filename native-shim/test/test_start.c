@@ -1,5 +1,4 @@
 #define _XOPEN_SOURCE 700
-#include <dlfcn.h>
 #include <jni.h>
 #include <pthread.h>
 #include <signal.h>
@@ -8,6 +7,12 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#if defined(_WIN32)
+#include <windows.h>
+
+#include <direct.h>
+#endif
+#include "prim.h"
 #include "test.h"
 
 /* ---- Files ----------------------------------------------------------------------------------------------------------- */
@@ -19,20 +24,18 @@ static void write_file(const char *folder, const char *name, const char *text, m
     CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, mode) == 0);
 }
 
-static void make_folder(const char *folder, const char *name) {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    CHECK(mkdir(path, 0755) == 0);
-}
-
 /* A home with the real JVM's lib folder and nothing else. */
 static const char *make_home_with_lib(void) {
+#if defined(_WIN32)
+    skip("a JVM without its bin/java.exe: its libraries are in bin, and symbolic links are for administrators only");
+#else
     const char *home = scratch_folder();
     char target[4096], link[4096];
     snprintf(target, sizeof target, "%s/lib", java_home());
     snprintf(link, sizeof link, "%s/lib", home);
     CHECK(symlink(target, link) == 0);
     return home;
+#endif
 }
 
 static int32_t start_home(const char *home) { return start_at(home, host_classes, NULL, true, 60000); }
@@ -57,15 +60,17 @@ void home_is_a_file(void) {
 }
 
 void home_without_libjvm(void) {
-    CHECK_CODE(CLK_JVM_NOT_FOUND, "lib/server/libjvm.so is missing", start_home(scratch_folder()));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, PRIM_LIBJVM " is missing", start_home(scratch_folder()));
     check_start_still_works();
 }
 
 static const char *make_broken_home(void) {
     const char *home = scratch_folder();
+    make_folder(home, "bin");
+    make_folder(home, "bin/server");
     make_folder(home, "lib");
     make_folder(home, "lib/server");
-    write_file(home, "lib/server/libjvm.so", "no library", 0644);
+    write_file(home, PRIM_LIBJVM, "no library", 0644);
     return home;
 }
 
@@ -79,6 +84,16 @@ void home_of_an_old_version(void) {
     write_file(home, "lib/modules", "x", 0644);
     write_file(home, "release", "IMPLEMENTOR=\"x\"\nJAVA_VERSION=\"11.0.2\"\n", 0644);
     CHECK_CODE(CLK_JVM_NOT_FOUND, "Java 11", start_home(home));
+    check_start_still_works();
+}
+
+void home_of_another_platform(void) {
+    const char *home = make_broken_home();
+    write_file(home, "lib/modules", "x", 0644);
+    write_file(home, "release", "JAVA_VERSION=\"25\"\nOS_ARCH=\"riscv64\"\nOS_NAME=\"" PRIM_SYSTEM "\"\n", 0644);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, " on riscv64; this process needs one for " PRIM_SYSTEM " on " PRIM_ARCHITECTURE, start_home(home));
+    write_file(home, "release", "JAVA_VERSION=\"25\"\nOS_ARCH=\"" PRIM_ARCHITECTURE "\"\nOS_NAME=\"SunOS\"\n", 0644);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "is for SunOS on", start_home(home));
     check_start_still_works();
 }
 
@@ -96,11 +111,25 @@ void home_without_java_command(void) {
 
 void class_path_missing(void) {
     char path[8192];
-    snprintf(path, sizeof path, "%s:/no/such/host.jar", host_classes);
+    snprintf(path, sizeof path, "%s%c/no/such/host.jar", host_classes, PRIM_PATH_SEPARATOR);
     CHECK_CODE(CLK_HOST, "/no/such/host.jar", start_at(java_home(), path, NULL, true, 60000));
     check_start_still_works();
 }
 
+#if defined(_WIN32)
+/* No code page but UTF-8 has both characters. */
+void class_path_beyond_ascii(void) {
+    char path[4096];
+    if (GetACP() == CP_UTF8) skip("this Windows uses UTF-8 as its code page, which has all characters");
+    snprintf(path, sizeof path, "%s/\xC3\xA4\xE4\xB8\xAD", scratch_folder());
+    wchar_t wide[4096];
+    MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 4096);
+    CHECK(_wmkdir(wide) == 0);
+    CHECK_CODE(CLK_HOST, "the code page of Windows cannot express", start_at(java_home(), path, NULL, true, 60000));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "is missing", start_home(path));
+    check_start_still_works();
+}
+#else
 void class_path_beyond_ascii(void) {
     char path[4096];
     snprintf(path, sizeof path, "%s/\xC3\xA4", scratch_folder());
@@ -110,6 +139,7 @@ void class_path_beyond_ascii(void) {
     CHECK(setenv("LC_ALL", "C.UTF-8", 1) == 0);
     CHECK_OK(start_at(java_home(), path, NULL, true, 60000));
 }
+#endif
 
 static void check_lost(void) {
     clk_session session;
@@ -244,7 +274,7 @@ void long_lines_of_the_jvm(void) {
     char line[8192];
     int32_t level, cut = 0;
     int used = snprintf(class_path, sizeof class_path, "%s", host_classes);
-    while (used < 9000) used += snprintf(class_path + used, sizeof class_path - (size_t)used, ":%s", host_classes);
+    while (used < 9000) used += snprintf(class_path + used, sizeof class_path - (size_t)used, "%c%s", PRIM_PATH_SEPARATOR, host_classes);
     CHECK_OK(start_at(java_home(), class_path, OPTIONS("-Xlog:arguments=info"), false, 60000));
     while (clk_log_read(&level, line, sizeof line) >= 0) {
         CHECK(line[0] == '['); /* each line of the log begins with the time */
@@ -354,6 +384,18 @@ void options_unchecked_heap_too_large(void) { check_unchecked(OPTIONS("-Xms20000
 
 void options_unchecked_unknown(void) { check_unchecked(OPTIONS("-XX:+NoSuchOption"), "NoSuchOption"); }
 
+#if defined(_WIN32)
+static LONG CALLBACK on_unhandled(EXCEPTION_POINTERS *exception) {
+    (void)exception;
+    return EXCEPTION_CONTINUE_SEARCH;
+}
+
+void failed_start_restores_signal_handlers(void) {
+    SetUnhandledExceptionFilter(on_unhandled);
+    check_unchecked(OPTIONS("--add-modules=no.such.module"), NULL);
+    CHECK(SetUnhandledExceptionFilter(NULL) == on_unhandled);
+}
+#else
 static void on_fault(int signal, siginfo_t *info, void *context) {
     (void)signal;
     (void)info;
@@ -371,9 +413,20 @@ void failed_start_restores_signal_handlers(void) {
     }
 }
 
+#endif
+
+static void set_variable(const char *name, const char *value) {
+#if defined(_WIN32)
+    CHECK(_putenv_s(name, value) == 0);
+#else
+    CHECK(setenv(name, value, 1) == 0);
+#endif
+}
+
 void environment_is_ignored(void) {
-    CHECK(setenv("JAVA_TOOL_OPTIONS", "-XX:+NoSuchOption", 1) == 0 && setenv("JDK_JAVA_OPTIONS", "-version", 1) == 0 &&
-          setenv("_JAVA_OPTIONS", "-XX:+NoSuchOption", 1) == 0);
+    set_variable("JAVA_TOOL_OPTIONS", "-XX:+NoSuchOption");
+    set_variable("JDK_JAVA_OPTIONS", "-version");
+    set_variable("_JAVA_OPTIONS", "-XX:+NoSuchOption");
     CHECK_OK(start(NULL));
     CHECK(log_mentions("JAVA_TOOL_OPTIONS is ignored") && log_mentions("_JAVA_OPTIONS is ignored"));
     CHECK(strcmp(getenv("JAVA_TOOL_OPTIONS"), "-XX:+NoSuchOption") == 0 && strcmp(getenv("JDK_JAVA_OPTIONS"), "-version") == 0);
@@ -423,8 +476,11 @@ void foreign_jvm(void) {
     JavaVM *vm;
     void *env;
     create_function *create;
-    snprintf(path, sizeof path, "%s/lib/server/libjvm.so", java_home());
-    *(void **)&create = dlsym(dlopen(path, RTLD_NOW), "JNI_CreateJavaVM");
+    char why[256];
+    snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, java_home());
+    void *library = prim_library_open(path, why, sizeof why);
+    CHECK(library != NULL);
+    *(void **)&create = prim_library_symbol(library, "JNI_CreateJavaVM");
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10};
     CHECK(create(&vm, &env, &arguments) == JNI_OK);
     CHECK_CODE(CLK_JVM_START, "another library", start(NULL));

@@ -23,7 +23,7 @@ SECTIONS = {
     "How-to": ["programs", "sensors-and-actuators", "neighbourhoods", "headless", "jvm-and-jfr", "samples", "from-collektive", "trust", "troubleshooting"],
     "Reference": [*(f"reference/{name}" for name in reference.PAGES)],
     "Explanation": ["repository/architecture", "repository/boundary", "repository/determinism", "repository/record-format", "repository/performance",
-                    "repository/disturbances", "repository/decisions", "repository/requirements", "limits", "verification"],
+                    "repository/disturbances", "repository/decisions", "repository/requirements", "platforms", "limits", "verification"],
     "Project": ["repository/changelog", "repository/contributing", "repository/security", "repository/third-party"],
 }
 LATE = "How-to"

@@ -52,6 +52,12 @@ def test_a_suite_without_whole_results_or_with_a_bad_end_is_a_failure(outcome, s
     assert outcome(script)[:2] == (passed, failed)
 
 
+def test_a_suite_that_could_run_nothing_says_why(outcome):
+    passed, failed, output = outcome("echo 'no emulator' >$folder/notes")
+    assert (passed, failed) == (0, 0) and "no emulator" in output
+    assert outcome("echo 'no emulator' >$folder/notes; exit 1")[:2] == (0, 1)
+
+
 def test_results_of_an_earlier_run_do_not_count(outcome):
     outcome(written(GOOD))
     assert outcome("true")[:2] == (0, 1)

@@ -51,7 +51,7 @@ namespace Collektive.Unity.Editor
                 Path.GetFullPath(project.Programs),
             };
             arguments.AddRange(project.Runtime.Arguments());
-            return Run("the Kotlin compiler", Path.Combine(jdk, "bin/java"), arguments);
+            return Run("the Kotlin compiler", Toolchain.Command(jdk, "java"), arguments);
         }
 
         private static bool Pack(string jdk, string generated, string classes, string work, SchemaProject project)

@@ -16,7 +16,8 @@ namespace Collektive.Unity.Editor
         /// <summary>The plugin works with this version of the compiler only.</summary>
         internal const string KotlinVersion = "2.4";
 
-        private const string UsualFolder = "/usr/lib/jvm";
+        private static readonly bool Windows = RuntimeInformation.IsOSPlatform(OSPlatform.Windows);
+
         private const string Tools = "Packages/org.collektive.unity/Tools~/";
 
         internal static string Generator => Shipped("collektive-generator.jar");
@@ -32,23 +33,23 @@ namespace Collektive.Unity.Editor
         /// <summary>flatc, where it may be executed: package managers drop the permission, and the package's folder is not to be written to.</summary>
         internal static string Flatc()
         {
-            if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux))
-                throw new ToolException("code of schemas is generated on Linux x86-64 only, so far: generate it there and commit it");
-            var shipped = Shipped("linux-x64/flatc");
+            if (Installation.Platform == "mac-x64" || Installation.Platform == "linux-arm64")
+                throw new ToolException("there is no flatc for " + Installation.Platform + ": generate the code on another machine and commit it");
+            var shipped = Shipped(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
             // By content: package managers set arbitrary file times.
-            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped));
+            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped) + (Windows ? ".exe" : ""));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
             var part = FinishedFile.NameOfPart(copy);
             File.Copy(shipped, part, true);
-            ToolRun.Do("/bin/chmod", "755", part);
+            if (!Windows) ToolRun.Do("/bin/chmod", "755", part);
             FinishedFile.Rename(part, copy);
             return copy;
         }
 
         /// <summary>
         /// The command java of version 17 or newer, for what needs no compiler: the package's own, else that of the JDK in the settings, of
-        /// <c>JAVA_HOME</c>, or of the usual folder.
+        /// <c>JAVA_HOME</c>, or of the usual folders.
         /// </summary>
         /// <exception cref="ToolException">There is none.</exception>
         internal static string FindJava()
@@ -56,12 +57,12 @@ namespace Collektive.Unity.Editor
             var candidates = new List<string> { Installation.Bundled, ProjectSettings.instance.jdk };
             AddInstalled(candidates);
             var found = candidates.Find(home => IsJre(home) && Version(home) >= 17);
-            return found != null ? Path.Combine(found, "bin/java") : throw new ToolException(
-                "no Java 17 or newer was found: install the package that has its own, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, else "
+            return found != null ? Command(found, "java") : throw new ToolException(
+                "no Java 17 or newer was found: install a JVM package of ours, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, else "
                 + "adoptium.net), and set JAVA_HOME or name its folder in Project Settings > Collektive");
         }
 
-        /// <summary>Root of the JDK: what the settings name, else <c>JAVA_HOME</c>, else the newest of the usual folder.</summary>
+        /// <summary>Root of the JDK: what the settings name, else <c>JAVA_HOME</c>, else the newest of the usual folders.</summary>
         /// <exception cref="ToolException">There is none.</exception>
         internal static string FindJdk()
         {
@@ -86,8 +87,9 @@ namespace Collektive.Unity.Editor
             foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
             {
                 // The compiler's own bin folder; a link in /usr/bin does not reveal the compiler's folder.
-                var parent = Path.GetDirectoryName(folder.TrimEnd('/'));
-                if (File.Exists(Path.Combine(folder, "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt"))) candidates.Add(parent);
+                var parent = Path.GetDirectoryName(folder.TrimEnd('/', '\\'));
+                if (File.Exists(Path.Combine(folder, Windows ? "kotlinc.bat" : "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt")))
+                    candidates.Add(parent);
             }
             var home = candidates.Find(candidate => candidate.Length > 0);
             var wanted = "get kotlin-compiler-" + KotlinVersion
@@ -111,19 +113,37 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>That of <c>JAVA_HOME</c>, then those of the usual folder, the newest first.</summary>
+        /// <summary>That of <c>JAVA_HOME</c>, then those of the usual folders, the newest first.</summary>
         private static void AddInstalled(List<string> candidates)
         {
             candidates.Add(Environment.GetEnvironmentVariable("JAVA_HOME") ?? "");
-            if (!Directory.Exists(UsualFolder)) return;
-            var installed = Directory.GetDirectories(UsualFolder);
-            Array.Sort(installed, (a, b) => Version(b).CompareTo(Version(a)));
+            var installed = new List<string>();
+            foreach (var folder in UsualFolders())
+            {
+                if (Directory.Exists(folder)) installed.AddRange(Directory.GetDirectories(folder));
+            }
+            // A JDK of macOS is a bundle.
+            installed = installed.ConvertAll(home => Directory.Exists(home + "/Contents/Home") ? home + "/Contents/Home" : home);
+            installed.Sort((a, b) => Version(b).CompareTo(Version(a)));
             candidates.AddRange(installed);
         }
 
-        private static bool IsJre(string home) => home.Length > 0 && File.Exists(Path.Combine(home, "bin/java")) && File.Exists(Path.Combine(home, "release"));
+        /// <summary>Where installers put JDKs, one a folder.</summary>
+        private static string[] UsualFolders()
+        {
+            if (RuntimeInformation.IsOSPlatform(OSPlatform.OSX)) return new[] { "/Library/Java/JavaVirtualMachines" };
+            if (!Windows) return new[] { "/usr/lib/jvm" };
+            var programs = Environment.GetFolderPath(Environment.SpecialFolder.ProgramFiles);
+            return new[] { programs + "/Eclipse Adoptium", programs + "/Java", programs + "/Microsoft", programs + "/Zulu" };
+        }
 
-        private static bool IsJdk(string home) => IsJre(home) && File.Exists(Path.Combine(home, "bin/javac"));
+        /// <summary>Path of a command of a JVM.</summary>
+        internal static string Command(string home, string name) =>
+            Path.Combine(home, "bin/" + name + (Windows ? ".exe" : ""));
+
+        private static bool IsJre(string home) => home.Length > 0 && File.Exists(Command(home, "java")) && File.Exists(Path.Combine(home, "release"));
+
+        private static bool IsJdk(string home) => IsJre(home) && File.Exists(Command(home, "javac"));
 
         /// <summary>The major version of a JDK; 0 when it does not say.</summary>
         private static int Version(string home)

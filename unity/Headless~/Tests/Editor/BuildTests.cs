@@ -160,6 +160,15 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
+        public void The_JVM_package_of_this_platform_is_found_beside_the_package()
+        {
+            var home = Path.GetFullPath("Packages/org.collektive.unity.jvm.linux-x64/Jvm~/linux-x64");
+            MakeJre(home);
+            MakeJre(Path.GetFullPath("Packages/org.collektive.unity.jvm.win-x64/Jvm~/win-x64"));
+            Assert.That(Toolchain.FindJava(), Is.EqualTo(home + "/bin/java"));
+        }
+
+        [Test]
         public void Code_is_generated_by_a_JRE_of_the_users()
         {
             MakeJre(Path.GetFullPath("jre"));

@@ -187,7 +187,7 @@ namespace Collektive.Headless.Tests
             var report = JvmReport.Of(new JvmSettings { location = JvmLocation.Folder, home = "/nowhere/jdk" }, Installation.ToLaunch);
             Assert.That(report.Problem(JvmSetting.Find("home")), Is.StringContaining("/nowhere/jdk"));
             report = JvmReport.Of(new JvmSettings { location = JvmLocation.Bundled }, Installation.ToLaunch);
-            Assert.That(report.Problem(JvmSetting.Find("location")), Is.StringContaining("no JVM of its own"));
+            Assert.That(report.Problem(JvmSetting.Find("location")), Is.StringContaining("install org.collektive.unity.jvm.linux-x64"));
         }
 
         [Test]

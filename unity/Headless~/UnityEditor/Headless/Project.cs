@@ -15,7 +15,8 @@ namespace UnityEditor.Headless
         /// Where the package manager keeps the package, below the working folder; it is not in `Packages`.
         public const string PackageCache = "Library/PackageCache/org.collektive.unity@1a2b3c";
 
-        internal static string PhysicalPath(string path) => path.StartsWith(Package) ? PackageCache + path.Substring(Package.Length) : path;
+        internal static string PhysicalPath(string path) =>
+            path == Package || path.StartsWith(Package + "/") ? PackageCache + path.Substring(Package.Length) : path;
 
         public static int Refreshes { get; internal set; }
         public static string Revealed { get; set; }

@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Runtime.InteropServices;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -26,15 +27,28 @@ namespace Collektive.Unity
         /// <summary>Path of what programs are compiled against beside the host's jar: the DSL and its standard library.</summary>
         internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
-        /// <summary>Root of the JVM for settings that do not say: what was set, else the package's own, else <c>JAVA_HOME</c>, else empty.</summary>
+        /// <summary>Root of the JVM for settings that do not say: what was set, else the installed packages' own, else <c>JAVA_HOME</c>, else empty.</summary>
         public static string JavaHome
         {
             get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
             set => javaHome = value;
         }
 
-        /// <summary>Root of the package's own JVM; not every package has one.</summary>
-        internal static string Bundled => PathOf(Package + "/Jvm~/linux-x64");
+        /// <summary>The package's name of the platform that this process runs on, such as <c>linux-x64</c> or <c>mac-arm64</c>.</summary>
+        internal static string Platform { get; } = NameOfPlatform();
+
+        /// <summary>Root of the package's own JVM, or else of that in the JVM package of this platform; none needs to be there.</summary>
+        internal static string Bundled
+        {
+            get
+            {
+                var own = PathOf(Package + "/Jvm~/" + Platform);
+                return Directory.Exists(own) ? own : Path.Combine(ToPhysical(JvmPackage), "Jvm~", Platform);
+            }
+        }
+
+        /// <summary>Place of the package that holds a JVM for this platform and nothing else.</summary>
+        private static string JvmPackage => Package + ".jvm." + Platform;
 
         private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
 
@@ -62,13 +76,20 @@ namespace Collektive.Unity
             return Path.Combine(Directory.Exists(content) ? content : ToPhysical(Package), file.Substring(Package.Length + 1));
         }
 
+        private static string NameOfPlatform()
+        {
+            var system = RuntimeInformation.IsOSPlatform(OSPlatform.Windows) ? "win"
+                : RuntimeInformation.IsOSPlatform(OSPlatform.OSX) ? "mac" : "linux";
+            return system + (RuntimeInformation.ProcessArchitecture == Architecture.Arm64 ? "-arm64" : "-x64");
+        }
+
         private static string HomeOf(JvmSettings settings)
         {
             switch (settings.location)
             {
                 case JvmLocation.Bundled:
                     return Directory.Exists(Bundled) ? Bundled
-                        : throw Missing("the package has no JVM of its own: install the package that has one, or choose another location");
+                        : throw Missing("no JVM is installed with the package: install org.collektive.unity.jvm." + Platform + ", or choose another location");
                 case JvmLocation.JavaHome:
                     return FromEnvironment.Length > 0 ? FromEnvironment
                         : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
@@ -76,7 +97,8 @@ namespace Collektive.Unity
                     return Path.GetFullPath(settings.home);
                 default:
                     return JavaHome.Length > 0 ? JavaHome
-                        : throw Missing("there is no JVM: install the package that has one, set JAVA_HOME, or choose a folder in the JVM settings");
+                        : throw Missing("there is no JVM: install org.collektive.unity.jvm." + Platform
+                            + ", set JAVA_HOME, or choose a folder in the JVM settings");
             }
         }
 

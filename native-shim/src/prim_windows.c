@@ -1,0 +1,425 @@
+#define WIN32_LEAN_AND_MEAN
+#include "prim.h"
+
+#include <windows.h>
+
+#include <process.h>
+#include <stdlib.h>
+#include <string.h>
+#include <wchar.h>
+
+_Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK) && sizeof(prim_once) == sizeof(INIT_ONCE), "prim.h does without windows.h");
+
+#define PATH_UNITS 4096
+
+/* ---- Text ------------------------------------------------------------------------------------------------------------ */
+
+/* False when the text does not fit, or is not UTF-8. */
+static bool to_wide(const char *text, wchar_t *wide, int units) {
+    return MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, text, -1, wide, units) > 0;
+}
+
+/* The text in UTF-16; the caller frees it. NULL when there is no memory, or the text is of no such code page. */
+static wchar_t *wide_of(UINT code_page, const char *text) {
+    int units = MultiByteToWideChar(code_page, 0, text, -1, NULL, 0);
+    wchar_t *wide = units > 0 ? malloc((size_t)units * sizeof *wide) : NULL;
+    if (wide != NULL) MultiByteToWideChar(code_page, 0, text, -1, wide, units);
+    return wide;
+}
+
+/* The text in a code page; the caller frees it. NULL when there is no memory. `lost` is set when the code page lacks a character. */
+static char *narrow_of(UINT code_page, const wchar_t *wide, BOOL *lost) {
+    BOOL *flag = code_page == CP_UTF8 ? NULL : lost; /* which may not be asked for UTF-8 */
+    DWORD exact = code_page == CP_UTF8 ? 0 : WC_NO_BEST_FIT_CHARS;
+    int bytes = WideCharToMultiByte(code_page, exact, wide, -1, NULL, 0, NULL, flag);
+    char *text = bytes > 0 ? malloc((size_t)bytes) : NULL;
+    if (text != NULL) WideCharToMultiByte(code_page, exact, wide, -1, text, bytes, NULL, flag);
+    return text;
+}
+
+/* Puts text of another code page, such as output of the JVM, into UTF-8 where it is, as far as that fits. */
+static void to_utf8_in_place(UINT code_page, char *text, size_t size) {
+    wchar_t *wide = wide_of(code_page, text);
+    char *utf8 = wide != NULL ? narrow_of(CP_UTF8, wide, NULL) : NULL;
+    if (utf8 != NULL && strlen(utf8) < size) memcpy(text, utf8, strlen(utf8) + 1);
+    free(utf8);
+    free(wide);
+}
+
+static UINT jvm_code_page(void) { return GetACP(); }
+
+char *prim_jvm_text(const char *text) {
+    wchar_t *wide = wide_of(CP_UTF8, text);
+    BOOL lost = FALSE;
+    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, &lost) : NULL;
+    free(wide);
+    return converted;
+}
+
+bool prim_jvm_reads(const char *text) {
+    wchar_t *wide = wide_of(CP_UTF8, text);
+    BOOL lost = FALSE;
+    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, &lost) : NULL;
+    bool reads = converted != NULL && !lost;
+    free(converted);
+    free(wide);
+    return reads;
+}
+
+/* ---- Time ------------------------------------------------------------------------------------------------------------ */
+
+#define NANOS_PER_SECOND INT64_C(1000000000)
+
+int64_t prim_now(void) {
+    LARGE_INTEGER frequency, count;
+    QueryPerformanceFrequency(&frequency);
+    QueryPerformanceCounter(&count);
+    return count.QuadPart / frequency.QuadPart * NANOS_PER_SECOND +
+           count.QuadPart % frequency.QuadPart * NANOS_PER_SECOND / frequency.QuadPart;
+}
+
+/* Milliseconds until the deadline, rounded up. */
+static DWORD limit_of(int64_t deadline) {
+    if (deadline == INT64_MAX) return INFINITE;
+    int64_t left = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
+    return left < 0 ? 0 : left >= INT32_MAX ? (DWORD)INT32_MAX : (DWORD)left;
+}
+
+/* ---- Locks and semaphores -------------------------------------------------------------------------------------------- */
+
+void prim_lock(prim_mutex *mutex) { AcquireSRWLockExclusive((SRWLOCK *)mutex); }
+
+void prim_unlock(prim_mutex *mutex) { ReleaseSRWLockExclusive((SRWLOCK *)mutex); }
+
+void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { *semaphore = CreateSemaphoreW(NULL, (LONG)count, LONG_MAX, NULL); }
+
+void prim_semaphore_post(prim_semaphore *semaphore) { ReleaseSemaphore(*semaphore, 1, NULL); }
+
+bool prim_semaphore_try(prim_semaphore *semaphore) { return WaitForSingleObject(*semaphore, 0) == WAIT_OBJECT_0; }
+
+bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
+    while (WaitForSingleObject(*semaphore, limit_of(deadline)) != WAIT_OBJECT_0) {
+        if (prim_now() >= deadline) return false;
+    }
+    return true;
+}
+
+static BOOL CALLBACK run_init(PINIT_ONCE once, void *init, void **context) {
+    (void)once;
+    (void)context;
+    (*(void (**)(void))init)();
+    return TRUE;
+}
+
+void prim_run_once(prim_once *once, void (*init)(void)) { InitOnceExecuteOnce((INIT_ONCE *)once, run_init, (void *)&init, NULL); }
+
+/* ---- Threads --------------------------------------------------------------------------------------------------------- */
+
+struct thread_start {
+    void (*body)(void);
+    const char *name;
+};
+
+static unsigned __stdcall thread_main(void *argument) {
+    struct thread_start start = *(struct thread_start *)argument;
+    wchar_t name[16];
+    free(argument);
+    if (to_wide(start.name, name, 16)) SetThreadDescription(GetCurrentThread(), name);
+    start.body();
+    return 0;
+}
+
+/* Threads, natives and hooks of the JVM use this library until the process ends. */
+static void stay_loaded(void) {
+    HMODULE self;
+    GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (LPCWSTR)(uintptr_t)&stay_loaded, &self);
+}
+
+bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes) {
+    struct thread_start *start = malloc(sizeof *start);
+    if (start == NULL) return false;
+    *start = (struct thread_start){body, name};
+    stay_loaded();
+    uintptr_t thread = _beginthreadex(NULL, (unsigned)stack_bytes, thread_main, start, STACK_SIZE_PARAM_IS_A_RESERVATION, NULL);
+    if (thread == 0) {
+        free(start);
+        return false;
+    }
+    CloseHandle((HANDLE)thread);
+    return true;
+}
+
+void prim_yield(void) { SwitchToThread(); }
+
+_Noreturn void prim_park(void) {
+    for (;;) Sleep(INFINITE);
+}
+
+/* Windows has no fork. */
+void prim_at_fork(void (*child)(void)) { (void)child; }
+
+/* ---- Signal handlers ------------------------------------------------------------------------------------------------- */
+
+static LPTOP_LEVEL_EXCEPTION_FILTER before;
+
+void prim_signals_save(void) {
+    before = SetUnhandledExceptionFilter(NULL);
+    SetUnhandledExceptionFilter(before);
+}
+
+void prim_signals_restore(void) { SetUnhandledExceptionFilter(before); }
+
+/* HotSpot handles its own faults by tables of its code, which no library can replace, and passes unhandled exceptions on to the former filter. */
+void prim_signals_adopt(void) {}
+
+int32_t prim_signals_repair(void) { return 0; }
+
+/* ---- Memory ---------------------------------------------------------------------------------------------------------- */
+
+void *prim_allocate(size_t bytes) { return _aligned_malloc(bytes, 64); }
+
+void prim_free(void *memory) { _aligned_free(memory); }
+
+/* ---- Files and libraries --------------------------------------------------------------------------------------------- */
+
+enum prim_file prim_file_kind(const char *path) {
+    wchar_t wide[PATH_UNITS];
+    if (!to_wide(path, wide, PATH_UNITS)) return PRIM_MISSING;
+    DWORD attributes = GetFileAttributesW(wide);
+    if (attributes == INVALID_FILE_ATTRIBUTES) return GetLastError() == ERROR_ACCESS_DENIED ? PRIM_UNREADABLE : PRIM_MISSING;
+    bool folder = (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
+    HANDLE file = CreateFileW(wide, folder ? FILE_LIST_DIRECTORY : GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                              NULL, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL);
+    if (file == INVALID_HANDLE_VALUE) return PRIM_UNREADABLE;
+    CloseHandle(file);
+    return folder ? PRIM_DIRECTORY : PRIM_FILE;
+}
+
+bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE; }
+
+/* Puts the folder of a file into `folder`, with a name in it. False when the path has no folder, or one that is too long. */
+static bool beside(const char *file, const wchar_t *name, wchar_t *folder) {
+    if (!to_wide(file, folder, PATH_UNITS)) return false;
+    wchar_t *end = folder + wcslen(folder);
+    while (end > folder && end[-1] != L'/' && end[-1] != L'\\') end--;
+    if (end == folder || (size_t)(end - folder) + wcslen(name) >= PATH_UNITS) return false;
+    wcscpy(end, name);
+    return true;
+}
+
+int64_t prim_room(const char *file) {
+    wchar_t folder[PATH_UNITS];
+    ULARGE_INTEGER room;
+    if (!beside(file, L"", folder) || !GetDiskFreeSpaceExW(folder, &room, NULL, NULL)) return INT64_MAX;
+    return room.QuadPart > INT64_MAX ? INT64_MAX : (int64_t)room.QuadPart;
+}
+
+#define LOCK_POLL_MS 5
+
+/* A folder cannot be locked: the lock is a file in it that only one process can open, and that goes when it is closed. */
+int prim_folder_lock(const char *file, int64_t deadline) {
+    wchar_t path[PATH_UNITS];
+    if (!beside(file, L".collektive-lock", path)) return -1;
+    for (;;) {
+        HANDLE lock = CreateFileW(path, GENERIC_WRITE, 0, NULL, CREATE_ALWAYS, FILE_ATTRIBUTE_HIDDEN | FILE_FLAG_DELETE_ON_CLOSE, NULL);
+        if (lock != INVALID_HANDLE_VALUE) return (int)(intptr_t)lock; /* handles have 32 significant bits */
+        DWORD error = GetLastError();
+        bool taken = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED || error == ERROR_DELETE_PENDING;
+        if (!taken || prim_now() >= deadline) return -1;
+        Sleep(LOCK_POLL_MS);
+    }
+}
+
+void prim_folder_unlock(int lock) { CloseHandle((HANDLE)(intptr_t)lock); }
+
+FILE *prim_file_read(const char *path) {
+    wchar_t wide[PATH_UNITS];
+    return to_wide(path, wide, PATH_UNITS) ? _wfopen(wide, L"r") : NULL;
+}
+
+static void describe(DWORD error, char *why, size_t why_size) {
+    wchar_t text[256];
+    DWORD length = FormatMessageW(FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS | FORMAT_MESSAGE_MAX_WIDTH_MASK, NULL, error,
+                                  0, text, sizeof text / sizeof *text, NULL);
+    while (length > 0 && (text[length - 1] == L' ' || text[length - 1] == L'.')) length--;
+    text[length] = L'\0';
+    char *utf8 = narrow_of(CP_UTF8, text, NULL);
+    snprintf(why, why_size, "%s (error %lu)", utf8 != NULL && utf8[0] != '\0' ? utf8 : "no reason given", error);
+    free(utf8);
+}
+
+/* A JVM's library lies in bin/server, what it needs in bin. Windows looks there only when it is told to, and wants backslashes then. */
+void *prim_library_open(const char *path, char *why, size_t why_size) {
+    wchar_t wide[PATH_UNITS], full[PATH_UNITS], bin[PATH_UNITS];
+    DWORD units = to_wide(path, wide, PATH_UNITS) ? GetFullPathNameW(wide, PATH_UNITS, full, NULL) : 0;
+    if (units == 0 || units >= PATH_UNITS) {
+        snprintf(why, why_size, "its path is too long");
+        return NULL;
+    }
+    wcscpy(bin, full);
+    for (int i = 0; i < 2; i++) {
+        wchar_t *end = wcsrchr(bin, L'\\');
+        if (end != NULL) *end = L'\0';
+    }
+    DLL_DIRECTORY_COOKIE cookie = AddDllDirectory(bin);
+    HMODULE library = LoadLibraryExW(full, NULL, LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR | LOAD_LIBRARY_SEARCH_DEFAULT_DIRS);
+    if (library == NULL) describe(GetLastError(), why, why_size);
+    if (cookie != NULL) RemoveDllDirectory(cookie);
+    return (void *)library;
+}
+
+void *prim_library_symbol(void *library, const char *name) { return (void *)(uintptr_t)GetProcAddress((HMODULE)library, name); }
+
+/* ---- Environment and processes --------------------------------------------------------------------------------------- */
+
+bool prim_environment_hide(const char *name, char **hidden) {
+    const char *value = getenv(name);
+    if (value == NULL) return false;
+    size_t size = strlen(name) + strlen(value) + 2;
+    char *entry = malloc(size);
+    if (entry == NULL) return false;
+    snprintf(entry, size, "%s=%s", name, value);
+    _putenv_s(name, "");
+    *hidden = entry;
+    return true;
+}
+
+void prim_environment_show(char *hidden) {
+    _putenv(hidden);
+    free(hidden);
+}
+
+/* Adds a word of a command line by the rules of CommandLineToArgvW. False when it does not fit. */
+static bool add_word(const char *word, wchar_t *line, size_t units) {
+    wchar_t *wide = wide_of(CP_UTF8, word);
+    size_t used = wcslen(line), backslashes = 0;
+    if (wide == NULL || used + 2 * wcslen(wide) + 4 > units) {
+        free(wide);
+        return false;
+    }
+    if (used > 0) line[used++] = L' ';
+    line[used++] = L'"';
+    for (const wchar_t *at = wide;; at++) {
+        if (*at == L'\\') {
+            backslashes++;
+        } else {
+            /* Backslashes count twice before a quote, and only there. */
+            if (*at == L'"' || *at == L'\0') {
+                for (size_t i = 0; i < backslashes; i++) line[used++] = L'\\';
+            }
+            if (*at == L'"') line[used++] = L'\\';
+            backslashes = 0;
+        }
+        if (*at == L'\0') break;
+        line[used++] = *at;
+    }
+    line[used++] = L'"';
+    line[used] = L'\0';
+    free(wide);
+    return true;
+}
+
+enum { LINE_UNITS = 32767 };
+
+/* The caller frees the command line; NULL when it is longer than Windows allows, or there is no memory. */
+static wchar_t *command_line(char *const argv[]) {
+    wchar_t *line = malloc(LINE_UNITS * sizeof *line);
+    if (line != NULL) line[0] = L'\0';
+    for (; line != NULL && *argv != NULL; argv++) {
+        if (!add_word(*argv, line, LINE_UNITS)) {
+            free(line);
+            line = NULL;
+        }
+    }
+    return line;
+}
+
+/* Starts a program in a job, which takes its children along, with these two handles and no others. NULL when it does not start. */
+static HANDLE spawn(wchar_t *line, HANDLE input, HANDLE output, HANDLE job) {
+    HANDLE handles[] = {input, output};
+    STARTUPINFOEXW startup = {
+        .StartupInfo = {
+            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = input, .hStdOutput = output, .hStdError = output}};
+    PROCESS_INFORMATION child = {0};
+    SIZE_T size = 0;
+    InitializeProcThreadAttributeList(NULL, 1, 0, &size);
+    startup.lpAttributeList = malloc(size);
+    if (startup.lpAttributeList == NULL || !InitializeProcThreadAttributeList(startup.lpAttributeList, 1, 0, &size)) {
+        free(startup.lpAttributeList);
+        return NULL;
+    }
+    BOOL started =
+        UpdateProcThreadAttribute(startup.lpAttributeList, 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, handles, sizeof handles, NULL, NULL) &&
+        CreateProcessW(NULL, line, NULL, NULL, TRUE, CREATE_NO_WINDOW | CREATE_SUSPENDED | EXTENDED_STARTUPINFO_PRESENT, NULL, NULL,
+                       &startup.StartupInfo, &child);
+    DeleteProcThreadAttributeList(startup.lpAttributeList);
+    free(startup.lpAttributeList);
+    if (!started) return NULL;
+    AssignProcessToJobObject(job, child.hProcess);
+    ResumeThread(child.hThread);
+    CloseHandle(child.hThread);
+    return child.hProcess;
+}
+
+/* Reads until all writers have closed the pipe; when the output is full, drops its older half. False when the deadline passed first. */
+static bool read_all(HANDLE pipe, int64_t deadline, char *output, size_t output_size) {
+    size_t used = 0;
+    for (;;) {
+        DWORD ready = 0, count = 0;
+        if (!PeekNamedPipe(pipe, NULL, 0, NULL, &ready, NULL)) return true;
+        if (ready == 0) {
+            if (prim_now() >= deadline) return false;
+            Sleep(1);
+            continue;
+        }
+        if (used + 1 == output_size) {
+            used = output_size / 2;
+            memmove(output, output + output_size - 1 - used, used);
+        }
+        if (!ReadFile(pipe, output + used, (DWORD)(output_size - 1 - used), &count, NULL)) return true;
+        used += count;
+        output[used] = '\0';
+    }
+}
+
+/* False when it did not end before the deadline. */
+static bool reap(HANDLE child, int64_t deadline, int *status) {
+    DWORD code;
+    if (WaitForSingleObject(child, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child, &code)) return false;
+    *status = (int)code;
+    return true;
+}
+
+/* An unnamed job that ends its processes when its handle is closed; NULL when there is none. */
+static HANDLE make_job(void) {
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits = {.BasicLimitInformation = {.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE}};
+    HANDLE job = CreateJobObjectW(NULL, NULL);
+    if (job != NULL) SetInformationJobObject(job, JobObjectExtendedLimitInformation, &limits, sizeof limits);
+    return job;
+}
+
+enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
+    SECURITY_ATTRIBUTES inherited = {.nLength = sizeof inherited, .bInheritHandle = TRUE};
+    HANDLE from = NULL, to = NULL, child = NULL;
+    HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited, OPEN_EXISTING, 0, NULL);
+    HANDLE job = make_job();
+    wchar_t *line = command_line(argv);
+    output[0] = '\0';
+    if (line != NULL && input != INVALID_HANDLE_VALUE && CreatePipe(&from, &to, &inherited, 0)) {
+        child = spawn(line, input, to, job);
+        CloseHandle(to);
+    }
+    free(line);
+    bool done = child != NULL && read_all(from, deadline, output, output_size) && reap(child, deadline, status);
+    if (child != NULL && !done) {
+        TerminateJobObject(job, 1);
+        reap(child, prim_now() + NANOS_PER_SECOND, status);
+    }
+    if (input != INVALID_HANDLE_VALUE) CloseHandle(input);
+    if (from != NULL) CloseHandle(from);
+    if (job != NULL) CloseHandle(job);
+    if (child == NULL) return PRIM_NOT_STARTED;
+    CloseHandle(child);
+    to_utf8_in_place(jvm_code_page(), output, output_size);
+    return done ? PRIM_EXITED : PRIM_TIMED_OUT;
+}

@@ -1,0 +1,14 @@
+# CMake toolchain file: builds for another platform with zig. COLLEKTIVE_ZIG is the command zig, COLLEKTIVE_TARGET zig's name of the platform.
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES COLLEKTIVE_ZIG COLLEKTIVE_TARGET)
+if(COLLEKTIVE_TARGET MATCHES windows)
+  set(CMAKE_SYSTEM_NAME Windows)
+elseif(COLLEKTIVE_TARGET MATCHES macos)
+  set(CMAKE_SYSTEM_NAME Darwin)
+else()
+  set(CMAKE_SYSTEM_NAME Linux)
+endif()
+string(REGEX REPLACE "-.*" "" CMAKE_SYSTEM_PROCESSOR "${COLLEKTIVE_TARGET}")
+set(CMAKE_C_COMPILER "${COLLEKTIVE_ZIG}" cc -target "${COLLEKTIVE_TARGET}")
+set(CMAKE_CXX_COMPILER "${COLLEKTIVE_ZIG}" c++ -target "${COLLEKTIVE_TARGET}")
+# The archives that the tools look for are those of the machine that builds.
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY NEVER)
