@@ -10,8 +10,8 @@ export default [
   {
     files: ['unity/Headless~/Replay/**/*.{js,mjs}', 'scripts/site/*.mjs'],
     languageOptions: { globals: globals(
-      'Blob Buffer DecompressionStream OffscreenCanvas Response TextDecoder URL atob cancelAnimationFrame console devicePixelRatio document'
-        + ' getComputedStyle innerWidth matchMedia performance process requestAnimationFrame window',
+      'Blob Buffer DecompressionStream MediaRecorder OffscreenCanvas Response TextDecoder URL atob cancelAnimationFrame console devicePixelRatio document'
+        + ' getComputedStyle innerWidth matchMedia navigator performance process requestAnimationFrame setTimeout window',
     ) },
     rules: { eqeqeq: 'error', 'no-var': 'error', 'prefer-const': 'error', 'no-unused-vars': ['error', { argsIgnorePattern: '^_' }] },
   },

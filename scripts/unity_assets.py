@@ -291,6 +291,8 @@ def settings_of(maker, folder, scenario):
     for name in ["program", "seed", "deltaTime", "physicsStep", "threads"]:
         if name in scenario:
             settings[name] = scenario[name]
+    for name, value in scenario.get("network", {}).items():
+        settings[f"network.{name}"] = value
     return settings
 
 

@@ -7,11 +7,11 @@ import struct
 
 
 def read(path):
-    """Metadata, and a list of frames: (time, {id: (x, y, z, scalar or None)}, set of links)."""
+    """Metadata, and a list of frames: (time, {id: (x, y, z, first field or None)}, set of links)."""
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
-    assert header["version"] == 2
+    assert header["version"] == 3
     assert header["length"] == sum(1 + len(line) for line in lines[1:])
     times, frames = iter(header["times"]), []
     for line in lines[1:]:
@@ -28,11 +28,11 @@ def _unpack(text):
 
 class _Segment:
     def __init__(self, data, header):
-        self.data, self.at = data, 8
-        self.low, self.high = struct.unpack_from("<2f", data)
+        self.data, self.at = data, 0
+        self.ranges = [self.range() if field["kind"] == "number" else None for field in header["fields"]]
         self.ids, self.step = header["ids"], header["positionStep"]
-        self.last = [[0] * len(self.ids) for _ in range(4)]
-        self.motion = [[0] * len(self.ids) for _ in range(4)]
+        self.last = [[0] * len(self.ids) for _ in range(3 + len(self.ranges))]
+        self.motion = [[0] * len(self.ids) for _ in range(3 + len(self.ranges))]
         self.seen, self.links = set(), set()
 
     def frame(self):
@@ -48,14 +48,23 @@ class _Segment:
                 if slot in self.seen:
                     motion[slot] = moved
         self.seen.update(present)
-        nodes = {self.ids[slot]: (*(axis[slot] * self.step for axis in self.last[:3]), self.scalar(self.last[3][slot])) for slot in present}
+        nodes = {self.ids[slot]: (*(axis[slot] * self.step for axis in self.last[:3]), self.value(0, self.last[3][slot])) for slot in present}
         self.number()  # how many links there are in all
         self.links -= set(self.pairs())
         self.links |= set(self.pairs())
         return nodes, {(self.ids[a], self.ids[b]) for a, b in self.links}
 
-    def scalar(self, steps):
-        return None if steps == 0 else self.low + (steps - 1) * (self.high - self.low) / 65534
+    def range(self):
+        self.at += 8
+        return struct.unpack_from("<2f", self.data, self.at - 8)
+
+    def value(self, field, steps):
+        if steps == 0:
+            return None
+        if self.ranges[field] is None:
+            return (steps - 1) >> 1 ^ -((steps - 1) & 1)
+        low, high = self.ranges[field]
+        return low + (steps - 1) * (high - low) / 65534
 
     def pairs(self):
         pairs, a, b = [], -1, 0

@@ -87,6 +87,14 @@ class TheSamples(Folder):
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
 
+    def test_the_robots_find_all_casualties_and_stay_connected_with_them_when_some_fail(self):
+        rows = self.rows("Rescue")
+        self.assertEqual(rows[59]["found"], 3)
+        self.assertEqual(rows[59]["connected"], 3)
+        self.assertLess(rows[59]["channel_robots"], 60, "of 120")
+        self.assertEqual(rows[-1]["robots"], 108)
+        self.assertEqual(rows[-1]["connected"], 3)
+
     def test_the_crowds_pass_without_bumping_and_their_warning_ends(self):
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)

@@ -15,7 +15,10 @@ namespace Collektive.Headless
     {
         private readonly TextWriter writer;
         private readonly SceneBuilder scene;
+        private static readonly string[] Counts = { "links", "sent", "dropped", "delayed", "expired" };
+
         private readonly double[] values;
+        private readonly double[] row;
         private readonly List<double> whole = new List<double>();
         private double rules, sense, step, act, physics;
         private int ticks;
@@ -25,13 +28,20 @@ namespace Collektive.Headless
         {
             this.scene = scene;
             values = new double[scene.MetricNames.Count];
+            row = new double[values.Length + Counts.Length];
             writer = path == null ? TextWriter.Null : new StreamWriter(path);
-            var names = values.Length == 0 ? "" : string.Join(",", scene.MetricNames) + ",";
-            writer.Write("second," + names + "links,sent,dropped,delayed,expired,sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
+            writer.Write("second," + string.Join(",", NamesOf(scene)) + ",sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
         }
 
         /// <summary>The scene's metrics at the last row.</summary>
         internal IReadOnlyList<double> Values => values;
+
+        /// <summary>The metrics of a row that are no times of the machine: the scene's, then those of links and messages.</summary>
+        internal static IEnumerable<string> NamesOf(SceneBuilder scene)
+        {
+            foreach (var name in scene.MetricNames) yield return name;
+            foreach (var name in Counts) yield return name;
+        }
 
         /// <summary>Adds a tick.</summary>
         internal void Add(TickTimes times, NetworkCounts network)
@@ -51,25 +61,27 @@ namespace Collektive.Headless
         /// <summary>Adds what passed on the clock from the end of the former tick to the end of this one, in milliseconds.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
-        internal void EndInterval(double second, int links)
+        /// <summary>Writes the row of an interval that ended, and returns it without its times of the machine: by <see cref="NamesOf"/>, valid until the next call.</summary>
+        internal IReadOnlyList<double> EndInterval(double second, int links)
         {
             scene.Measure(values);
-            var row = second.ToString("0.######", CultureInfo.InvariantCulture);
-            foreach (var value in values) row += "," + Text(value);
-            row += "," + links.ToString(CultureInfo.InvariantCulture);
-            foreach (var count in new[] { sent, dropped, delayed, expired }) row += "," + count.ToString(CultureInfo.InvariantCulture);
+            values.CopyTo(row, 0);
+            new double[] { links, sent, dropped, delayed, expired }.CopyTo(row, values.Length);
+            var text = second.ToString("0.######", CultureInfo.InvariantCulture);
+            foreach (var value in row) text += "," + Text(value);
             var all = 0.0;
             foreach (var time in whole) all += time;
             foreach (var time in new[] { sense, rules, step, act, physics, all - sense - rules - step - act - physics, all })
-                row += "," + Text(time / Math.Max(1, ticks));
-            row += "," + Text(Quantiles.Of(whole, 0.99));
-            writer.Write(row + "\n");
+                text += "," + Text(time / Math.Max(1, ticks));
+            text += "," + Text(Quantiles.Of(whole, 0.99));
+            writer.Write(text + "\n");
             // A run that is killed keeps what it has measured.
             writer.Flush();
             whole.Clear();
             ticks = 0;
             rules = sense = step = act = physics = 0;
             sent = dropped = delayed = expired = 0;
+            return row;
         }
 
         public void Dispose() => writer.Dispose();

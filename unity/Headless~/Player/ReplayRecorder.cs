@@ -16,10 +16,18 @@ namespace Collektive.Headless
         /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
         private const double MostNodes = 50000;
 
+        /// <summary>Moving shapes that are recorded, at most: their poses lie in the page's header.</summary>
+        private const int MostMovers = 64;
+
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
         private readonly SimulationManager manager;
-        private readonly bool shaded;
+        private readonly IReadOnlyList<NodeShade> shades;
+        private readonly ReplayMetrics metrics;
+        private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
+        // By node id, where nodes are coloured.
+        private readonly Dictionary<int, IColors> colours;
+        private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
         private double last = double.NegativeInfinity;
 
@@ -27,13 +35,16 @@ namespace Collektive.Headless
         {
             this.scene = scene;
             this.manager = manager;
-            shaded = scene.ShadeName != null;
+            shades = scene.Shades;
+            if (IsColoured(manager)) colours = new Dictionary<int, IColors>();
+            metrics = new ReplayMetrics(MetricsTable.NamesOf(scene));
             var metadata = new ReplayMetadata
             {
                 Title = scenario.Settings.program,
                 Seed = scenario.Settings.seed,
                 DeltaTime = scenario.Settings.deltaTime,
-                ScalarName = scene.ShadeName ?? "id",
+                Fields = Fields(),
+                Metrics = metrics,
             };
             Describe(metadata);
             writer = new ReplayWriter(scratchPath, metadata);
@@ -43,6 +54,11 @@ namespace Collektive.Headless
         internal double Milliseconds => clock.Elapsed.TotalMilliseconds;
 
         public void Dispose() => writer.Dispose();
+
+        /// <summary>Adds a row of the metrics.</summary>
+        /// <param name="time">Simulated seconds.</param>
+        /// <param name="values">By <see cref="MetricsTable.NamesOf"/>.</param>
+        internal void Measure(double time, IReadOnlyList<double> values) => metrics.Add(time, values);
 
         /// <summary>Records a frame if one is due, between ticks.</summary>
         /// <param name="time">Simulated seconds.</param>
@@ -68,8 +84,17 @@ namespace Collektive.Headless
             var nodes = manager.Nodes;
             for (var i = 0; i < nodes.Count; i++)
             {
-                var position = nodes[i].transform.position;
-                writer.Node(nodes[i].Id, position.x, position.y, position.z, shaded ? scene.Shade(nodes[i]) : nodes[i].Id);
+                var node = nodes[i];
+                var position = node.transform.position;
+                writer.Node(node.Id, position.x, position.y, position.z, shades.Count > 0 ? shades[0].Read(node) : ColourOf(node));
+                for (var shade = 1; shade < shades.Count; shade++) writer.Value(shade, shades[shade].Read(node));
+                if (colours != null && shades.Count > 0) writer.Value(shades.Count, ColourOf(node));
+            }
+            foreach (var mover in movers)
+            {
+                var place = mover.Key.position;
+                var turn = mover.Key.rotation;
+                mover.Value.Add(place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
                 if (pair.IsHeld) writer.Link(pair.Low, pair.High);
@@ -102,9 +127,11 @@ namespace Collektive.Headless
                     if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
                     continue;
                 }
-                if (collider.attachedRigidbody != null || collider.isTrigger) continue;
-                if (collider is BoxCollider box) Add(metadata, box);
-                if (collider is SphereCollider sphere) Add(metadata, sphere);
+                if (collider.isTrigger) continue;
+                if (collider.attachedRigidbody != null) AddMover(metadata, collider);
+                else if (collider is BoxCollider box) Add(metadata, box);
+                else if (collider is SphereCollider sphere) Add(metadata, sphere);
+                else if (collider is MeshCollider mesh && mesh.sharedMesh != null) Add(metadata, mesh);
             }
             if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
             // The page wants an arena of some size.
@@ -115,6 +142,39 @@ namespace Collektive.Headless
                 metadata.AddMarker(landmark.Key, landmark.Value.x, landmark.Value.y, landmark.Value.z);
             }
         }
+
+        private ReplayField[] Fields()
+        {
+            var fields = new List<ReplayField>();
+            foreach (var shade in shades)
+            {
+                var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
+                fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Words = shade.Words });
+            }
+            // A scene without shades and colours has this field too: nodes without a value.
+            if (colours != null || fields.Count == 0) fields.Add(new ReplayField("colour in the scene", ReplayFieldKind.Colour));
+            return fields.ToArray();
+        }
+
+        private static bool IsColoured(SimulationManager manager)
+        {
+            foreach (var node in manager.Nodes)
+                if (node.GetComponentInChildren<IColors>() != null) return true;
+            return false;
+        }
+
+        private double ColourOf(Node node)
+        {
+            if (colours == null) return double.NaN;
+            if (!colours.TryGetValue(node.Id, out var part)) colours.Add(node.Id, part = node.GetComponentInChildren<IColors>());
+            if (part == null || part.Target == null) return double.NaN;
+            part.Target.GetPropertyBlock(block);
+            if (block.isEmpty) return double.NaN;
+            var colour = block.GetColor("_Color");
+            return Byte(colour.r) << 16 | Byte(colour.g) << 8 | Byte(colour.b);
+        }
+
+        private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
         /// <summary>The standing box with the largest top, if all nodes are above it: the page draws a floor of its own there.</summary>
         private Collider FindFloor(List<Collider> colliders)
@@ -139,6 +199,33 @@ namespace Collektive.Headless
         {
             var bounds = collider.bounds;
             return new Vector3(bounds.center.x, bounds.max.y, bounds.center.z);
+        }
+
+        private void AddMover(ReplayMetadata metadata, Collider collider)
+        {
+            var scale = collider.transform.lossyScale;
+            ReplayMover mover = null;
+            if (collider is BoxCollider box)
+            {
+                var size = Vector3.Scale(box.size, scale);
+                mover = metadata.AddMovingBox(size.x, size.y, size.z);
+            }
+            if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
+            if (mover != null && movers.Count < MostMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
+        }
+
+        private static void Add(ReplayMetadata metadata, MeshCollider collider)
+        {
+            var corners = collider.sharedMesh.vertices;
+            var vertices = new float[3 * corners.Length];
+            for (var i = 0; i < corners.Length; i++)
+            {
+                var corner = Vector3.Scale(corners[i], collider.transform.lossyScale);
+                for (var axis = 0; axis < 3; axis++) vertices[3 * i + axis] = corner[axis];
+            }
+            var place = collider.transform.position;
+            var turn = collider.transform.rotation;
+            metadata.AddMesh(vertices, collider.sharedMesh.triangles, place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
         }
 
         private static void Add(ReplayMetadata metadata, BoxCollider box)

@@ -159,7 +159,7 @@ namespace Collektive.Headless
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
             using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)
             {
-                metrics.EndInterval(0, 0);
+                EndInterval(manager, replay, 0);
                 scenario.Convergence.Add(0, metrics.Values);
                 nodes?.Add(0);
                 var start = new List<double>(metrics.Values);
@@ -188,7 +188,7 @@ namespace Collektive.Headless
                     metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
                     if (manager.SimulatedTime >= rows * scenario.Interval - 1e-6)
                     {
-                        metrics.EndInterval(rows * scenario.Interval, manager.LinkCount);
+                        EndInterval(manager, replay, rows * scenario.Interval);
                         scenario.Convergence.Add(rows++ * scenario.Interval, metrics.Values);
                     }
                     if (nodes != null && manager.SimulatedTime >= nodeRows * scenario.NodeInterval - 1e-6) nodes.Add(nodeRows++ * scenario.NodeInterval);
@@ -244,6 +244,12 @@ namespace Collektive.Headless
                     throw new ScenarioException("'parameters." + program.Key + "': there is no program of that name; there are: " + string.Join(", ", names));
             }
             return ParameterValues.Of(manager);
+        }
+
+        private void EndInterval(SimulationManager manager, ReplayRecorder replay, double second)
+        {
+            var row = metrics.EndInterval(second, manager.LinkCount);
+            replay?.Measure(manager.SimulatedTime, row);
         }
 
         private static string Text(SceneBuilder scene, MetricsTable metrics)

@@ -2,11 +2,24 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>One frame as it comes: by slot whether a node is there, its position in steps and its scalar; and its links.</summary>
+    /// <summary>One frame as it comes: by slot whether a node is there, its position in steps and its values; and its links.</summary>
     internal sealed class ReplayFrame
     {
         private bool[] present = new bool[0];
-        private float[] scalars = new float[0];
+        private readonly ReplayField[] fields;
+        private readonly double[][] values;
+
+        internal ReplayFrame(ReplayField[] fields)
+        {
+            this.fields = fields;
+            values = new double[fields.Length][];
+            Steps = new int[fields.Length][];
+            for (var field = 0; field < fields.Length; field++)
+            {
+                values[field] = new double[0];
+                Steps[field] = new int[0];
+            }
+        }
 
         /// <summary>Slots in use up to this frame.</summary>
         internal int Slots { get; private set; }
@@ -14,8 +27,8 @@ namespace Collektive.Headless
         /// <summary>By axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
-        /// <summary>By slot, after <see cref="QuantiseScalars"/>: 0 for no value, else one more than the steps from the least.</summary>
-        internal int[] ScalarSteps { get; private set; } = new int[0];
+        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, else what FORMAT.md says.</summary>
+        internal int[][] Steps { get; }
 
         /// <summary>Links that the frame has; <see cref="LinkCount"/> of them are kept.</summary>
         internal int Links { get; set; }
@@ -35,7 +48,7 @@ namespace Collektive.Headless
 
         internal bool Has(int slot) => slot < present.Length && present[slot];
 
-        internal void Set(int slot, int x, int y, int z, float scalar)
+        internal void Set(int slot, int x, int y, int z)
         {
             Reserve(slot + 1);
             Slots = Math.Max(Slots, slot + 1);
@@ -43,8 +56,10 @@ namespace Collektive.Headless
             Positions[0][slot] = x;
             Positions[1][slot] = y;
             Positions[2][slot] = z;
-            scalars[slot] = scalar;
+            foreach (var column in values) column[slot] = double.NaN;
         }
+
+        internal void SetValue(int field, int slot, double value) => values[field][slot] = value;
 
         internal void Link(int slotA, int slotB)
         {
@@ -63,35 +78,43 @@ namespace Collektive.Headless
             return distinct;
         }
 
-        /// <summary>Widens a range by the frame's scalars.</summary>
-        internal void WidenScalars(ref float min, ref float max)
+        /// <summary>Widens a range by the frame's values of a field.</summary>
+        internal void Widen(int field, ref float min, ref float max)
         {
             for (var slot = 0; slot < Slots; slot++)
             {
                 if (!present[slot]) continue;
+                var value = (float)values[field][slot];
                 // Neither is true of NaN.
-                if (scalars[slot] < min) min = scalars[slot];
-                if (scalars[slot] > max) max = scalars[slot];
+                if (value < min) min = value;
+                if (value > max) max = value;
             }
         }
 
-        internal void QuantiseScalars(float min, double scale)
+        /// <summary>Turns a field's values into steps; those of numbers start at a least value.</summary>
+        internal void Quantise(int field, float min, double scale)
         {
+            var isNumber = fields[field].Kind == ReplayFieldKind.Number;
             for (var slot = 0; slot < Slots; slot++)
             {
                 if (!present[slot]) continue;
-                var value = scalars[slot];
-                ScalarSteps[slot] = float.IsNaN(value) ? 0 : 1 + (int)(((double)value - min) * scale + 0.5);
+                var value = values[field][slot];
+                Steps[field][slot] = double.IsNaN(value) ? 0 : isNumber ? 1 + (int)(((double)(float)value - min) * scale + 0.5) : 1 + Signed((int)value);
             }
         }
+
+        private static int Signed(int value) => value << 1 ^ value >> 31;
 
         private void Reserve(int slots)
         {
             if (slots <= present.Length) return;
             var size = Math.Max(64, Math.Max(slots, present.Length * 2));
             present = Larger(present, size);
-            scalars = Larger(scalars, size);
-            ScalarSteps = Larger(ScalarSteps, size);
+            for (var field = 0; field < values.Length; field++)
+            {
+                values[field] = Larger(values[field], size);
+                Steps[field] = Larger(Steps[field], size);
+            }
             for (var axis = 0; axis < 3; axis++) Positions[axis] = Larger(Positions[axis], size);
         }
 

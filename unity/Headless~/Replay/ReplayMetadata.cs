@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using Newtonsoft.Json.Linq;
 
@@ -22,17 +23,11 @@ namespace Collektive.Headless
 
         public float NodeRadius { get; set; } = 0.25f;
 
-        /// <summary>Name of the value that colours the nodes.</summary>
-        public string ScalarName { get; set; } = "value";
+        /// <summary>What can colour the nodes; the first one does when the page is opened. At least one.</summary>
+        public IReadOnlyList<ReplayField> Fields { get; set; } = new[] { new ReplayField("value") };
 
-        /// <summary>Unit of the scalar; null: none is shown.</summary>
-        public string ScalarUnit { get; set; }
-
-        /// <summary>Scalar at the lower end of the colours; null: the least of the recording.</summary>
-        public float? ScalarMin { get; set; }
-
-        /// <summary>Scalar at the upper end of the colours; null: the greatest of the recording.</summary>
-        public float? ScalarMax { get; set; }
+        /// <summary>What the page charts; null: nothing. It may be filled until the replay is finished.</summary>
+        public ReplayMetrics Metrics { get; set; }
 
         /// <summary>The space that the first view frames; the floor is drawn at <paramref name="minY"/>.</summary>
         public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ)
@@ -48,9 +43,24 @@ namespace Collektive.Headless
             float x, float y, float z, float width, float height, float depth,
             float rotationX = 0, float rotationY = 0, float rotationZ = 0, float rotationW = 1)
         {
-            var rotation = Numbers(rotationX, rotationY, rotationZ, rotationW);
-            shapes.Add(new JObject { ["kind"] = "box", ["centre"] = Numbers(x, y, z), ["size"] = Numbers(width, height, depth), ["rotation"] = rotation });
+            shapes.Add(Placed(Box(width, height, depth), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
+
+        /// <summary>A static body of triangles, turned by the unit quaternion.</summary>
+        /// <param name="vertices">x, y, z of each corner, as its own axes have them.</param>
+        /// <param name="triangles">Three corners for each.</param>
+        public void AddMesh(
+            float[] vertices, int[] triangles, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
+        {
+            var mesh = new JObject { ["kind"] = "mesh", ["vertices"] = Numbers(vertices), ["triangles"] = new JArray(triangles) };
+            shapes.Add(Placed(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
+        }
+
+        /// <summary>A box that moves; add its pose in each frame.</summary>
+        public ReplayMover AddMovingBox(float width, float height, float depth) => AddMover(Box(width, height, depth));
+
+        /// <summary>A sphere that moves; add its pose in each frame.</summary>
+        public ReplayMover AddMovingSphere(float radius) => AddMover(new JObject { ["kind"] = "sphere", ["radius"] = Number(radius) });
 
         /// <summary>A static sphere.</summary>
         public void AddSphere(float x, float y, float z, float radius)
@@ -67,12 +77,11 @@ namespace Collektive.Headless
         /// <summary>The longest side of the arena.</summary>
         internal double ArenaSide { get; private set; } = 20;
 
+        /// <summary>The shapes that move.</summary>
+        internal List<ReplayMover> Movers { get; } = new List<ReplayMover>();
+
         internal JObject ToJson()
         {
-            var scalar = new JObject { ["name"] = Text(ScalarName) };
-            if (ScalarUnit != null) scalar["unit"] = ScalarUnit;
-            if (ScalarMin.HasValue) scalar["min"] = Number(ScalarMin.Value);
-            if (ScalarMax.HasValue) scalar["max"] = Number(ScalarMax.Value);
             return new JObject
             {
                 ["title"] = Text(Title),
@@ -81,10 +90,27 @@ namespace Collektive.Headless
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),
                 ["arena"] = arena,
-                ["scalar"] = scalar,
                 ["shapes"] = shapes,
                 ["markers"] = markers,
             };
+        }
+
+        private ReplayMover AddMover(JObject shape)
+        {
+            var mover = new ReplayMover(shape);
+            Movers.Add(mover);
+            return mover;
+        }
+
+        private static JObject Box(float width, float height, float depth) =>
+            new JObject { ["kind"] = "box", ["size"] = Numbers(width, height, depth) };
+
+        private static JObject Placed(
+            JObject shape, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
+        {
+            shape["centre"] = Numbers(x, y, z);
+            shape["rotation"] = Numbers(rotationX, rotationY, rotationZ, rotationW);
+            return shape;
         }
 
         private static JObject Arena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ) =>
@@ -93,14 +119,14 @@ namespace Collektive.Headless
         private static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
 
         // JSON has no place for other numbers.
-        private static double Number(double value)
+        internal static double Number(double value)
         {
             if (double.IsNaN(value) || double.IsInfinity(value))
                 throw new ArgumentException("A number of the replay's metadata is " + value.ToString(CultureInfo.InvariantCulture) + ": give a finite one.");
             return value;
         }
 
-        private static float Number(float value) => (float)Number((double)value);
+        internal static float Number(float value) => (float)Number((double)value);
 
         private static string Text(string text) => text ?? throw new ArgumentNullException(nameof(text), "A name of the replay's metadata is missing.");
     }

@@ -5,16 +5,30 @@ namespace Collektive.Headless
     /// <summary>Frames that are coded together, each by what it differs from the one before (FORMAT.md, Segment).</summary>
     internal sealed class ReplaySegment
     {
-        private const int Columns = 4; // x, y, z, scalar
-        private const int ScalarSteps = 65534;
+        private const int Axes = 3;
+        private const int NumberSteps = 65534;
         private const int MostBytesOfNumber = 5;
 
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
-        private readonly int[][] last = { new int[0], new int[0], new int[0], new int[0] };
-        private readonly int[][] motion = { new int[0], new int[0], new int[0], new int[0] };
+        private readonly ReplayField[] fields;
+        private readonly double[] scales;
+        private readonly float[] least;
+        // By column: x, y, z, then the fields.
+        private readonly int[][] last;
+        private readonly int[][] motion;
         private bool[] seen = new bool[0];
         private byte[] bytes = new byte[1 << 12];
         private int length;
+
+        internal ReplaySegment(ReplayField[] fields)
+        {
+            this.fields = fields;
+            scales = new double[fields.Length];
+            least = new float[fields.Length];
+            last = new int[Axes + fields.Length][];
+            motion = new int[Axes + fields.Length][];
+            for (var column = 0; column < last.Length; column++) last[column] = motion[column] = new int[0];
+        }
 
         /// <summary>Frames that were added since the last <see cref="Encode"/>.</summary>
         internal int Count { get; private set; }
@@ -23,7 +37,7 @@ namespace Collektive.Headless
         /// <param name="slots">Slots in use before it.</param>
         internal ReplayFrame Add(int slots)
         {
-            var frame = frames[Count] = frames[Count] ?? new ReplayFrame();
+            var frame = frames[Count] = frames[Count] ?? new ReplayFrame(fields);
             Count++;
             frame.Begin(slots);
             return frame;
@@ -36,19 +50,17 @@ namespace Collektive.Headless
         {
             length = 0;
             Reset(frames[Count - 1].Slots);
-            FindScalars(out var min, out var max);
-            Reserve(8);
-            WriteFloat(min);
-            WriteFloat(max);
-            // In double: the extent of two floats may be no float.
-            var scale = max > min ? ScalarSteps / ((double)max - min) : 0;
+            for (var field = 0; field < fields.Length; field++) WriteRange(field);
             for (var i = 0; i < Count; i++)
             {
                 var frame = frames[i];
                 WritePresence(frame);
                 for (var axis = 0; axis < 3; axis++) WriteColumn(frame, frame.Positions[axis], last[axis], motion[axis]);
-                frame.QuantiseScalars(min, scale);
-                WriteColumn(frame, frame.ScalarSteps, last[3], motion[3]);
+                for (var field = 0; field < fields.Length; field++)
+                {
+                    frame.Quantise(field, least[field], scales[field]);
+                    WriteColumn(frame, frame.Steps[field], last[Axes + field], motion[Axes + field]);
+                }
                 for (var slot = 0; slot < frame.Slots; slot++) seen[slot] |= frame.Has(slot);
                 WriteLinks(i == 0 ? null : frames[i - 1], frame);
             }
@@ -62,26 +74,32 @@ namespace Collektive.Headless
             if (seen.Length < slots)
             {
                 seen = new bool[slots];
-                for (var column = 0; column < Columns; column++)
+                for (var column = 0; column < last.Length; column++)
                 {
                     last[column] = new int[slots];
                     motion[column] = new int[slots];
                 }
             }
             Array.Clear(seen, 0, slots);
-            for (var column = 0; column < Columns; column++)
+            for (var column = 0; column < last.Length; column++)
             {
                 Array.Clear(last[column], 0, slots);
                 Array.Clear(motion[column], 0, slots);
             }
         }
 
-        private void FindScalars(out float min, out float max)
+        private void WriteRange(int field)
         {
-            min = float.PositiveInfinity;
-            max = float.NegativeInfinity;
-            for (var i = 0; i < Count; i++) frames[i].WidenScalars(ref min, ref max);
+            if (fields[field].Kind != ReplayFieldKind.Number) return;
+            float min = float.PositiveInfinity, max = float.NegativeInfinity;
+            for (var i = 0; i < Count; i++) frames[i].Widen(field, ref min, ref max);
             if (min > max) min = max = 0;
+            Reserve(8);
+            WriteFloat(min);
+            WriteFloat(max);
+            least[field] = min;
+            // In double: the extent of two floats may be no float.
+            scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
         private void WritePresence(ReplayFrame frame)

@@ -24,15 +24,18 @@ namespace Collektive.Headless
         public const int LinkBudget = 30000;
 
         internal const string Placeholder = "@@REPLAY@@";
-        internal const int Version = 2;
+        internal const int Version = 3;
 
         private const int MaxSlots = 1 << 24;
 
         private readonly string scratchPath;
         private readonly StreamWriter scratch;
         private readonly JObject metadata;
+        private readonly ReplayField[] fields;
+        private readonly ReplayMetrics metrics;
+        private readonly List<ReplayMover> movers;
         private readonly double positionStep;
-        private readonly ReplaySegment segment = new ReplaySegment();
+        private readonly ReplaySegment segment;
         private readonly LinkSorter sorter = new LinkSorter();
         private readonly MemoryStream compressed = new MemoryStream();
         private char[] text = new char[0];
@@ -41,9 +44,7 @@ namespace Collektive.Headless
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
         private readonly List<int> ids = new List<int>();
         private readonly List<double> times = new List<double>();
-        private float minScalar = float.PositiveInfinity;
-        private float maxScalar = float.NegativeInfinity;
-        private bool someWithoutScalar;
+        private int slotOfLast;
         private int maxLinks;
 
         private ReplayFrame frame;
@@ -56,6 +57,11 @@ namespace Collektive.Headless
         public ReplayWriter(string scratchPath, ReplayMetadata metadata)
         {
             this.metadata = metadata.ToJson();
+            fields = new List<ReplayField>(metadata.Fields).ToArray();
+            if (fields.Length == 0) throw new ArgumentException("The replay's metadata names no field: give at least one.", nameof(metadata));
+            metrics = metadata.Metrics;
+            movers = metadata.Movers;
+            segment = new ReplaySegment(fields);
             positionStep = metadata.ArenaSide / 65535;
             this.scratchPath = scratchPath;
             scratch = new StreamWriter(scratchPath, false, new UTF8Encoding(false));
@@ -88,26 +94,32 @@ namespace Collektive.Headless
         /// of the origin.
         /// </summary>
         /// <param name="id">The node's id, the same in all frames.</param>
-        /// <param name="scalar">The value for its colour; NaN: it has none.</param>
-        public void Node(int id, float x, float y, float z, float scalar)
+        /// <param name="value">Its value of the first field; NaN: it has none.</param>
+        public void Node(int id, float x, float y, float z, double value)
         {
             if (!inFrame) throw Order(nameof(Node), "no frame has begun");
             if (!IsFinite(x) || !IsFinite(y) || !IsFinite(z))
                 throw new ArgumentException("Node " + Number(id) + " is at (" + Number(x) + ", " + Number(y) + ", " + Number(z) + ") in frame "
                     + Number(Frames - 1) + " of the replay: positions must be finite.");
-            if (float.IsInfinity(scalar))
-                throw new ArgumentException("Node " + Number(id) + " has an infinite scalar in frame " + Number(Frames - 1)
-                    + " of the replay: give a finite one, or NaN for none.");
             if (!slotOfId.TryGetValue(id, out var slot)) slot = NewSlot(id);
             else if (frame.Has(slot))
                 throw new ArgumentException("Node " + Number(id) + " is given twice in frame " + Number(Frames - 1) + " of the replay: give each node once.");
-            frame.Set(slot, Steps(x), Steps(y), Steps(z), scalar);
-            if (float.IsNaN(scalar)) someWithoutScalar = true;
-            else
-            {
-                if (scalar < minScalar) minScalar = scalar;
-                if (scalar > maxScalar) maxScalar = scalar;
-            }
+            frame.Set(slot, Steps(x), Steps(y), Steps(z));
+            slotOfLast = slot;
+            Value(0, value);
+        }
+
+        /// <summary>A value of the node that was given last; a field without a call is left without a value.</summary>
+        /// <param name="field">Index in <see cref="ReplayMetadata.Fields"/>.</param>
+        /// <param name="value">NaN: it has none.</param>
+        public void Value(int field, double value)
+        {
+            var problem = fields[field].Refuse(value);
+            if (problem != null)
+                throw new ArgumentException("Node " + Number(ids[slotOfLast]) + " has " + problem + " in frame " + Number(Frames - 1)
+                    + " of the replay: give another value, or NaN for none.");
+            frame.SetValue(field, slotOfLast, value);
+            fields[field].Include(value);
         }
 
         /// <summary>A link between two different nodes of this frame. Directions and repetitions make no difference: the page draws one line.</summary>
@@ -204,13 +216,12 @@ namespace Collektive.Headless
                 ["framesPerSegment"] = FramesPerSegment,
                 ["length"] = textLength,
                 ["positionStep"] = positionStep,
-                // No value at all: no range either.
-                ["scalarMin"] = minScalar <= maxScalar ? minScalar : 0,
-                ["scalarMax"] = minScalar <= maxScalar ? maxScalar : 0,
-                ["someWithoutScalar"] = someWithoutScalar,
+                ["fields"] = new JArray(Array.ConvertAll(fields, field => (object)field.ToJson())),
                 ["maxLinks"] = maxLinks,
                 ["times"] = new JArray(times),
                 ["ids"] = new JArray(ids),
+                ["metrics"] = (metrics ?? new ReplayMetrics(new string[0])).ToJson(),
+                ["movers"] = new JArray(movers.ConvertAll(mover => (object)mover.ToJson())),
                 ["metadata"] = metadata,
             };
             return header.ToString(Formatting.None);

@@ -16,6 +16,7 @@ if (!file) {
 
 const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
+const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
 const browser = await launch();
 const blind = await launch(undefined, ['--disable-3d-apis']);
@@ -68,6 +69,28 @@ async function eventually(tab, holds, message) {
     if (holds(now)) return;
   }
   throw new Error(`${message}; it is ${JSON.stringify(now)}`);
+}
+
+/** Makes the window another size, and waits until its picture has it. */
+async function resize(tab, size) {
+  await tab.setViewportSize(size);
+  await tab.waitForFunction(({ width, height }) => {
+    const c = document.getElementById('canvas');
+    return c.width === width * devicePixelRatio && c.height === height * devicePixelRatio;
+  }, size, { timeout: 5000 });
+}
+
+/** What axe-core complains about: the rules of WCAG 2.2 A and AA, and its best practices. */
+async function inaccessible(tab) {
+  await tab.evaluate(axe);
+  const { violations } = await tab.evaluate(() => window.axe.run());
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
+}
+
+/** The file that a click gives. */
+async function download(tab, button) {
+  const [file] = await Promise.all([tab.waitForEvent('download'), tab.click(button)]);
+  return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
 /** A copy of the page with other data. */
@@ -328,6 +351,180 @@ await suite('replay page', async (page) => {
       });
     }
 
+    // The processor draws: smaller pictures are sooner there.
+    await resize(tab, { width: 800, height: 500 });
+
+    if (nodes > 0) {
+      await test('another field colours the nodes and fills the legend', async () => {
+        await seek(tab, middle);
+        const before = await canvas(tab);
+        const fields = await tab.evaluate(() => window.replay.fields);
+        assert.ok(['node', 'neighbours', 'speed', 'height'].every((name) => fields.includes(name)), fields.join());
+        await tab.selectOption('#field', 'node');
+        assert.notEqual(await canvas(tab), before);
+        assert.match(await tab.innerText('#categories'), /\d+ · 1 node\n.*and \d+ more/s);
+        assert.ok(await tab.locator('#scale').isHidden());
+        await tab.selectOption('#field', { index: 0 });
+        assert.equal(await canvas(tab), before);
+      });
+
+      await test('palette and range change the colours', async () => {
+        await tab.selectOption('#field', 'neighbours');
+        await tab.click('#colouring summary');
+        const before = await canvas(tab);
+        await tab.selectOption('#palette', 'Plasma');
+        const plasma = await canvas(tab);
+        assert.notEqual(plasma, before, 'palette');
+        await tab.fill('#range-max', '1000');
+        await tab.keyboard.press('Enter');
+        assert.notEqual(await canvas(tab), plasma, 'range');
+        assert.match(await tab.innerText('#ticks'), /1,000/);
+        await tab.click('#fit');
+        assert.equal(await canvas(tab), plasma, 'the range of now');
+        await tab.click('#colouring summary');
+        await tab.selectOption('#field', { index: 0 });
+      });
+
+      await test('keys select the nodes one after another, and a neighbour by its button', async () => {
+        await tab.evaluate(() => document.activeElement.blur());
+        const ids = await tab.evaluate(() => window.replay.state().nodes.map(({ id }) => id).sort((a, b) => a - b));
+        const selected = () => tab.innerText('#selected-name');
+        for (const id of ids.slice(0, 3)) {
+          await tab.keyboard.press('n');
+          assert.equal(await selected(), `Node ${id}`);
+        }
+        await tab.keyboard.press('b');
+        assert.equal(await selected(), `Node ${ids[1]}`);
+        const linked = await tab.evaluate(() => window.replay.state().links[0]);
+        if (linked) {
+          await tab.evaluate((id) => window.replay.select(id), linked[0]);
+          await tab.click(`#neighbour-list button:text-is("${linked[1]}")`);
+          assert.equal(await selected(), `Node ${linked[1]}`);
+        }
+        await tab.keyboard.press('Escape');
+      });
+
+      if (links > 0) {
+        await test('only the links of the selected node', async () => {
+          const all = await canvas(tab);
+          await tab.uncheck('#links');
+          const none = await canvas(tab);
+          await tab.check('#links');
+          await tab.check('#links-selected');
+          assert.equal(await canvas(tab), none, 'without a selected node there are none');
+          const linked = await tab.evaluate(() => window.replay.state().links[0][0]);
+          await tab.evaluate((id) => window.replay.select(id), linked);
+          const some = await canvas(tab);
+          await tab.uncheck('#links');
+          assert.notEqual(await canvas(tab), some);
+          await tab.check('#links');
+          await tab.uncheck('#links-selected');
+          await tab.evaluate(() => window.replay.select(NaN));
+          assert.equal(await canvas(tab), all);
+        });
+      }
+    }
+
+    if (plays && nodes > 0) {
+      await test('trails show where the nodes came from', async () => {
+        await seek(tab, frames - 1);
+        const without = await canvas(tab);
+        await tab.check('#trails');
+        await tab.waitForTimeout(300);
+        assert.notEqual(await canvas(tab), without);
+        await tab.uncheck('#trails');
+        assert.equal(await canvas(tab), without);
+      });
+
+      await test('the camera follows the selected node', async () => {
+        await seek(tab, 0);
+        if (await tab.getAttribute('#charts-shown', 'aria-pressed') === 'true') await tab.click('#charts-shown');
+        const id = await tab.evaluate(() => window.replay.state().nodes[0].id);
+        await tab.evaluate((some) => window.replay.select(some), id);
+        await tab.check('#follow');
+        const bottom = await tab.evaluate(() => document.documentElement.clientHeight - document.getElementById('controls').getBoundingClientRect().top);
+        for (const frame of [0, middle, frames - 1]) {
+          await seek(tab, frame);
+          await canvas(tab);
+          assert.equal(await tab.evaluate(([x, y]) => window.replay.at(x, y), [400, (500 + 28 - bottom) / 2]), id, `frame ${frame}`);
+        }
+        await tab.uncheck('#follow');
+        await tab.click('#deselect');
+        await tab.keyboard.press('r');
+      });
+
+      await test('the steps go by one frame', async () => {
+        await seek(tab, 1);
+        await tab.click('#step-on');
+        await arrives(tab, 2, 'not the next frame');
+        await tab.click('#step-back');
+        await arrives(tab, 1, 'not the frame before');
+        assert.match(await tab.innerText('#position'), /tick [1-9]/);
+      });
+
+      await test('a video plays to the end and is saved', async () => {
+        await seek(tab, frames - 6);
+        const { name, bytes } = await download(tab, '#video');
+        assert.match(name, /-seed\d+\.webm$/);
+        assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, 'WebM');
+        assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
+        assert.equal((await state(tab)).frame, frames - 1);
+      });
+    }
+
+    if (await tab.locator('#charts-shown').isVisible()) {
+      await test('charts follow the clock, and a click on one sets it', async () => {
+        await seek(tab, 0);
+        if (await tab.locator('#charts').isHidden()) await tab.keyboard.press('c');
+        const line = () => tab.locator('#charts .now').first().evaluate((now) => now.getBoundingClientRect().left);
+        const start = await line();
+        await seek(tab, frames - 1);
+        assert.ok(await line() > start + 100, 'the line does not move');
+        const over = await tab.locator('#charts .u-over').first().boundingBox();
+        await tab.mouse.click(over.x + over.width / 2, over.y + over.height / 2);
+        await eventually(tab, (now) => Math.abs(now.frame - frames / 2) < frames / 20 + 1, 'the click does not set the clock');
+      });
+    }
+
+    await test('the picture on show can be saved', async () => {
+      const { name, bytes } = await download(tab, '#picture');
+      assert.match(name, /-seed\d+-[\d.]+s\.png$/);
+      assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, 800, 500]);
+    });
+
+    await test('Tab reaches everything and is nowhere caught', async () => {
+      await tab.evaluate(() => document.activeElement.blur());
+      const wanted = await tab.evaluate(() => [...document.querySelectorAll('canvas[tabindex], button, select, input, summary')]
+        .filter((each) => each.checkVisibility()).map(({ id, tagName }) => id || tagName));
+      const reached = [];
+      for (let i = 0; i < wanted.length + 8; i++) {
+        await tab.keyboard.press('Tab');
+        reached.push(await tab.evaluate(() => document.activeElement.id || document.activeElement.tagName));
+      }
+      assert.deepEqual(wanted.filter((id) => !reached.includes(id)), []);
+    });
+
+    for (const colorScheme of ['light', 'dark']) {
+      await test(`accessible by the rules of axe-core, ${colorScheme}`, async () => {
+        await tab.emulateMedia({ colorScheme });
+        await tab.evaluate(() => {
+          window.replay.select(window.replay.state().nodes[0]?.id);
+          document.getElementById('colouring').open = true;
+          document.getElementById('keys').hidden = false;
+        });
+        const found = await inaccessible(tab);
+        await tab.evaluate(() => {
+          window.replay.select(NaN);
+          document.getElementById('colouring').open = false;
+          document.getElementById('keys').hidden = true;
+        });
+        await tab.emulateMedia({ colorScheme: 'light' });
+        assert.deepEqual(found, []);
+      });
+    }
+
+    await resize(tab, { width: 1280, height: 720 });
+
     await test('the mouse turns the view and R brings it back', async () => {
       await seek(tab, middle);
       await tab.keyboard.press('r');
@@ -348,11 +545,7 @@ await suite('replay page', async (page) => {
 
     await test('the view fills the window after a resize', async () => {
       for (const size of [{ width: 700, height: 900 }, { width: 400, height: 300 }, { width: 1280, height: 720 }]) {
-        await tab.setViewportSize(size);
-        await tab.waitForFunction(({ width, height }) => {
-          const c = document.getElementById('canvas');
-          return c.width === width * devicePixelRatio && c.height === height * devicePixelRatio;
-        }, size, { timeout: 5000 });
+        await resize(tab, size);
         assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `the page is wider than ${size.width}`);
         assert.ok((await colours(tab)) > 50, `blank at ${JSON.stringify(size)}`);
       }

@@ -18,7 +18,8 @@ namespace Collektive.Headless.Samples
         private static void Main(string[] args)
         {
             int nodeCount = int.Parse(args[2]), frames = int.Parse(args[3]);
-            var metadata = new ReplayMetadata { Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, ScalarName = "brightness" };
+            var fields = new[] { new ReplayField("brightness") };
+            var metadata = new ReplayMetadata { Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, Fields = fields };
             metadata.SetArena(-50, 0, -30, 50, 5, 30);
             metadata.AddBox(9, 1.5f, -9, 1, 3, 5);
             metadata.AddSphere(-9, 1, 9, 1);

@@ -44,16 +44,20 @@ namespace Collektive.Samples.Channel
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ShadeName => "in the channel";
+        public override IReadOnlyList<NodeShade> Shades => new[]
+        {
+            new NodeShade("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Words = new[] { "outside", "in the channel" } },
+            new NodeShade("distance to the source", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            {
+                Unit = "m",
+            },
+        };
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => new[]
         {
             new KeyValuePair<string, Vector3>("source", SourcePlace), new KeyValuePair<string, Vector3>("target", TargetPlace),
         };
-
-        /// <inheritdoc/>
-        public override float Shade(Node node) => IsInChannel(node) ? 1 : 0;
 
         /// <summary>
         /// 1 if links between nodes of the channel join source and target, else 0; how many nodes the channel has; and its length in metres as

@@ -39,10 +39,14 @@ namespace Collektive.Samples.Crowd
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ShadeName => "density";
-
-        /// <inheritdoc/>
-        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0;
+        public override IReadOnlyList<NodeShade> Shades => new[]
+        {
+            new NodeShade("density", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0) { Unit = "walkers/m²" },
+            new NodeShade("warning", node => node.TryGetAnswer(out ActuatorData answer) && answer.Warned ? 1 : 0)
+            {
+                IsCategory = true, Words = new[] { "not warned", "warned" },
+            },
+        };
 
         /// <summary>
         /// Walkers at their goals; rounds in which a walker touched another since the beginning, over all walkers; walkers that hear a warning;

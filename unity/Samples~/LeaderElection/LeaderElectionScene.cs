@@ -38,10 +38,14 @@ namespace Collektive.Samples.LeaderElection
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ShadeName => "leader";
-
-        /// <inheritdoc/>
-        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? LeaderColor.HueOf(answer.Leader) : 0;
+        public override IReadOnlyList<NodeShade> Shades => new[]
+        {
+            new NodeShade("leader", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Leader : double.NaN) { IsCategory = true },
+            new NodeShade("distance to the leader", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            {
+                Unit = "m",
+            },
+        };
 
         /// <summary>
         /// Nodes whose leader is there, leads itself and is near enough; how many leaders they have; and the greatest distance of one from its

@@ -1,27 +1,63 @@
-// The colours of the scalar: viridis (perceptually uniform, readable in every common colour blindness).
-import { interpolateViridis } from 'd3-scale-chromatic';
-import { Color } from 'three';
+// The colours of values, as numbers 0xRRGGBB. The scales are perceptually uniform or at least ordered; Viridis and Cividis are readable in every
+// common colour blindness.
+import {
+  interpolateCividis, interpolatePlasma, interpolateRdBu, interpolateTurbo, interpolateViridis, schemeObservable10,
+} from 'd3-scale-chromatic';
+import { color, hsl } from 'd3-color';
 
 const STEPS = 256;
+const SCALES = {
+  Viridis: interpolateViridis,
+  Plasma: interpolatePlasma,
+  Cividis: interpolateCividis,
+  Turbo: interpolateTurbo,
+  'Blue to red': (share) => interpolateRdBu(1 - share),
+};
+const TEN = schemeObservable10.map(packed);
+const CATEGORIES = {
+  // A step of the golden angle: neighbouring ids are far apart, and no two of a few hundred are equal.
+  Hues: (value) => packed(hsl((value * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((value % 3) + 3) % 3])),
+  'Ten colours': (value) => TEN[((value % 10) + 10) % 10],
+};
 
-/** CSS gradient of the whole scale, from left to right. */
-export const gradient = `linear-gradient(to right, ${Array.from({ length: 10 }, (_, i) => interpolateViridis(i / 9)).join(', ')})`;
+/** Colour of a node without a value. */
+export const NO_VALUE = 0x9aa3ad;
 
-/** CSS colour of a node without a value. */
-export const NO_VALUE = '#9aa3ad';
+export const css = (colour) => `#${colour.toString(16).padStart(6, '0')}`;
 
-/** Turns scalars into rows of `table`, linear RGBA. */
-export class ColourScale {
-  constructor(min, max) {
-    this.min = min;
-    this.factor = max > min ? (STEPS - 1) / (max - min) : 0;
-    this.table = new Float32Array((STEPS + 1) * 4).fill(1);
-    for (let i = 0; i < STEPS; i++) new Color(interpolateViridis(i / (STEPS - 1))).toArray(this.table, 4 * i);
-    new Color(NO_VALUE).toArray(this.table, 4 * STEPS);
-  }
+/** The palettes for a kind of field, the first one is the best for most. */
+export function palettesOf({ kind, words }) {
+  if (kind === 'colour') return [];
+  if (kind === 'number') return Object.keys(SCALES);
+  return words.length ? Object.keys(CATEGORIES).reverse() : Object.keys(CATEGORIES);
+}
 
-  indexOf(value) {
-    const share = (value - this.min) * this.factor;
-    return Number.isNaN(share) ? STEPS : Math.round(Math.min(Math.max(share, 0), STEPS - 1));
-  }
+/** CSS gradient of a whole scale, from left to right. */
+export function gradientOf(palette) {
+  return `linear-gradient(to right, ${Array.from({ length: 12 }, (_, i) => SCALES[palette](i / 11)).join(', ')})`;
+}
+
+/** Gives the colour of each value; a number's place on the scale is between `min` and `max`. */
+export function colouring({ kind }, palette, min, max) {
+  const of = { number: () => onScale(SCALES[palette], min, max), category: () => remembered(CATEGORIES[palette]), colour: () => (value) => value }[kind]();
+  return (value) => (Number.isNaN(value) ? NO_VALUE : of(value));
+}
+
+function onScale(interpolate, min, max) {
+  const table = Array.from({ length: STEPS }, (_, i) => packed(interpolate(i / (STEPS - 1))));
+  const factor = max > min ? (STEPS - 1) / (max - min) : 0;
+  return (value) => table[Math.round(Math.min(Math.max((value - min) * factor, 0), STEPS - 1))];
+}
+
+function remembered(colourOf) {
+  const known = new Map();
+  return (value) => {
+    if (!known.has(value)) known.set(value, colourOf(value));
+    return known.get(value);
+  };
+}
+
+function packed(text) {
+  const { r, g, b } = color(text).rgb().clamp();
+  return (Math.round(r) << 16) | (Math.round(g) << 8) | Math.round(b);
 }

@@ -1,9 +1,14 @@
 // Joins the recording, the view and the controls, and offers `window.replay` to scripts.
-import { ColourScale, gradient, NO_VALUE } from './colours.js';
+import { Charts } from './charts.js';
+import { canRecord, compose, save, Video } from './exports.js';
+import { fieldsOf, textOf } from './fields.js';
+import { bindKeys } from './keys.js';
+import { Legend, part } from './legend.js';
 import { open } from './recording.js';
 import { View } from './view.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
+const MOST_LISTED = 60; // neighbours with a button
 const READABLE_PIXELS = 4; // a node's radius at first sight, in pixels, at least
 const element = (id) => document.getElementById(id);
 
@@ -18,15 +23,19 @@ class Player {
     this.linksVisible = true;
     this.selected = -1;
 
-    const { metadata } = recording;
-    const { min = recording.scalarMin, max = recording.scalarMax } = metadata.scalar;
-    const scale = new ColourScale(min, max);
-    this.view = new View(element('canvas'), element('labels'), metadata, recording.ids.length, recording.maxLinks, scale);
+    this.fields = fieldsOf(recording);
+    this.view = new View(element('canvas'), element('labels'), recording);
     this.view.onFrame = (now) => this.tick(now);
-    this.fillLegend(min, max);
+    this.view.onDrawn = () => this.video?.frame();
+    this.describeRun();
+    this.charts = new Charts(element('charts'), recording.metrics, (time) => this.show(time));
+    this.legend = new Legend(this.fields, () => this.recolour());
+    this.legend.choose(0);
     this.bind();
-    this.resize();
+    const shows = this.charts.charts.length > 0 && window.innerWidth >= 1000 && window.innerHeight >= 600;
+    this.showCharts(shows);
     this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 3));
+    this.resize(); // now the panels have their words
   }
 
   get lastTime() {
@@ -74,11 +83,15 @@ class Player {
     this.here = here;
     const share = here === next ? 0 : (this.time - recording.times[frame]) / (recording.times[frame + 1] - recording.times[frame]);
     const selected = this.selected >= 0 && here.present[this.selected] ? this.selected : -1;
-    view.show({ here, next, share, linksVisible: this.linksVisible, selected, factor: this.factor });
+    view.show({ here, next, share, links: this.links, selected, factor: this.factor });
+    this.showTrails();
+    this.legend.show(here);
+    this.charts.show(this.time);
     const links = here.pairs.length / 2;
     element('scrub').value = frame;
     element('scrub').setAttribute('aria-valuetext', `${this.time.toFixed(1)} seconds`);
-    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · frame ${frame + 1} / ${recording.count}`;
+    const tick = Math.round(this.time / recording.metadata.deltaTime).toLocaleString('en');
+    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · tick ${tick} · frame ${frame + 1} / ${recording.count}`;
     element('clock').textContent = `t = ${this.time.toFixed(1)} s`;
     element('node-count').textContent = plural(here.slots.length, 'node');
     element('link-count').textContent = (here.linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(here.linksInAll, 'link');
@@ -86,21 +99,57 @@ class Player {
     return true;
   }
 
+  get links() {
+    if (!this.linksVisible) return 'none';
+    return element('links-selected').checked ? 'selected' : 'all';
+  }
+
+  /** Colours the nodes as the legend says. */
+  recolour() {
+    const { legend, view } = this;
+    view.swarm.setColours((frame) => {
+      const values = legend.field.valuesOf(frame);
+      return (slot) => legend.of(values[slot]);
+    });
+    if (this.here) this.refresh();
+  }
+
+  showTrails() {
+    const mode = element('trails').checked ? 'all' : 'none';
+    const selected = this.selected >= 0 && this.here.present[this.selected] ? [this.selected] : [];
+    const slots = mode === 'all' ? (selected.length ? selected : this.here.slots) : [];
+    const wanted = `${mode} ${this.here.index} ${this.selected}`;
+    if (wanted === this.trails) return;
+    this.trails = wanted;
+    this.view.swarm.trails.show(this.recording, this.here, slots, () => {
+      if (this.trails !== wanted) return;
+      this.trails = null;
+      this.refresh();
+    });
+  }
+
   describeSelection() {
     element('selection').hidden = this.selected < 0;
     if (this.selected < 0) return;
     const { selected, here: frame } = this;
-    const { ids, metadata } = this.recording;
-    element('selected-name').textContent = `Node ${ids[selected]}`;
+    element('selected-name').textContent = `Node ${this.recording.ids[selected]}`;
     const here = frame.present[selected] === 1;
-    const value = frame.scalars[selected];
-    const told = Number.isNaN(value) ? 'has no value' : withUnit(value, metadata);
-    element('selected-scalar').textContent = here ? `${metadata.scalar.name} ${told}` : 'not there at this time';
-    element('selected-position').textContent = here ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : '';
+    element('selected-position').textContent = here
+      ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not there at this time';
+    if (this.described === frame && this.describedSlot === selected) return;
+    [this.described, this.describedSlot] = [frame, selected];
+    element('selected-values').replaceChildren(...(here ? this.fields : []).filter(({ name }) => name !== 'node' && name !== 'neighbours').flatMap((field) => [
+      part('dt', field.name), part('dd', textOf(field, field.valuesOf(frame)[selected])),
+    ]));
     const neighbours = here ? this.neighbours(selected) : [];
-    const listed = neighbours.length ? `: ${neighbours.join(', ')}` : '';
     const some = frame.linksInAll > frame.pairs.length / 2 ? ' by the links shown' : '';
-    element('selected-neighbours').textContent = here ? `${plural(neighbours.length, 'neighbour')}${some}${listed}` : '';
+    element('selected-neighbours').textContent = here ? plural(neighbours.length, 'neighbour') + some : '';
+    element('neighbour-list').replaceChildren(...neighbours.slice(0, MOST_LISTED).map((id) => {
+      const button = part('button', id);
+      button.setAttribute('aria-label', `Select node ${id}`);
+      button.addEventListener('click', () => this.selectId(id));
+      return button;
+    }), ...(neighbours.length > MOST_LISTED ? [part('span', `and ${neighbours.length - MOST_LISTED} more`)] : []));
   }
 
   neighbours(slot) {
@@ -140,6 +189,11 @@ class Player {
 
   setPlaying(playing) {
     this.playing = playing;
+    if (!playing && this.video) {
+      this.video.stop();
+      this.video = null;
+      this.setRecording(false);
+    }
     document.body.classList.toggle('playing', playing);
     element('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
   }
@@ -170,31 +224,82 @@ class Player {
     this.refresh();
   }
 
+  /** Selects the node with the next greater or lesser id of those on show. */
+  selectNext(by) {
+    const { ids } = this.recording;
+    const order = Array.from(this.here.slots).sort((a, b) => ids[a] - ids[b]);
+    if (order.length === 0) return;
+    const at = order.indexOf(this.selected);
+    const first = by > 0 ? 0 : order.length - 1;
+    this.select(order[at < 0 ? first : (at + by + order.length) % order.length]);
+  }
+
   selectId(id) {
     this.select(this.recording.slotOfId.get(id) ?? -1);
   }
 
-  fillLegend(min, max) {
+  describeRun() {
     const { metadata, count, ids } = this.recording;
     document.title = metadata.title;
     element('title').textContent = metadata.title;
     element('title').title = `seed ${metadata.seed}, ${plural(ids.length, 'node')} in all`;
-    element('scalar-name').textContent = metadata.scalar.name + (metadata.scalar.unit ? ` (${metadata.scalar.unit})` : '');
-    element('gradient').style.background = gradient;
-    element('ticks').replaceChildren(...[min, (min + max) / 2, max].map((value) => {
-      const tick = document.createElement('span');
-      tick.textContent = short(value);
-      return tick;
-    }));
-    element('no-value').querySelector('i').style.background = NO_VALUE;
-    element('no-value').hidden = !this.recording.someWithoutScalar;
     element('scrub').max = count - 1;
+  }
+
+  showCharts(visible) {
+    element('charts-shown').setAttribute('aria-pressed', String(visible));
+    element('charts-shown').hidden = this.charts.charts.length === 0;
+    element('charts').hidden = !visible;
+    this.resize();
+  }
+
+  /** The picture on show as a file. */
+  async savePicture() {
+    this.view.draw();
+    const canvas = compose(document.createElement('canvas'), this.legend);
+    save(await new Promise((resolve) => { canvas.toBlob(resolve); }), `${this.fileName()}-${this.time.toFixed(1)}s.png`);
+  }
+
+  /** Records what plays from now on, until the end, a pause or the next call. */
+  async toggleVideo() {
+    if (this.video) {
+      this.pause();
+      return;
+    }
+    this.view.draw();
+    this.video = new Video(this.legend);
+    this.setRecording(true);
+    this.play();
+    const { video } = this;
+    const file = await video.done;
+    save(file, `${this.fileName()}.${video.extension}`);
+  }
+
+  setRecording(recording) {
+    element('video').setAttribute('aria-pressed', String(recording));
+    element('video').textContent = recording ? 'Stop' : 'Video';
+  }
+
+  fileName() {
+    const { title, seed } = this.recording.metadata;
+    return `${title.replace(/[^\w-]+/g, '-')}-seed${seed}`;
   }
 
   resize() {
     const picture = document.body.classList.contains('picture');
     const controls = element('controls').getBoundingClientRect();
-    this.view.resize(window.innerWidth, window.innerHeight, { top: 28, bottom: picture ? 16 : window.innerHeight - controls.top });
+    const bottom = picture ? 16 : window.innerHeight - controls.top;
+    const charts = element('charts');
+    const summary = element('summary').getBoundingClientRect();
+    charts.style.top = `${summary.bottom + 10}px`;
+    charts.style.maxHeight = `${controls.top - summary.bottom - 20}px`;
+    document.body.style.setProperty('--controls', `${picture ? 0 : window.innerHeight - controls.top}px`);
+    const left = picture || charts.hidden ? 0 : charts.getBoundingClientRect().right;
+    // Both panels leave most of a wide window; in a narrow one they lie over the picture.
+    const right = left > 0 ? window.innerWidth - element('legend').getBoundingClientRect().left : 0;
+    const wide = window.innerWidth >= 1000;
+    this.view.resize(window.innerWidth, window.innerHeight, { top: 28, bottom, left: wide ? left : 0, right: wide ? right : 0 });
+    if (!charts.hidden) this.charts.redraw(charts);
   }
 
   /** Hides what can be pressed, for pictures. */
@@ -217,19 +322,34 @@ class Player {
       event.target.setCustomValidity(slot === undefined ? 'No node of this run has that id.' : '');
       if (event.target.reportValidity()) this.select(slot);
     });
-    element('deselect').addEventListener('click', () => this.select(-1));
+    element('deselect').addEventListener('click', () => {
+      this.select(-1);
+      element('canvas').focus(); // the button is gone
+    });
+    element('step-back').addEventListener('click', () => this.step(-1));
+    element('step-on').addEventListener('click', () => this.step(1));
+    for (const id of ['links-selected', 'trails']) element(id).addEventListener('change', () => this.refresh());
+    element('follow').addEventListener('change', (event) => this.view.setFollows(event.target.checked));
+    element('charts-shown').addEventListener('click', () => this.showCharts(element('charts').hidden));
+    element('picture').addEventListener('click', () => this.savePicture());
+    element('video').addEventListener('click', () => this.toggleVideo());
+    element('video').hidden = !canRecord();
     element('view-above').addEventListener('click', () => this.view.frame('above'));
     element('view-top').addEventListener('click', () => this.view.frame('top'));
     element('help').addEventListener('click', (event) => {
       const keys = element('keys');
       keys.hidden = !keys.hidden;
       event.target.setAttribute('aria-expanded', String(!keys.hidden));
+      this.resize();
     });
     this.bindPicking(element('canvas'));
     window.addEventListener('resize', () => this.resize());
-    window.addEventListener('keydown', (event) => this.onKey(event));
+    bindKeys(this);
     const dark = matchMedia('(prefers-color-scheme: dark)');
-    const theme = () => this.view.setTheme(dark.matches ? 'dark' : 'light');
+    const theme = () => {
+      this.view.setTheme(dark.matches ? 'dark' : 'light');
+      this.charts.redraw(element('charts'));
+    };
     dark.addEventListener('change', theme);
     theme();
   }
@@ -244,39 +364,6 @@ class Player {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
       this.select(this.view.pick(event.clientX, event.clientY));
     });
-  }
-
-  onKey(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const { target } = event;
-    if (target.matches('select, input[type="number"]')) return;
-    if (target.matches('input[type="range"]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
-    if (target.matches('button, input[type="checkbox"]') && (event.key === ' ' || event.key === 'Enter')) return;
-    const turn = 0.08;
-    const actions = {
-      ' ': () => (this.playing ? this.pause() : this.play()),
-      ArrowLeft: () => this.step(event.shiftKey ? -10 : -1),
-      ArrowRight: () => this.step(event.shiftKey ? 10 : 1),
-      Home: () => this.seek(0),
-      End: () => this.seek(this.recording.count - 1),
-      ',': () => this.changeSpeed(-1),
-      '.': () => this.changeSpeed(1),
-      l: () => this.setLinks(!this.linksVisible),
-      r: () => this.view.frame('above'),
-      t: () => this.view.frame('top'),
-      a: () => this.view.turn(-turn, 0, 1),
-      d: () => this.view.turn(turn, 0, 1),
-      w: () => this.view.turn(0, turn, 1),
-      s: () => this.view.turn(0, -turn, 1),
-      '+': () => this.view.turn(0, 0, 0.9),
-      '=': () => this.view.turn(0, 0, 0.9),
-      '-': () => this.view.turn(0, 0, 1 / 0.9),
-      Escape: () => this.select(-1),
-    };
-    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
   }
 
   step(frames) {
@@ -294,18 +381,10 @@ function plural(count, noun) {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;
 }
 
-function short(value) {
-  return Number(value.toPrecision(4)).toLocaleString('en', { maximumSignificantDigits: 4 });
-}
-
-function withUnit(value, metadata) {
-  return short(value) + (metadata.scalar.unit ? ` ${metadata.scalar.unit}` : '');
-}
-
 function showMessage(text) {
   element('message-text').textContent = text;
   element('message').hidden = false;
-  for (const id of ['summary', 'legend', 'controls']) element(id).hidden = true;
+  for (const id of ['summary', 'legend', 'charts', 'controls']) element(id).hidden = true;
 }
 
 async function start() {
@@ -338,6 +417,11 @@ const ready = started.then(
       setControls: (visible) => player.setControls(visible),
       select: (id) => player.selectId(id),
       view: (from) => player.view.frame(from),
+      /** The id of the node at a point of the page; null: there is none. */
+      at: (x, y) => recording.ids[player.view.pick(x, y)] ?? null,
+      /** Names of what can colour the nodes, and the choice of one. */
+      fields: player.fields.map(({ name }) => name),
+      colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
       /** The frame on show, in Unity's axes, as recorded. */
       state: () => {
         const { here } = player;
@@ -347,7 +431,8 @@ const ready = started.then(
           time: player.time,
           playing: player.playing,
           nodes: Array.from(here.slots, (s) => ({
-            id: ids[s], x: here.places[4 * s], y: here.places[4 * s + 1], z: here.places[4 * s + 2], scalar: here.scalars[s],
+            id: ids[s], x: here.places[4 * s], y: here.places[4 * s + 1], z: here.places[4 * s + 2], scalar: here.values[0][s],
+            values: here.values.map((column) => column[s]),
           })),
           links: Array.from({ length: here.pairs.length / 2 }, (_, i) => [ids[here.pairs[2 * i]], ids[here.pairs[2 * i + 1]]]),
         };

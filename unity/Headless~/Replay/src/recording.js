@@ -1,6 +1,6 @@
 // Reads a recording (FORMAT.md). Its header is read at once, a segment of frames when it is first looked at.
 
-const VERSION = 2;
+const VERSION = 3;
 const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
@@ -102,18 +102,24 @@ class Segment {
   constructor(buffer, recording, first, count) {
     this.bytes = new Uint8Array(buffer);
     const data = new DataView(buffer);
-    const [min, max] = [data.getFloat32(0, true), data.getFloat32(4, true)];
-    this.scalarMin = min;
-    this.scalarStep = (max - min) / 65534;
-    this.at = 8;
+    this.at = 0;
+    // By field: a number from a code, which is positive.
+    this.decoders = recording.fields.map(({ kind }) => {
+      if (kind !== 'number') return (code) => ((code - 1) >>> 1) ^ -((code - 1) & 1);
+      const [min, max] = [data.getFloat32(this.at, true), data.getFloat32(this.at + 4, true)];
+      const step = (max - min) / 65534;
+      this.at += 8;
+      return (code) => min + (code - 1) * step;
+    });
+    const columns = 3 + recording.fields.length;
     this.recording = recording;
     this.first = first;
     this.count = count;
     this.frames = [];
     const slots = recording.ids.length;
     this.seen = new Uint8Array(slots);
-    this.last = Array.from({ length: 4 }, () => new Int32Array(slots));
-    this.motion = Array.from({ length: 4 }, () => new Int32Array(slots));
+    this.last = Array.from({ length: columns }, () => new Int32Array(slots));
+    this.motion = Array.from({ length: columns }, () => new Int32Array(slots));
     this.links = new Float64Array(0); // a * 2^24 + b, sorted
   }
 
@@ -127,12 +133,13 @@ class Segment {
       index: this.first + this.frames.length,
       ...this.readPresence(),
       places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.ids.length / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
-      scalars: new Float32Array(this.recording.ids.length), // NaN: no value
+      // By field and slot; NaN: no value.
+      values: this.recording.fields.map(({ kind }) => new (kind === 'number' ? Float32Array : Float64Array)(this.recording.ids.length).fill(NaN)),
     };
-    const { slots, places, scalars } = frame;
+    const { slots, places, values } = frame;
     const { positionStep } = this.recording;
     const columns = this.last;
-    for (let column = 0; column < 4; column++) this.readColumn(slots, columns[column], this.motion[column]);
+    for (let column = 0; column < columns.length; column++) this.readColumn(slots, columns[column], this.motion[column]);
     for (let i = 3; i < places.length; i += 4) places[i] = -1;
     for (const slot of slots) {
       this.seen[slot] = 1;
@@ -140,9 +147,14 @@ class Segment {
       places[4 * slot + 1] = columns[1][slot] * positionStep;
       places[4 * slot + 2] = columns[2][slot] * positionStep;
       places[4 * slot + 3] = 0;
-      const steps = columns[3][slot];
-      scalars[slot] = steps === 0 ? NaN : this.scalarMin + (steps - 1) * this.scalarStep;
     }
+    values.forEach((column, field) => {
+      const decode = this.decoders[field];
+      for (const slot of slots) {
+        const code = columns[3 + field][slot];
+        if (code !== 0) column[slot] = decode(code);
+      }
+    });
     frame.linksInAll = this.readNumber();
     this.links = changed(this.links, this.readPairs(), this.readPairs());
     frame.pairs = new Int32Array(2 * this.links.length); // slots, two for each link

@@ -5,12 +5,13 @@ import {
   LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,
 } from 'three';
 import { TEXELS } from './recording.js';
+import { Trails } from './trails.js';
 
 const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
 const OUTLINE = 1.16; // times the node's radius
 
 const PLACES = /* glsl */`
-uniform sampler2D here, next, palette;
+uniform sampler2D here, next;
 uniform float share, radius;
 vec4 texelOf(float slot) {
   ivec2 at = ivec2(int(slot) % ${TEXELS}, int(slot) / ${TEXELS});
@@ -23,6 +24,11 @@ vec4 texelOf(float slot) {
 const NODE = /* glsl */`
 attribute float slot;
 varying vec3 tint;
+// A packed sRGB colour, as linear light.
+vec3 linear(float packed) {
+  vec3 bytes = mod(floor(vec3(packed / 65536.0, packed / 256.0, packed)), 256.0) / 255.0;
+  return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThanEqual(bytes, vec3(0.04045)));
+}
 vec3 facing(vec3 v, vec3 centre) {
   vec3 ahead = normalize(-(viewMatrix * vec4(centre, 1.0)).xyz);
   vec3 up = normalize(cross(ahead, vec3(1.0, 0.0, 0.0)));
@@ -31,17 +37,13 @@ vec3 facing(vec3 v, vec3 centre) {
 `;
 
 export class Swarm {
-  /** `slots` and `links` are the most that `show` will be given; `materials` those of the theme: `outline`, `halo`, `link`, `accentLine`. */
-  constructor(scene, slots, links, scale, materials) {
-    this.scale = scale;
+  /** `slots` and `links` are the most that `show` will be given; `materials` those of the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
+  constructor(scene, slots, links, materials) {
+    this.colours = null; // of a frame, by slot
     this.detailed = slots <= DETAILED_NODES;
     const rows = Math.max(Math.ceil(slots / TEXELS), 1);
     this.textures = [0, 1].map(() => new DataTexture(null, TEXELS, rows, RGBAFormat, FloatType));
-    this.palette = new DataTexture(scale.table, scale.table.length / 4, 1, RGBAFormat, FloatType);
-    this.palette.needsUpdate = true;
-    this.uniforms = {
-      here: { value: null }, next: { value: null }, palette: { value: this.palette }, share: { value: 0 }, radius: { value: 1 },
-    };
+    this.uniforms = { here: { value: null }, next: { value: null }, share: { value: 0 }, radius: { value: 1 } };
 
     const body = new MeshLambertMaterial();
     for (const material of [body, materials.outline, materials.halo]) this.placeNodes(material);
@@ -62,7 +64,8 @@ export class Swarm {
     this.neighbourHalos = halo(0.92);
     this.links = linesOf(materials.link, links, 1);
     this.selectedLinks = linesOf(materials.accentLine, 0, 2);
-    for (const object of [this.nodes, this.outlines, this.selectedHalo, this.neighbourHalos, this.links, this.selectedLinks]) {
+    this.trails = new Trails(materials.trail);
+    for (const object of [this.nodes, this.outlines, this.selectedHalo, this.neighbourHalos, this.links, this.selectedLinks, this.trails.object]) {
       object.frustumCulled = false;
       scene.add(object);
     }
@@ -70,6 +73,13 @@ export class Swarm {
 
   set radius(radius) {
     this.uniforms.radius.value = radius;
+  }
+
+  /** Colours the nodes from now on: `colours` takes a frame and gives the colour of a slot, 0xRRGGBB. */
+  setColours(colours) {
+    this.colours = colours;
+    for (const texture of this.textures) texture.frame = null;
+    this.here = this.next = undefined;
   }
 
   /** Shows the moment that is `share` of the way from one frame to the next. */
@@ -126,7 +136,8 @@ export class Swarm {
   write(texture, frame) {
     texture.frame = frame;
     texture.image.data = frame.places;
-    for (const slot of frame.slots) frame.places[4 * slot + 3] = this.scale.indexOf(frame.scalars[slot]);
+    const colourOf = this.colours(frame);
+    for (const slot of frame.slots) frame.places[4 * slot + 3] = colourOf(slot);
     texture.needsUpdate = true;
     return texture;
   }
@@ -136,7 +147,7 @@ export class Swarm {
       shader.vertexShader = (PLACES + NODE + shader.vertexShader)
         .replace('void main() {', `void main() {
           vec4 texel = texelOf(slot);
-          tint = texelFetch(palette, ivec2(int(texel.w), 0), 0).rgb;`)
+          tint = linear(texel.w);`)
         .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = facing(normal, texel.xyz);')
         .replace('#include <begin_vertex>', 'vec3 transformed = texel.xyz + facing(radius * position, texel.xyz);');
       if (material.isMeshLambertMaterial) {

@@ -11,18 +11,18 @@ import { Swarm } from './swarm.js';
 const THEMES = {
   light: {
     background: '#eef1f4', floor: '#fbfcfd', grid: '#dfe4ea', border: '#b4bec9', shape: '#8793a3', edge: '#4d5967', outline: '#2f3a46',
-    link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, accent: '#d6336c',
+    link: '#4a5a6e', linkOpacity: 0.3, shadow: 0.2, trail: '#33557a', accent: '#d6336c',
   },
   dark: {
     background: '#0d1014', floor: '#191e24', grid: '#262d35', border: '#48525e', shape: '#5d6875', edge: '#98a4b1', outline: '#c3ccd6',
-    link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, accent: '#ff5c8a',
+    link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, trail: '#a9cdf5', accent: '#ff5c8a',
   },
 };
 const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
 
 export class View {
-  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given, `scale` colours the nodes. */
-  constructor(canvas, labels, metadata, slots, maxLinks, scale) {
+  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
+  constructor(canvas, labels, { metadata, movers, ids, maxLinks }) {
     this.canvas = canvas;
     this.labels = new CSS2DRenderer({ element: labels });
     this.arena = {
@@ -30,8 +30,10 @@ export class View {
       max: new Vector3(metadata.arena.max[0], metadata.arena.max[1], -metadata.arena.min[2]),
     };
     this.radius = metadata.nodeRadius;
-    this.insets = { top: 0, bottom: 0 };
+    this.insets = { top: 0, bottom: 0, left: 0, right: 0 };
     this.onFrame = () => {};
+    this.onDrawn = () => {};
+    this.follows = false;
     this.pending = null;
     this.framed = 'above'; // the ready view that the camera has, null once the user has moved it
 
@@ -41,7 +43,8 @@ export class View {
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(24, 1, 0.1, 1000);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = true;
+    this.damped = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.controls.enableDamping = this.damped;
     this.controls.dampingFactor = 0.12;
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.controls.zoomToCursor = true;
@@ -61,12 +64,14 @@ export class View {
       markerLine: new LineBasicMaterial(),
       accentLine: new LineBasicMaterial(),
       halo: new MeshBasicMaterial({ side: BackSide }),
+      trail: new LineBasicMaterial({ transparent: true, depthWrite: false, vertexColors: true }),
     };
     this.addLights();
     this.addFloor();
-    for (const shape of metadata.shapes) this.addShape(shape);
+    for (const shape of metadata.shapes) this.place(this.addShape(shape), shape.centre, shape.rotation ?? [0, 0, 0, 1]);
+    this.movers = movers.map(({ shape, poses }) => ({ object: this.addShape(shape), poses }));
     for (const marker of metadata.markers) this.addMarker(marker);
-    this.swarm = new Swarm(this.scene, slots, maxLinks, scale, this.materials);
+    this.swarm = new Swarm(this.scene, ids.length, maxLinks, this.materials);
   }
 
   addLights() {
@@ -106,19 +111,31 @@ export class View {
   }
 
   addShape(shape) {
-    const [x, y, z] = shape.centre;
-    const box = shape.kind === 'box';
-    const geometry = box ? new BoxGeometry(...shape.size) : new SphereGeometry(shape.radius, 48, 32);
+    const geometry = geometryOf(shape);
     const mesh = new Mesh(geometry, this.materials.shape);
     mesh.castShadow = true;
     const group = new Group().add(mesh);
-    if (box) {
-      group.add(new LineSegments(new EdgesGeometry(geometry), this.materials.edge));
-      const [qx, qy, qz, qw] = shape.rotation;
-      group.quaternion.set(-qx, -qy, qz, qw);
-    }
-    group.position.set(x, y, -z);
+    if (shape.kind !== 'sphere') group.add(new LineSegments(new EdgesGeometry(geometry, 20), this.materials.edge));
     this.scene.add(group);
+    return group;
+  }
+
+  place(object, [x, y, z], [qx, qy, qz, qw]) {
+    object.position.set(x, y, -z);
+    object.quaternion.set(-qx, -qy, qz, qw);
+  }
+
+  /** Puts what moves where it is between two frames. */
+  move(here, next, share) {
+    for (const { object, poses } of this.movers) {
+      const [from, to] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
+      this.place(object, from, from.slice(3));
+      const turn = object.quaternion.clone();
+      const place = object.position.clone();
+      this.place(object, to, to.slice(3));
+      object.position.lerpVectors(place, object.position, share);
+      object.quaternion.slerpQuaternions(turn, object.quaternion.clone(), share);
+    }
   }
 
   addMarker({ name, position: [x, y, z] }) {
@@ -143,7 +160,7 @@ export class View {
     const theme = THEMES[name];
     this.theme = theme;
     this.scene.background = new Color(theme.background);
-    for (const key of ['floor', 'grid', 'border', 'shape', 'edge', 'outline', 'link', 'accent']) this.materials[key].color.set(theme[key]);
+    for (const key of ['floor', 'grid', 'border', 'shape', 'edge', 'outline', 'link', 'accent', 'trail']) this.materials[key].color.set(theme[key]);
     this.materials.accentLine.color.set(theme.accent);
     this.materials.markerLine.color.set(theme.accent);
     this.materials.halo.color.set(theme.accent);
@@ -152,7 +169,7 @@ export class View {
     this.request();
   }
 
-  /** Fits the canvas to its place; `insets` are the pixels at the top and bottom that the page's panels cover. */
+  /** Fits the canvas to its place; `insets` are the pixels at each side that the page's panels cover. */
   resize(width, height, insets) {
     this.insets = insets;
     this.width = width;
@@ -161,7 +178,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.labels.setSize(width, height);
     this.camera.aspect = width / height;
-    this.camera.setViewOffset(width, height, 0, (insets.bottom - insets.top) / 2, width, height);
+    this.camera.setViewOffset(width, height, (insets.right - insets.left) / 2, (insets.bottom - insets.top) / 2, width, height);
     if (this.framed) this.frame(this.framed);
     this.request();
   }
@@ -176,7 +193,8 @@ export class View {
     // Straight down would leave the turn undefined.
     const direction = from === 'top' ? new Vector3(0, 1, 1e-4) : new Vector3(0, 1.3, 1).normalize();
     const corners = [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
-    const free = 1 - (this.insets.top + this.insets.bottom) / this.height;
+    const { top, bottom, left, right } = this.insets;
+    const [freeX, freeY] = [1 - (left + right) / this.width, 1 - (top + bottom) / this.height];
     const fits = (distance) => {
       this.camera.position.copy(target).addScaledVector(direction, distance);
       this.camera.near = distance / 100;
@@ -184,10 +202,10 @@ export class View {
       this.camera.lookAt(target);
       this.camera.updateProjectionMatrix();
       this.camera.updateMatrixWorld();
-      const shift = (this.insets.bottom - this.insets.top) / this.height;
+      const [shiftX, shiftY] = [(left - right) / this.width, (bottom - top) / this.height];
       return corners.every((corner) => {
         const seen = corner.clone().project(this.camera);
-        return seen.z < 1 && Math.abs(seen.x) < 0.96 && Math.abs(seen.y - shift) < 0.97 * free;
+        return seen.z < 1 && Math.abs(seen.x - shiftX) < 0.96 * freeX && Math.abs(seen.y - shiftY) < 0.97 * freeY;
       });
     };
     let near = 0;
@@ -202,7 +220,7 @@ export class View {
     this.controls.minDistance = far / 60;
     this.controls.maxDistance = far * 4;
     this.controls.update();
-    this.controls.enableDamping = true;
+    this.controls.enableDamping = this.damped;
     this.request();
   }
 
@@ -225,17 +243,38 @@ export class View {
     return (this.radius * this.height) / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
   }
 
-  /** Shows the moment that is `share` of the way from the frame `here` to `next`; `selected` is a slot or -1, `factor` the nodes' size. */
-  show({ here, next, share, linksVisible, selected, factor }) {
+  /**
+   * Shows the moment that is `share` of the way from the frame `here` to `next`; `selected` is a slot or -1, `factor` the nodes' size, `links`
+   * 'all', 'selected' for those of the selected node, or 'none'.
+   */
+  show({ here, next, share, links, selected, factor }) {
     const { swarm } = this;
     const changed = swarm.here !== here;
     swarm.show(here, next, share);
     swarm.radius = this.radius * factor;
     if (changed || this.selected !== selected) swarm.select(selected);
     this.selected = selected;
-    swarm.links.visible = linksVisible;
+    swarm.links.visible = links === 'all';
+    swarm.selectedLinks.visible = links !== 'none';
     this.materials.link.opacity = this.theme.linkOpacity * (selected < 0 ? 1 : 0.4);
+    this.move(here.index, next.index, share);
+    if (this.follows && selected >= 0) this.keepWith(selected);
     this.request();
+  }
+
+  /** Moves the camera with the selected node from now on, or no longer. */
+  setFollows(follows) {
+    this.follows = follows;
+    if (follows && this.selected >= 0) this.keepWith(this.selected);
+    this.request();
+  }
+
+  keepWith(slot) {
+    this.framed = null;
+    const place = new Vector3().fromArray(this.swarm.placeOf(slot, [0, 0, 0]));
+    place.z = -place.z;
+    this.camera.position.add(place).sub(this.controls.target);
+    this.controls.target.copy(place);
   }
 
   /** The slot of the node nearest to a point of the canvas, within reach of a finger; -1 if there is none. */
@@ -284,6 +323,7 @@ export class View {
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
+    this.onDrawn();
   }
 }
 
@@ -291,4 +331,17 @@ function lines(points, material) {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
   return new LineSegments(geometry, material);
+}
+
+function geometryOf(shape) {
+  if (shape.kind === 'sphere') return new SphereGeometry(shape.radius, 48, 32);
+  if (shape.kind === 'box') return new BoxGeometry(...shape.size);
+  const geometry = new BufferGeometry();
+  const points = new Float32Array(shape.vertices).map((x, i) => (i % 3 === 2 ? -x : x));
+  geometry.setAttribute('position', new BufferAttribute(points, 3));
+  // Mirrored triangles have their corners in the other order.
+  geometry.setIndex(shape.triangles.map((_, i) => shape.triangles[3 * Math.floor(i / 3) + 2 - (i % 3)]));
+  const flat = geometry.toNonIndexed();
+  flat.computeVertexNormals();
+  return flat;
 }

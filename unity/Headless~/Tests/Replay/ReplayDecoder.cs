@@ -12,7 +12,8 @@ namespace Collektive.Headless.Tests
     {
         internal struct Node
         {
-            public float X, Y, Z, Scalar;
+            public float X, Y, Z, Scalar; // the first field
+            public double[] Values; // of all fields; NaN: none
         }
 
         internal sealed class Frame
@@ -37,7 +38,7 @@ namespace Collektive.Headless.Tests
             var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
             var lines = text.Split('\n');
             Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
-            if ((int)Header["version"] != 2) throw new InvalidDataException("version");
+            if ((int)Header["version"] != 3) throw new InvalidDataException("version");
             if ((int)Header["length"] != text.Length - lines[0].Length) throw new InvalidDataException("length");
             step = (double)Header["positionStep"];
             ids = Header["ids"].ToObject<int[]>();
@@ -57,16 +58,19 @@ namespace Collektive.Headless.Tests
         private void ReadSegment(byte[] bytes, int end)
         {
             var reader = new BinaryReader(new MemoryStream(bytes));
-            float min = reader.ReadSingle(), max = reader.ReadSingle();
-            var last = new int[4, ids.Length];
-            var motion = new int[4, ids.Length];
+            var fields = (JArray)Header["fields"];
+            var ranges = new (float Min, float Max)[fields.Count];
+            for (var field = 0; field < fields.Count; field++)
+                if ((string)fields[field]["kind"] == "number") ranges[field] = (reader.ReadSingle(), reader.ReadSingle());
+            var last = new int[3 + fields.Count, ids.Length];
+            var motion = new int[3 + fields.Count, ids.Length];
             var seen = new HashSet<int>();
             var links = new HashSet<(int, int)>();
             while (Frames.Count < end)
             {
                 var frame = new Frame { Time = times[Frames.Count] };
                 var present = ReadPresence(reader);
-                for (var column = 0; column < 4; column++)
+                for (var column = 0; column < 3 + fields.Count; column++)
                 {
                     foreach (var slot in present)
                     {
@@ -79,10 +83,16 @@ namespace Collektive.Headless.Tests
                 seen.UnionWith(present);
                 foreach (var slot in present)
                 {
-                    var q = last[3, slot];
-                    var scalar = q == 0 ? float.NaN : (float)(min + (q - 1) * ((double)max - min) / 65534);
+                    var values = new double[fields.Count];
+                    for (var field = 0; field < fields.Count; field++)
+                    {
+                        var q = last[3 + field, slot];
+                        var (min, max) = ranges[field];
+                        var isNumber = (string)fields[field]["kind"] == "number";
+                        values[field] = q == 0 ? double.NaN : isNumber ? min + (q - 1) * ((double)max - min) / 65534 : (q - 1) >> 1 ^ -((q - 1) & 1);
+                    }
                     float Metres(int axis) => (float)(last[axis, slot] * step);
-                    frame.Nodes.Add(ids[slot], new Node { X = Metres(0), Y = Metres(1), Z = Metres(2), Scalar = scalar });
+                    frame.Nodes.Add(ids[slot], new Node { X = Metres(0), Y = Metres(1), Z = Metres(2), Scalar = (float)values[0], Values = values });
                 }
                 ReadLinks(reader, frame, links);
                 Frames.Add(frame);

@@ -297,7 +297,7 @@ namespace Collektive.Headless.Tests
                 var metadata = new ReplayMetadata
                 {
                     Title = "\"A\\\n<b>", Seed = ulong.MaxValue, DeltaTime = 0.05, NodeRadius = 0.5f,
-                    ScalarName = "warmth", ScalarUnit = "°C", ScalarMin = -1.5f, ScalarMax = 2,
+                    Fields = new[] { new ReplayField("warmth") { Unit = "°C", Min = -1.5f, Max = 2 } },
                 };
                 metadata.SetArena(-1, 0, -2.5f, 3, 4, 5);
                 metadata.AddBox(1, 2, 3, 4, 5, 6);
@@ -307,11 +307,14 @@ namespace Collektive.Headless.Tests
                 Assert.AreEqual(
                     "{\"title\":\"\\\"A\\\\\\n<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5," +
                     "\"arena\":{\"min\":[-1.0,0.0,-2.5],\"max\":[3.0,4.0,5.0]}," +
-                    "\"scalar\":{\"name\":\"warmth\",\"unit\":\"°C\",\"min\":-1.5,\"max\":2.0}," +
-                    "\"shapes\":[{\"kind\":\"box\",\"centre\":[1.0,2.0,3.0],\"size\":[4.0,5.0,6.0],\"rotation\":[0.0,0.0,0.0,1.0]}," +
+                    "\"shapes\":[{\"kind\":\"box\",\"size\":[4.0,5.0,6.0],\"centre\":[1.0,2.0,3.0],\"rotation\":[0.0,0.0,0.0,1.0]}," +
                     "{\"kind\":\"sphere\",\"centre\":[1.5,0.0,0.0],\"radius\":2.0}]," +
                     "\"markers\":[{\"name\":\"source\",\"position\":[25.0,0.0,0.0]}]}",
                     replay.Header["metadata"].ToString(Formatting.None));
+                Assert.AreEqual(
+                    "[{\"name\":\"warmth\",\"kind\":\"number\",\"unit\":\"°C\",\"min\":-1.5,\"max\":2.0," +
+                    "\"least\":0.0,\"greatest\":0.0,\"someWithout\":false}]",
+                    replay.Header["fields"].ToString(Formatting.None));
             }
             finally
             {
@@ -320,10 +323,84 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void FieldsKeepTheirOwnValues()
+        {
+            var fields = new[]
+            {
+                new ReplayField("warmth"), new ReplayField("leader", ReplayFieldKind.Category) { Words = new[] { "none" } },
+                new ReplayField("colour", ReplayFieldKind.Colour),
+            };
+            var leaders = new double[] { 0, -(1 << 30) + 1, (1 << 30) - 1, 16777217, double.NaN };
+            var replay = Record(
+                writer =>
+                {
+                    for (var time = 0; time < 25; time++)
+                    {
+                        writer.BeginFrame(time);
+                        for (var id = 0; id < leaders.Length; id++)
+                        {
+                            writer.Node(id, 0, 0, 0, 0.5 * id);
+                            writer.Value(1, leaders[(id + time) % leaders.Length]);
+                            if (id > 0) writer.Value(2, 0x0A0B0C + id);
+                        }
+                        writer.EndFrame();
+                    }
+                },
+                new ReplayMetadata { Fields = fields });
+            for (var time = 0; time < 25; time++)
+            {
+                for (var id = 0; id < leaders.Length; id++)
+                {
+                    var values = replay.Frames[time].Nodes[id].Values;
+                    Assert.AreEqual(0.5 * id, values[0], 1e-4);
+                    Assert.AreEqual(leaders[(id + time) % leaders.Length], values[1]);
+                    Assert.AreEqual(id > 0 ? 0x0A0B0C + id : double.NaN, values[2]);
+                }
+            }
+            Assert.AreEqual(
+                "{\"name\":\"leader\",\"kind\":\"category\",\"words\":[\"none\"],\"least\":-1073741823.0,\"greatest\":1073741823.0,\"someWithout\":true}",
+                replay.Header["fields"][1].ToString(Formatting.None));
+        }
+
+        [Test]
+        public void ACategoryIsAWholeNumber()
+        {
+            foreach (var value in new[] { 0.5, 1 << 30, double.NegativeInfinity })
+            {
+                using (var writer = new ReplayWriter(scratch, new ReplayMetadata { Fields = new[] { new ReplayField("leader", ReplayFieldKind.Category) } }))
+                {
+                    writer.BeginFrame(0);
+                    StringAssert.Contains("Node 7 has ", Assert.Throws<ArgumentException>(() => writer.Node(7, 0, 0, 0, value)).Message);
+                }
+            }
+        }
+
+        [Test]
+        public void MetricsAndMoversAreInTheHeader()
+        {
+            var metadata = new ReplayMetadata { Metrics = new ReplayMetrics(new[] { "found", "links" }) };
+            var mover = metadata.AddMovingBox(1, 2, 3);
+            var replay = Record(
+                writer =>
+                {
+                    Frame(writer, 0);
+                    mover.Add(0.12345f, 0, 0, 0, 0, 0, 1);
+                    metadata.Metrics.Add(0, new[] { 0.5, double.NaN });
+                },
+                metadata);
+            Assert.AreEqual(
+                "{\"times\":[0.0],\"series\":[{\"name\":\"found\",\"values\":[0.5]},{\"name\":\"links\",\"values\":[null]}]}",
+                replay.Header["metrics"].ToString(Formatting.None));
+            Assert.AreEqual(
+                "[{\"shape\":{\"kind\":\"box\",\"size\":[1.0,2.0,3.0]},\"poses\":[0.123,0.0,0.0,0.0,0.0,0.0,1.0]}]",
+                replay.Header["movers"].ToString(Formatting.None));
+        }
+
+        [Test]
         public void BadFramesAreRefusedWithTheNodeAndTheFrame()
         {
             AssertRefused<ArgumentException>("Node 5 is at (NaN, 0, 0) in frame 0", w => w.Node(5, float.NaN, 0, 0, 0));
-            AssertRefused<ArgumentException>("Node 5 has an infinite scalar", w => w.Node(5, 0, 0, 0, float.PositiveInfinity));
+            AssertRefused<ArgumentException>("Node 5 has an infinite value in frame 0", w => w.Node(5, 0, 0, 0, float.PositiveInfinity));
             AssertRefused<ArgumentException>("Node 1 is given twice in frame 0", w => w.Node(1, 0, 0, 0, 0));
             AssertRefused<ArgumentException>("Link 1 - 8: node 8 is not in frame 0", w => w.Link(1, 8));
             AssertRefused<ArgumentException>("Node 1 is linked to itself", w => w.Link(1, 1));

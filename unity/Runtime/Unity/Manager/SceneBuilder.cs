@@ -17,6 +17,13 @@ namespace Collektive.Unity
         /// <summary>What <see cref="Shade"/> shows, for the legend of a replay; null: nodes have no shade.</summary>
         public virtual string ShadeName => null;
 
+        /// <summary>
+        /// What a replay can colour nodes by; the first one does when the page is opened. Asked for once, at the start of the run.
+        /// Default: <see cref="Shade"/> alone, if it has a name.
+        /// </summary>
+        public virtual IReadOnlyList<NodeShade> Shades =>
+            ShadeName == null ? Array.Empty<NodeShade>() : new[] { new NodeShade(ShadeName, node => Shade(node)) };
+
         /// <summary>Points to mark in a replay, with their labels.</summary>
         public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
 

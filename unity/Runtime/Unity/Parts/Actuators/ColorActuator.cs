@@ -4,7 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>Colours the node by the program's answer.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
-    public abstract class ColorActuator<TData> : Actuator<TData>
+    public abstract class ColorActuator<TData> : Actuator<TData>, IColors
     {
         [SerializeField]
         [Tooltip("What is coloured. None: the first renderer on this GameObject or its children.")]

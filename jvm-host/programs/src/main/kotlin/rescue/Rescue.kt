@@ -1,0 +1,142 @@
+package rescue
+
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.stdlib.spreading.distanceTo
+import it.unibo.collektive.stdlib.spreading.gradientCast
+import it.unibo.collektive.stdlib.util.Point2D
+import it.unibo.collektive.stdlib.util.euclideanDistance2D
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+import org.collektive.schema.Vector3
+import org.collektive.schema.Vector3Value
+import kotlin.math.sqrt
+
+/**
+ * Explores a ruin and keeps a channel from the base to each casualty that was found. One robot stays with each casualty; the robots on the
+ * shortest way from it to the base hold their places, and the others spread. All of that follows from what neighbours tell now: a robot that
+ * fails is replaced, and a channel that breaks is built anew.
+ */
+@Program(
+    "rescue",
+    parameters = [
+        Parameter("speed", "2.5", "Metres per second of a robot that explores, greater than 0."),
+        Parameter("spacing", "7.5", "Metres that robots keep from each other while they explore, greater than 0 and less than the range."),
+        Parameter("casualties", "3", "How many casualties there may be, 0 or greater: they have the numbers below it."),
+        Parameter("width", "1.0", "Metres by which a way through a robot of the channel may be longer than the shortest, 0 or greater."),
+    ],
+)
+public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorData {
+    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val here = Point2D(position.x().toDouble() to position.z().toDouble())
+    val metric = euclideanDistance2D(here)
+    val staysWithCasualty = staysWith(sensors.casualty())
+    val toBase = distanceTo(sensors.base(), metric)
+    val width = device.parameters.double("width")
+    val onWays = (0 until device.parameters.int("casualties")).count { casualty ->
+        alignedOn(casualty) { isOnWay(toBase, staysWithCasualty && sensors.casualty() == casualty, metric, width) }
+    }
+    val role = when {
+        sensors.base() -> BASE
+        staysWithCasualty -> WITH_CASUALTY
+        onWays > 0 -> CHANNEL
+        else -> EXPLORER
+    }
+    val others = neighboring(Other(here, toBase)).neighbors.list.map { it.value }
+    val heading = evolve(device.random.nextDouble(2 * StrictMath.PI)) { it + TURN * (device.random.nextDouble() - 0.5) }
+    val drive = Drive()
+    if (role == EXPLORER) {
+        drive.add(StrictMath.cos(heading), StrictMath.sin(heading), WANDER)
+        drive.spread(Other(here, toBase), others, device.parameters.double("spacing"))
+    }
+    drive.avoid(sensors)
+    return ActuatorData(
+        velocity = drive.velocity(device.parameters.double("speed")),
+        role = role,
+        distance = if (toBase.isFinite()) toBase.toFloat() else -1f,
+    )
+}
+
+/** Whether this robot is on the shortest way from a casualty to the base, or close to it. The robot with the casualty broadcasts how long that is. */
+private fun Aggregate<Int>.isOnWay(toBase: Double, isWithIt: Boolean, metric: Field<Int, Double>, width: Double): Boolean {
+    val way = toBase + distanceTo(isWithIt, metric)
+    val length = gradientCast(isWithIt, toBase, metric)
+    return way.isFinite() && way <= length + width
+}
+
+/** Whether this robot stays with the casualty that it sees: of neighbours that see the same one, the robot with the least id does. */
+private fun Aggregate<Int>.staysWith(casualty: Int): Boolean {
+    val seen = neighboring(casualty)
+    return casualty >= 0 && seen.neighbors.list.none { (id, theirs) -> theirs == casualty && id < localId }
+}
+
+/** Where a robot is, and how far from the base along links, in metres. */
+private data class Other(val place: Point2D, val toBase: Double)
+
+/** The direction in which a robot wants to go: a sum of vectors on the ground. */
+private class Drive {
+    private var x = 0.0
+    private var z = 0.0
+
+    fun add(toX: Double, toZ: Double, weight: Double) {
+        x += weight * toX
+        z += weight * toZ
+    }
+
+    /** Keeps away from robots that are nearer than [spacing], most of all from those nearer to the base; goes to the nearest one if all are farther. */
+    fun spread(me: Other, others: List<Other>, spacing: Double) {
+        val here = me.place
+        var nearest = here
+        var least = Double.POSITIVE_INFINITY
+        for ((there, toBase) in others) {
+            val distance = here.distanceTo(there)
+            if (distance < least) {
+                least = distance
+                nearest = there
+            }
+            if (distance > spacing || distance < TOO_SMALL) continue
+            val push = (1 - distance / spacing) / distance
+            add(here.x - there.x, here.y - there.y, if (toBase < me.toBase) OUTWARDS * push else push)
+        }
+        if (least.isFinite() && least > spacing) add(nearest.x - here.x, nearest.y - here.y, 1 / least)
+    }
+
+    /** Keeps away from what is in the way, the more the nearer it is. */
+    fun avoid(sensors: SensorData) {
+        val obstacle = Vector3()
+        for (index in 0 until sensors.obstaclesLength()) {
+            sensors.obstacles(obstacle, index)
+            val toX = obstacle.x().toDouble()
+            val toZ = obstacle.z().toDouble()
+            val length = sqrt(toX * toX + toZ * toZ)
+            if (length > COMFORT || length < TOO_SMALL) continue
+            add(-toX, -toZ, PUSH * (1 - length / COMFORT) / length)
+        }
+    }
+
+    fun velocity(speed: Double): Vector3Value {
+        val length = sqrt(x * x + z * z)
+        val scale = if (length > 1) speed / length else speed
+        return Vector3Value(x = (scale * x).toFloat(), z = (scale * z).toFloat())
+    }
+}
+
+/** The roles of `rescue.fbs`. */
+private const val EXPLORER = 0
+private const val CHANNEL = 1
+private const val WITH_CASUALTY = 2
+private const val BASE = 3
+
+/** Weight of a robot's own heading, and radians by which it turns in a round at most, to either side. */
+private const val WANDER = 0.5
+private const val TURN = 0.6
+
+/** How much more a robot keeps away from those nearer to the base than from others. */
+private const val OUTWARDS = 5.0
+
+/** Metres from the centre of a robot below which it gives way to what does not, and the weight of that. */
+private const val COMFORT = 1.3
+private const val PUSH = 3.0
+private const val TOO_SMALL = 1e-6

@@ -1,0 +1,32 @@
+using System.Collections.Generic;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>The metrics that the replay page charts: one row for each moment they were measured at.</summary>
+    public sealed class ReplayMetrics
+    {
+        private readonly JArray times = new JArray();
+        private readonly JArray series = new JArray();
+
+        /// <param name="names">One for each number of a row.</param>
+        public ReplayMetrics(IEnumerable<string> names)
+        {
+            foreach (var name in names) series.Add(new JObject { ["name"] = name, ["values"] = new JArray() });
+        }
+
+        /// <param name="time">Simulated seconds, later than those of the row before.</param>
+        /// <param name="values">One for each name; what is not finite is a gap in the chart.</param>
+        public void Add(double time, IReadOnlyList<double> values)
+        {
+            times.Add(time);
+            for (var i = 0; i < series.Count; i++)
+            {
+                var isFinite = !double.IsNaN(values[i]) && !double.IsInfinity(values[i]);
+                ((JArray)series[i]["values"]).Add(isFinite ? new JValue(values[i]) : JValue.CreateNull());
+            }
+        }
+
+        internal JObject ToJson() => new JObject { ["times"] = times, ["series"] = series };
+    }
+}

@@ -1,0 +1,23 @@
+using System;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>A shape that moves and is no node: where it was in each frame.</summary>
+    public sealed class ReplayMover
+    {
+        private readonly JObject shape;
+        private readonly JArray poses = new JArray();
+
+        internal ReplayMover(JObject shape) => this.shape = shape;
+
+        /// <summary>Adds the pose of the next frame: metres, and a unit quaternion. Call it once for each frame.</summary>
+        public void Add(float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
+        {
+            // Thousandths: what the eye can see, in few characters.
+            foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
+        }
+
+        internal JObject ToJson() => new JObject { ["shape"] = shape, ["poses"] = poses };
+    }
+}

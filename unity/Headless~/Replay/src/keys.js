@@ -1,0 +1,48 @@
+// What the keys do; page.html lists them.
+
+const TURN = 0.08;
+
+export function bindKeys(player) {
+  const { view } = player;
+  const click = (id) => () => document.getElementById(id).click();
+  const actions = {
+    ' ': () => (player.playing ? player.pause() : player.play()),
+    ArrowLeft: (shift) => player.step(shift ? -10 : -1),
+    ArrowRight: (shift) => player.step(shift ? 10 : 1),
+    Home: () => player.seek(0),
+    End: () => player.seek(player.recording.count - 1),
+    ',': () => player.changeSpeed(-1),
+    '.': () => player.changeSpeed(1),
+    l: () => player.setLinks(!player.linksVisible),
+    o: click('links-selected'),
+    n: () => player.selectNext(1),
+    b: () => player.selectNext(-1),
+    f: click('follow'),
+    g: click('trails'),
+    c: click('charts-shown'),
+    p: click('picture'),
+    v: click('video'),
+    '?': click('help'),
+    r: () => view.frame('above'),
+    t: () => view.frame('top'),
+    a: () => view.turn(-TURN, 0, 1),
+    d: () => view.turn(TURN, 0, 1),
+    w: () => view.turn(0, TURN, 1),
+    s: () => view.turn(0, -TURN, 1),
+    '+': () => view.turn(0, 0, 0.9),
+    '=': () => view.turn(0, 0, 0.9),
+    '-': () => view.turn(0, 0, 1 / 0.9),
+    Escape: () => player.select(-1),
+  };
+  window.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const { key, target } = event;
+    if (target.matches('select, input[type="number"]')) return;
+    if (target.matches('input[type="range"], [tabindex]:not(canvas)') && /^(Arrow|Home|End|Page)/.test(key)) return;
+    if (target.matches('button, summary, input[type="checkbox"]') && (key === ' ' || key === 'Enter')) return;
+    const action = actions[key.length === 1 ? key.toLowerCase() : key];
+    if (!action) return;
+    event.preventDefault();
+    action(event.shiftKey);
+  });
+}

@@ -1,0 +1,18 @@
+using System;
+using Collektive.Unity;
+using rescue;
+using UnityEngine;
+
+namespace Collektive.Samples.Rescue
+{
+    /// <summary>Perceives walls, stones and vehicles; other robots and the ground are on another layer.</summary>
+    [AddComponentMenu("Collektive/Samples/Rescue/Barrier Sensor")]
+    public sealed class BarrierSensor : ObstacleSensor<SensorData>
+    {
+        /// <inheritdoc/>
+        protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
+        {
+            foreach (var obstacle in obstacles) data.Obstacles.Add(obstacle.Vector.ToValue());
+        }
+    }
+}

@@ -1,0 +1,52 @@
+using System.Collections.Generic;
+using Collektive.Unity;
+using rescue;
+using UnityEngine;
+
+namespace Collektive.Samples.Rescue
+{
+    /// <summary>Perceives the first casualty that is near and in sight, and knows whether this is the base.</summary>
+    [AddComponentMenu("Collektive/Samples/Rescue/Casualty Sensor")]
+    public sealed class CasualtySensor : Sensor<SensorData>
+    {
+        [SerializeField]
+        [Min(0)]
+        [Tooltip("Metres within which a casualty is perceived.")]
+        private float reach = 4;
+
+        [SerializeField]
+        [Tooltip("Whether this is the base.")]
+        private bool isBase;
+
+        private IReadOnlyList<Vector3> casualties;
+
+        /// <summary>Where the casualties lie, in metres.</summary>
+        public IReadOnlyList<Vector3> Casualties
+        {
+            set => casualties = value;
+        }
+
+        /// <summary>Whether this is the base.</summary>
+        public bool IsBase
+        {
+            set => isBase = value;
+        }
+
+        /// <inheritdoc/>
+        protected override void Sense(ref SensorData data)
+        {
+            data.Base = isBase;
+            data.Casualty = InSight();
+        }
+
+        private int InSight()
+        {
+            var here = transform.position;
+            for (var i = 0; i < casualties.Count; i++)
+            {
+                if (Vector3.Distance(here, casualties[i]) <= reach && !Physics.Linecast(here, casualties[i])) return i;
+            }
+            return -1;
+        }
+    }
+}

@@ -1,0 +1,14 @@
+using Collektive.Unity;
+using rescue;
+using UnityEngine;
+
+namespace Collektive.Samples.Rescue
+{
+    /// <summary>Drives as the program says.</summary>
+    [AddComponentMenu("Collektive/Samples/Rescue/Drive Actuator")]
+    public sealed class DriveActuator : SetVelocityActuator<ActuatorData>
+    {
+        /// <inheritdoc/>
+        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
+    }
+}

@@ -1,0 +1,22 @@
+using Collektive.Unity;
+using rescue;
+using UnityEngine;
+
+namespace Collektive.Samples.Rescue
+{
+    /// <summary>Colours each robot by its role.</summary>
+    [AddComponentMenu("Collektive/Samples/Rescue/Role Color")]
+    public sealed class RoleColor : ColorActuator<ActuatorData>
+    {
+        private static readonly Color[] Colors =
+        {
+            new Color(0.35f, 0.5f, 0.7f), new Color(1, 0.75f, 0.15f), new Color(0.9f, 0.2f, 0.25f), new Color(0.2f, 0.65f, 0.35f),
+        };
+
+        /// <summary>Names of the roles, by their numbers.</summary>
+        public static readonly string[] Names = { "explores", "part of a channel", "with a casualty", "base" };
+
+        /// <inheritdoc/>
+        protected override Color Read(ActuatorData data) => Colors[data.Role];
+    }
+}
