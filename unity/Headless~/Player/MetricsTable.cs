@@ -61,7 +61,9 @@ namespace Collektive.Headless
         /// <summary>Adds what passed on the clock from the end of the former tick to the end of this one, in milliseconds.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
-        /// <summary>Writes the row of an interval that ended, and returns it without its times of the machine: by <see cref="NamesOf"/>, valid until the next call.</summary>
+        /// <summary>
+        /// Writes the row of an interval that ended, and returns it without its times of the machine: by <see cref="NamesOf"/>, valid until the next call.
+        /// </summary>
         internal IReadOnlyList<double> EndInterval(double second, int links)
         {
             scene.Measure(values);

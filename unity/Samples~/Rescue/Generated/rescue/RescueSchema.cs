@@ -42,7 +42,7 @@ namespace rescue
         public override string File => "rescue";
 
         /// <inheritdoc/>
-        public override string GeneratorVersion => "0.1.0";
+        public override string GeneratorVersion => "0.2.0";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, ulong>> Types => types;
