@@ -27,6 +27,7 @@ NAMED = {
     "unity/Headless~/Tests/Editor/ProjectFixture.cs": rf"compiler-plugin-{NUMBER}\.jar",
     "README.md": rf"org\.collektive\.unity-{NUMBER}\.tgz",
     "Documentation~/getting-started.md": rf"org\.collektive\.unity-{NUMBER}\.tgz",
+    "experiments/pyproject.toml": rf'(?m)^version = "{NUMBER}"$',
     "CITATION.cff": rf"(?m)^version: {NUMBER}$",
 }
 SHIM = "native-shim/include/collektive_shim.h"
