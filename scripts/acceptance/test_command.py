@@ -3,6 +3,7 @@ import unittest
 
 import pytest
 from command import Folder, collektive, last_error
+from places import ROOT
 
 
 @pytest.mark.quick
@@ -22,6 +23,11 @@ class TheCommand(unittest.TestCase):
         result = collektive("demo", "--nonesuch")
         self.assertEqual(result.returncode, 1)
         self.assertIn("--nonesuch", last_error(result))
+
+    def test_a_site_replaces_no_folder_of_something_else(self):
+        result = collektive("site", "--out", ROOT)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"'{ROOT}' is there and no site", last_error(result))
 
 
 class TheTests(unittest.TestCase):
