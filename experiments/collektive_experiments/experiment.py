@@ -197,9 +197,11 @@ def _check(experiment: Experiment) -> None:
 
 
 def _refuse_twins(located: Located, part: str, key: str, names: list[str]) -> None:
+    seen: set[str] = set()
     for index, name in enumerate(names):
-        if name in names[:index]:
+        if name in seen:
             raise located.error(f"two runs would have one name: '{name}' comes twice", part, key, index)
+        seen.add(name)
 
 
 __all__ = ["Experiment", "ExperimentError", "Run", "read"]
