@@ -197,7 +197,7 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
-            simulation = new Simulation(settings, globals, this);
+            simulation = new Simulation(PlayerArguments.Apply(settings), globals, this);
             if (Current != null && Current != this)
             {
                 Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' runs the simulation. Remove one of them", this);

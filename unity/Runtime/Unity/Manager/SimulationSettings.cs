@@ -91,6 +91,9 @@ namespace Collektive.Unity
         [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
+        /// <summary>What is wrong with the command line that settings were taken from, or null.</summary>
+        internal string ArgumentProblem { get; set; }
+
         /// <summary>By program, values of its parameters on nodes that have none of their own.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
@@ -126,6 +129,7 @@ namespace Collektive.Unity
         /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
         internal string FindProblem()
         {
+            if (ArgumentProblem != null) return ArgumentProblem;
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
             if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";

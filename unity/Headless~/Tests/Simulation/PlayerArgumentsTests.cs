@@ -1,0 +1,48 @@
+using Collektive.Bridge;
+using Collektive.Unity;
+using NUnit.Framework;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>What a built player takes from its command line.</summary>
+    [TestFixture]
+    public sealed class PlayerArgumentsTests
+    {
+        private readonly SimulationSettings settings = new SimulationSettings();
+
+        [Test]
+        public void Settings_are_named_as_in_scenario_files_among_Unitys_own_options()
+        {
+            var problem = PlayerArguments.Apply(settings, new[]
+            {
+                "Game.x86_64", "-batchmode", "-collektive-seed", "18446744073709551615", "-nographics", "-collektive-record", "out/run 1.clkrec",
+                "-collektive-stopAfter", "2.5", "-collektive-threads", "4", "-collektive-schedule", "Sequential", "-collektive-program", "-7",
+            });
+            Assert.That(problem, Is.Null);
+            Assert.That(settings.seed, Is.EqualTo(ulong.MaxValue));
+            Assert.That(settings.record, Is.EqualTo("out/run 1.clkrec"));
+            Assert.That(settings.stopAfter, Is.EqualTo(2.5f));
+            Assert.That(settings.threads, Is.EqualTo(4));
+            Assert.That(settings.schedule, Is.EqualTo(Schedule.Sequential));
+            Assert.That(settings.program, Is.EqualTo("-7"));
+        }
+
+        [TestCase("-collektive-sead 7", "-collektive-sead is no option; there are: ")]
+        [TestCase("-collektive-jars a.jar", "-collektive-jars is no option")]
+        [TestCase("-collektive-seed", "-collektive-seed needs a value")]
+        [TestCase("-collektive-seed -1", "-collektive-seed is '-1': it must be a whole number from 0 to 18446744073709551615")]
+        [TestCase("-collektive-seed 1e3", "-collektive-seed is '1e3'")]
+        [TestCase("-collektive-threads 3000000000", "it must be a whole number")]
+        [TestCase("-collektive-deltaTime fast", "it must be a number")]
+        [TestCase("-collektive-schedule 1", "it must be one of Lockstep, Sequential, Asynchronous")]
+        public void What_is_wrong_is_named_with_what_would_be_right(string line, string problem) =>
+            Assert.That(PlayerArguments.Apply(settings, line.Split(' ')), Is.StringContaining(problem));
+
+        [Test]
+        public void A_wrong_option_is_a_problem_of_the_settings_and_so_stops_the_simulation_at_its_start()
+        {
+            settings.ArgumentProblem = "no";
+            Assert.That(settings.FindProblem(), Is.EqualTo("no"));
+        }
+    }
+}
