@@ -10,7 +10,8 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --c
 
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, platforms, csharp, assets, faults, exits, soak, roundtrip,
 page, site, acceptance, experiments, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is
-skipped without one. platforms builds the native library for Windows, Linux and macOS, and tests it under qemu and Wine where these can be had.
+skipped without one. platforms builds the native library for Windows, Linux and macOS, and tests it under qemu and Wine where these can be had;
+without its name, for Linux and macOS on ARM64 only.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
