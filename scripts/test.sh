@@ -11,7 +11,8 @@ usage: ./collektive test [SUITE]... | --quick | --faults [WORDS] | --exits | --c
 Builds and tests everything, or the suites named: lint, scripts, jvm, stress, shim, platforms, csharp, assets, faults, exits, soak, roundtrip,
 page, site, acceptance, experiments, chaos, fuzz, bench, gradle. The last needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is
 skipped without one. platforms builds the native library for Windows, Linux and macOS, and tests it under qemu and Wine where these can be had;
-without its name, for Linux and macOS on ARM64 only.
+without its name, for Linux and macOS on ARM64 only. experiments has a Ray cluster when it is named; slow tests run on the newest JDK, or on each
+when their suite is named.
   --quick     the verdict that matters in about six minutes on two idle cores: most suites on one JDK without their slow tests, and a short
               acceptance
   --faults    each fault of scripts/faults/faults.json (or those with WORDS in their name) on every runtime and JVM: a table
@@ -155,10 +156,16 @@ test_shim() {
   shim_cases "$BUILD/cmake" "$1" "$2"
 }
 
+# leaves_out_slow JDK: in a run of all suites only the newest JDK has the slow tests, in a quick one none has.
+leaves_out_slow() { [ -n "${COLLEKTIVE_QUICK:-}" ] || { [ -n "${COLLEKTIVE_ALL:-}" ] && [ "$1" != "$(find_jdk)" ]; }; }
+
 # shim_cases BUILD RESULTS JDK: the shim's tests of a CMake build, on a JVM.
 shim_cases() {
   mkdir -p "$2"
-  CLK_TEST_JAVA_HOME="$3" ctest --test-dir "$1" --output-on-failure -j 2 ${COLLEKTIVE_QUICK:+-LE slow} \
+  local without=()
+  # shellcheck disable=SC2310 # looks only
+  if leaves_out_slow "$3"; then without=(-LE slow); fi
+  CLK_TEST_JAVA_HOME="$3" ctest --test-dir "$1" --output-on-failure -j 2 "${without[@]}" \
     --output-junit "$2/$(basename "$3").xml"
 }
 
@@ -251,10 +258,12 @@ generate_test_schemas() {
 
 # test_csharp RESULTS JDK [RUNTIME [PART OF A TEST'S NAME]]: all C# tests on one runtime and one JVM.
 test_csharp() {
-  local jar
+  local jar without=()
+  # shellcheck disable=SC2310 # looks only
+  if leaves_out_slow "$2"; then without=(--without Slow); fi
   jar=$(programs_jar "$PROBE/probe.fbs" "$PROBE/programs")
   COLLEKTIVE_ROOT="$ROOT" COLLEKTIVE_HOST_JAR="$HOST_JAR" COLLEKTIVE_TEST_JAVA_HOME="$2" COLLEKTIVE_PROBE_JAR="$jar" \
-    managed "${3:-mono-sgen}" "$CSHARP/Collektive.TestRunner.exe" --results "$1/csharp.xml" ${COLLEKTIVE_QUICK:+--without Slow} \
+    managed "${3:-mono-sgen}" "$CSHARP/Collektive.TestRunner.exe" --results "$1/csharp.xml" "${without[@]}" \
     "$CSHARP/Collektive.Headless.Tests.dll" ${4:+"$4"}
 }
 
@@ -287,7 +296,7 @@ test_faults() {
 
 test_exits() {
   build_faults "$BUILD/faults.json" $'mono-sgen\nmono-boehm' "$(test_jdks)"
-  python3 "$ROOT/scripts/faults/exits.py" "$BUILD/faults.json" 10 --results "$1/exits.xml"
+  python3 "$ROOT/scripts/faults/exits.py" "$BUILD/faults.json" 6 --results "$1/exits.xml"
 }
 
 # test_roundtrip RESULTS: needs the test classes of frames, which the suite jvm compiles.
