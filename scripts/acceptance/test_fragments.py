@@ -13,11 +13,12 @@ SCHEMA = """
 include "types.fbs";
 namespace swarm;
 table SensorData { intensity: float; source: bool; position: org.collektive.schema.Vector3; }
-struct ActuatorData { target: org.collektive.schema.Vector3; hops: float; distance: float; }
+struct ActuatorData { target: org.collektive.schema.Vector3; hops: float; distance: float; leader: int; }
 """
 USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
 # What stands around members, and around statements.
 CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
+SCENE = "public sealed class Users : SceneBuilder\n{\n    protected override void Build(SimulationManager manager)\n    {\n    }\n\n%s\n}"
 METHOD = CLASS % ("    private void Show(ActuatorData data, ulong ageInTicks) { }\n\n"
                   "    public void Use(SimulationManager manager)\n    {\n        node = null;\n%s\n    }")
 IMPORTS = """
@@ -49,7 +50,8 @@ def csharp(number, place, code):
     usings = "".join(line + "\n" for line in re.findall(r"(?m)^using [\w.]+;$", code) if line not in USINGS)
     code = re.sub(r"(?m)^using [\w.]+;\n", "", code)
     if not re.search(r"\bclass\b", code):
-        code = (CLASS if re.match(r"(?:private|public|protected)\b", code) else METHOD) % code
+        context = SCENE if "public override" in code else CLASS if re.match(r"(?:private|public|protected)\b", code) else METHOD
+        code = context % code
     return f"// {place}\n{USINGS}{usings}\nnamespace Fragment{number}\n{{\n{code}\n}}\n"
 
 

@@ -214,8 +214,8 @@ namespace Collektive.Headless
         private double ReadInterval(JsonFile file, JObject part, string place)
         {
             var interval = file.Optional(part, "interval", System.Math.Max(1.0, Settings.deltaTime));
-            // Of a delta time of 0.1f, 0.1 is a little less.
-            if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks) return interval;
+            // Of a delta time of 0.1f, 0.1 is a little less. What is wrong with the delta time itself is told with the settings.
+            if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
                 "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds that is not below 'deltaTime', " + Text(Settings.deltaTime));
