@@ -272,47 +272,29 @@ void physics_world::collect_motions() {
         Actor &actor = actors[handle];
         actor.placed = false;
         if (!actor.moved) continue;
+        PxRigidDynamic &body = *actor.body();
+        physics_motion motion;
+        motion.actor = int32_t(handle);
+        motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
+        const PxTransform at = body.getGlobalPose();
+        motion.pose = pose(at);
+        motion.velocity = vec(body.getLinearVelocity());
+        motion.spin = vec(body.getAngularVelocity());
         actor.moved = false;
-        motions.emplace_back();
-        motions.back().actor = int32_t(handle);
-    }
-    std::atomic<bool> finite{true};
-    workers.each(int(motions.size()), [this, &finite](int first, int end) {
-        for (int index = first; index < end; index++) {
-            if (!read_motion(motions[size_t(index)])) finite = false;
+        if (at.isFinite() && all_finite(&motion.velocity.x, 6))
+            actor.last_pose = at;
+        else {
+            fail("A body's motion became infinite: it was put back where it was, at rest.");
+            body.setGlobalPose(actor.last_pose);
+            if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
+                body.setLinearVelocity(PxVec3(0.0f));
+                body.setAngularVelocity(PxVec3(0.0f));
+            }
+            motion.pose = pose(actor.last_pose);
+            motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
         }
-    });
-    if (finite) return;
-    for (physics_motion &motion : motions) {
-        if (!read_motion(motion)) put_back(motion);
+        motions.push_back(motion);
     }
-}
-
-// Whether the motion of its actor is finite. For several threads at once, each with other actors.
-bool physics_world::read_motion(physics_motion &motion) {
-    Actor &actor = actors[size_t(motion.actor)];
-    PxRigidDynamic &body = *actor.body();
-    const PxTransform at = body.getGlobalPose();
-    motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
-    motion.pose = pose(at);
-    motion.velocity = vec(body.getLinearVelocity());
-    motion.spin = vec(body.getAngularVelocity());
-    if (!at.isFinite() || !all_finite(&motion.velocity.x, 6)) return false;
-    actor.last_pose = at;
-    return true;
-}
-
-void physics_world::put_back(physics_motion &motion) {
-    fail("A body's motion became infinite: it was put back where it was, at rest.");
-    Actor &actor = actors[size_t(motion.actor)];
-    PxRigidDynamic &body = *actor.body();
-    body.setGlobalPose(actor.last_pose);
-    if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
-        body.setLinearVelocity(PxVec3(0.0f));
-        body.setAngularVelocity(PxVec3(0.0f));
-    }
-    motion.pose = pose(actor.last_pose);
-    motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
 }
 
 extern "C" {

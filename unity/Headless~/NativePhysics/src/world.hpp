@@ -139,8 +139,6 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void apply_all(const physics_command *commands, int32_t count);
     bool crowded();
     void collect_motions();
-    bool read_motion(physics_motion &motion);
-    void put_back(physics_motion &motion);
     void collect_overlaps();
     void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 
