@@ -296,7 +296,7 @@ test_faults() {
 
 test_exits() {
   build_faults "$BUILD/faults.json" $'mono-sgen\nmono-boehm' "$(test_jdks)"
-  python3 "$ROOT/scripts/faults/exits.py" "$BUILD/faults.json" 6 --results "$1/exits.xml"
+  python3 "$ROOT/scripts/faults/exits.py" "$BUILD/faults.json" 4 --results "$1/exits.xml"
 }
 
 # test_roundtrip RESULTS: needs the test classes of frames, which the suite jvm compiles.
