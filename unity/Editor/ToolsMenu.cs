@@ -63,7 +63,7 @@ namespace Collektive.Unity.Editor
 
         private static void ForEach(string title, Predicate<SchemaProject> isWanted, Func<SchemaProject, bool> make, Func<SchemaProject, string> done)
         {
-            var projects = SchemaProject.FindAll().FindAll(isWanted);
+            var projects = SchemaProject.FindAll(ProgramRuntime.OfScene()).FindAll(isWanted);
             if (projects.Count == 0)
             {
                 Debug.LogWarning(title

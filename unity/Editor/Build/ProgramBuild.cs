@@ -10,6 +10,23 @@ namespace Collektive.Unity.Editor
         /// <summary>The Kotlin compiler's exit code for an exception of its own, or of a plugin.</summary>
         private const int CompilerBroke = 2;
 
+        /// <summary>Makes those jars anew that the settings name, the project has the programs of, and are older than these.</summary>
+        /// <returns>The jars for which it did not work; the console says why.</returns>
+        internal static List<string> Refresh(SimulationSettings settings)
+        {
+            var failed = new List<string>();
+            // What is wrong with the schema is told where the simulation starts.
+            var schema = settings.jars.Count > 0 ? null : Schemas.TryFind(settings.schema);
+            var jars = schema != null ? settings.JarsFor(schema) : settings.jars;
+            foreach (var project in SchemaProject.FindAll(new ProgramRuntime(settings)))
+            {
+                // An imported sample has sources too, but runs from the package's own jar.
+                if (!jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
+                if (!ToolsMenu.Guarded(() => Make(project))) failed.Add(project.Jar);
+            }
+            return failed;
+        }
+
         /// <returns>Whether it worked; if not, the console says why and the jar is as before.</returns>
         internal static bool Make(SchemaProject project)
         {

@@ -57,10 +57,9 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>All schemas below <c>Assets</c>, by path, for the open scene's runtime; folders that Unity ignores are left out.</summary>
-        internal static List<SchemaProject> FindAll()
+        /// <summary>All schemas below <c>Assets</c>, by path; folders that Unity ignores are left out.</summary>
+        internal static List<SchemaProject> FindAll(ProgramRuntime runtime)
         {
-            var runtime = ProgramRuntime.OfScene();
             var found = new List<SchemaProject>();
             if (!Directory.Exists("Assets")) return found;
             foreach (var schema in Directory.GetFiles("Assets", "*.fbs", SearchOption.AllDirectories))

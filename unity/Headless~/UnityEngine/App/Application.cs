@@ -29,7 +29,7 @@ namespace UnityEngine
         public static bool isBatchMode => true;
         public static bool runInBackground { get; set; }
         public static int targetFrameRate { get; set; }
-        public static string dataPath => AppDomain.CurrentDomain.BaseDirectory;
+        public static string dataPath => Headless.Loop.DataPath;
         public static string streamingAssetsPath => Path.Combine(dataPath, "StreamingAssets");
         public static string persistentDataPath => Path.Combine(DataFolder, productName);
         public static string consoleLogPath => Path.Combine(persistentDataPath, "Player.log");

@@ -24,6 +24,7 @@ namespace UnityEngine
         public static float fixedDeltaTime { get; set; }
         public static float maximumDeltaTime { get; set; }
         public static float timeScale { get; set; }
+        public static float captureDeltaTime { get; set; }
         public static int frameCount { get; private set; }
         public static int renderedFrameCount => frameCount;
         public static float realtimeSinceStartup => (float)realtimeSinceStartupAsDouble;
@@ -38,12 +39,15 @@ namespace UnityEngine
             fixedDeltaTime = 0.02f;
             maximumDeltaTime = 1f / 3f;
             timeScale = 1f;
+            captureDeltaTime = 0f;
             inFixedTimeStep = false;
             startOffset = Clock.Elapsed.TotalSeconds;
         }
 
+        /// `captureDeltaTime`, where it is set, takes the place of the time that passed.
         internal static void BeginFrame(float seconds)
         {
+            if (captureDeltaTime > 0f) seconds = captureDeltaTime;
             frameCount++;
             unscaledDeltaTime = seconds;
             unscaledClock += seconds;

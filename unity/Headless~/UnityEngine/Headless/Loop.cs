@@ -20,6 +20,9 @@ namespace UnityEngine.Headless
         /// What `Application.isEditor` says: whether the process goes on after `Quit`, as the editor does when play mode is left.
         public static bool IsEditor { get; set; }
 
+        /// What `Application.dataPath` says: the folder of this process's program, unless it plays another one.
+        public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
+
         /// How many threads step physics in a world made later; results do not depend on it.
         public static int PhysicsThreads { get => PhysicsWorld.Threads; set => PhysicsWorld.Threads = value; }
 

@@ -11,8 +11,8 @@ namespace Collektive.Unity
     {
         private const string Package = "Packages/org.collektive.unity";
 
-        /// <summary>Gives the real path of one below <c>Packages</c>. The editor, which keeps packages elsewhere, has its own way.</summary>
-        internal static Func<string, string> ToPhysical { get; set; } = Path.GetFullPath;
+        /// <summary>Gives the real path of a file named from the project's folder. The editor, which keeps packages elsewhere, has its own way.</summary>
+        internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
 
         private static string hostJar;
         private static string javaHome;
@@ -20,7 +20,7 @@ namespace Collektive.Unity
         /// <summary>Path of the host's jar: what was set, else the package's own.</summary>
         public static string HostJar
         {
-            get => hostJar ?? PathOf(Package + "/Jvm~/collektive-host.jar");
+            get => hostJar ?? PathOf(OwnFile("collektive-host.jar"));
             set => hostJar = value;
         }
 
@@ -38,19 +38,19 @@ namespace Collektive.Unity
         internal static string Platform { get; } = NameOfPlatform();
 
         /// <summary>Root of the package's own JVM, or else of that in the JVM package of this platform; none needs to be there.</summary>
-        internal static string Bundled
-        {
-            get
-            {
-                var own = PathOf(Package + "/Jvm~/" + Platform);
-                return Directory.Exists(own) ? own : Path.Combine(ToPhysical(JvmPackage), "Jvm~", Platform);
-            }
-        }
-
-        /// <summary>Place of the package that holds a JVM for this platform and nothing else.</summary>
-        private static string JvmPackage => Package + ".jvm." + Platform;
+        internal static string Bundled => BundledFor(Platform);
 
         private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
+
+        /// <summary>Of another platform the same as <see cref="Bundled"/>.</summary>
+        internal static string BundledFor(string platform)
+        {
+            var own = PathOf(OwnFile(platform));
+            return Directory.Exists(own) ? own : ToPhysical(Package + ".jvm." + platform + "/Jvm~/" + platform);
+        }
+
+        /// <summary>A file or folder of the package's JVM side, named from the project's folder.</summary>
+        internal static string OwnFile(string name) => Package + "/Jvm~/" + name;
 
         /// <summary>The words that start the JVM of <paramref name="settings"/> on this machine.</summary>
         /// <exception cref="BridgeException">The settings are wrong, or there is no such JVM.</exception>
@@ -71,9 +71,28 @@ namespace Collektive.Unity
         /// </summary>
         internal static string PathOf(string file)
         {
-            if (!file.StartsWith(Package + "/", StringComparison.Ordinal)) return Path.GetFullPath(file);
+            if (!file.StartsWith(Package + "/", StringComparison.Ordinal)) return ToPhysical(file);
             var content = ToPhysical(Package + "/unity");
-            return Path.Combine(Directory.Exists(content) ? content : ToPhysical(Package), file.Substring(Package.Length + 1));
+            return Directory.Exists(content) ? Path.Combine(content, file.Substring(Package.Length + 1)) : ToPhysical(file);
+        }
+
+        /// <summary>
+        /// Where below its streaming assets a player has a file that the settings name from the project's folder. Files outside of that folder get a
+        /// name made of their path.
+        /// </summary>
+        internal static string NameInPlayer(string file)
+        {
+            var name = file.Replace('\\', '/');
+            var isOutside = name.StartsWith("/", StringComparison.Ordinal) || name.Contains(":") || Array.IndexOf(name.Split('/'), "..") >= 0;
+            // Unity leaves out folders whose names end with ~.
+            return "Collektive/" + (isOutside ? "Elsewhere/" + Uri.EscapeDataString(name) : name.Replace("~/", "/"));
+        }
+
+        /// <summary>What the build of a player took along; of other files the path itself.</summary>
+        internal static string InPlayer(string file)
+        {
+            var taken = Path.GetFullPath(Path.Combine(Application.streamingAssetsPath, NameInPlayer(file)));
+            return File.Exists(taken) || Directory.Exists(taken) ? taken : Path.GetFullPath(file);
         }
 
         private static string NameOfPlatform()

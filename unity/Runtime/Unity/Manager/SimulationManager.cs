@@ -209,6 +209,7 @@ namespace Collektive.Unity
             accumulated = 0;
             modeBefore = Physics.simulationMode;
             Physics.simulationMode = SimulationMode.Script;
+            BatchPlayer.Begin(settings);
             var waiting = Node.All;
             for (var i = 0; i < waiting.Count && Failure.Length == 0; i++) simulation.Join(waiting[i]);
         }
@@ -221,6 +222,7 @@ namespace Collektive.Unity
             Physics.simulationMode = modeBefore;
             simulation.End();
             simulation.Log?.ShowRest(Logged);
+            if (Failure.Length > 0) BatchPlayer.End(settings, false);
         }
 
         private void Update()
@@ -244,6 +246,7 @@ namespace Collektive.Unity
             Finished = true;
             paused = true;
             Debug.Log("The simulation has reached its end after " + SimulatedTime + " s and is paused", this);
+            BatchPlayer.End(settings, ErrorCount == 0);
         }
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -82,9 +83,12 @@ namespace Collektive.Unity
         [Min(1)]
         public int stepLimitMs = 10000;
 
-        /// <summary>File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder.</summary>
+        /// <summary>
+        /// File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder, in a player at the
+        /// folder that it is started in.
+        /// </summary>
         [Tooltip("File to record all frames in, for ./collektive replay and diff; overwritten at each start. " +
-            "Empty: none. Relative paths start at the project's folder.")]
+            "Empty: none. Relative paths start at the project's folder, in a player at the folder that it is started in.")]
         public string record = "";
 
         /// <summary>Settings of the JVM, which starts once per process; null for the defaults.</summary>
@@ -118,7 +122,7 @@ namespace Collektive.Unity
             Network = network,
             Jars = JarsFor(schema).ConvertAll(Installation.PathOf),
             Program = program,
-            Record = string.IsNullOrWhiteSpace(record) ? "" : Installation.PathOf(record),
+            Record = string.IsNullOrWhiteSpace(record) ? "" : Path.GetFullPath(record),
             Runtime = runtime,
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };

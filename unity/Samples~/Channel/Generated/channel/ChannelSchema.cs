@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace channel
 {
     /// <summary>The data of <c>channel.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class ChannelSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

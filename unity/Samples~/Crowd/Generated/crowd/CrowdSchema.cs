@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace crowd
 {
     /// <summary>The data of <c>crowd.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class CrowdSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

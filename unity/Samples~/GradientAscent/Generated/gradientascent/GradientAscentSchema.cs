@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace gradientascent
 {
     /// <summary>The data of <c>gradient_ascent.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class GradientAscentSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace leaderelection
 {
     /// <summary>The data of <c>leader_election.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class LeaderElectionSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace rescue
 {
     /// <summary>The data of <c>rescue.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class RescueSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

@@ -8,6 +8,7 @@ using Bridge = Collektive.Bridge;
 namespace drones
 {
     /// <summary>The data of <c>swarm.fbs</c>: what sensors give and actuators get.</summary>
+    [Bridge::Preserve]
     public sealed class SwarmSchema : Bridge::DataSchema
     {
         private static readonly KeyValuePair<string, ulong>[] types =

@@ -1,0 +1,104 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Collektive.Bridge;
+using UnityEditor;
+using UnityEditor.Build;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// Takes along into a player what its simulations need and Unity does not know of: the JVM, the host's jars and the jars of programs. They come
+    /// below the player's streaming assets, where <see cref="Installation"/> finds them.
+    /// </summary>
+    internal sealed class PlayerBuild : BuildPlayerProcessor
+    {
+        private static readonly string[] HostJars = { "collektive-host.jar", "collektive-library.jar", "collektive-adapter.jar" };
+
+        /// <exception cref="BuildFailedException">A simulation of the player could not start.</exception>
+        public override void PrepareForBuild(BuildPlayerContext buildPlayerContext)
+        {
+            var options = buildPlayerContext.BuildPlayerOptions;
+            var simulations = SceneSimulation.FindAll(options.scenes);
+            if (simulations.Count == 0) return;
+            var platforms = PlatformsOf(options.target);
+            if (platforms.Length == 0)
+            {
+                Debug.LogWarning("Collektive does not run on " + options.target + ": in this player the simulation of " + simulations[0].Scene
+                    + " and all others stay off");
+                return;
+            }
+
+            var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
+            foreach (var simulation in simulations) AddPrograms(simulation, files);
+            AddJvms(simulations, platforms, files);
+            foreach (var jar in HostJars) Add(Installation.OwnFile(jar), files);
+            foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
+        }
+
+        /// <summary>The package's names of what a build for this target can run on; none where Collektive does not run.</summary>
+        private static string[] PlatformsOf(BuildTarget target)
+        {
+            switch (target)
+            {
+                case BuildTarget.StandaloneWindows64: return new[] { "win-x64" };
+                case BuildTarget.StandaloneOSX: return new[] { "mac-arm64", "mac-x64" };
+                case BuildTarget.StandaloneLinux64:
+                case BuildTarget.LinuxHeadlessSimulation: return new[] { "linux-x64" };
+                case BuildTarget.EmbeddedLinux: return new[] { "linux-arm64", "linux-x64" };
+                default: return new string[0];
+            }
+        }
+
+        private static void AddPrograms(SceneSimulation simulation, SortedDictionary<string, string> files)
+        {
+            var settings = simulation.Settings;
+            var problem = settings.FindProblem();
+            if (problem != null) throw simulation.Failure(problem);
+            var failed = ProjectSettings.instance.buildBeforePlay ? ProgramBuild.Refresh(settings) : new List<string>();
+            if (failed.Count > 0) throw simulation.Failure(failed[0] + " is older than its sources and could not be built: the console says why");
+            foreach (var jar in JarsOf(simulation))
+            {
+                if (!File.Exists(Installation.PathOf(jar)))
+                    throw simulation.Failure("there is no jar " + jar
+                        + ": make it with Tools > Collektive > Rebuild Programs, or correct the Simulation Manager's jars");
+                Add(jar, files);
+            }
+            if (settings.runtime == AggregateRuntime.BuiltIn) return;
+            if (!Directory.Exists(Installation.PathOf(settings.runtimeJars)))
+                throw simulation.Failure("there is no folder " + settings.runtimeJars + " of Collektive's jars");
+            Add(settings.runtimeJars, files);
+        }
+
+        private static List<string> JarsOf(SceneSimulation simulation)
+        {
+            try
+            {
+                return simulation.Settings.JarsFor(Schemas.Find(simulation.Settings.schema));
+            }
+            catch (BridgeException error)
+            {
+                throw simulation.Failure(error.Message);
+            }
+        }
+
+        private static void AddJvms(List<SceneSimulation> simulations, string[] platforms, SortedDictionary<string, string> files)
+        {
+            var needy = simulations.Find(simulation => simulation.NeedsJvm);
+            if (needy == null) return;
+            var missing = Array.FindAll(platforms, platform => !Directory.Exists(Installation.BundledFor(platform)));
+            var packages = string.Join(" or ", Array.ConvertAll(missing, platform => "org.collektive.unity.jvm." + platform));
+            if (missing.Length == platforms.Length)
+                throw needy.Failure("no JVM is installed that the player could take along: install " + packages
+                    + ", or choose JAVA_HOME or a folder as Location in the JVM settings, and have a JVM there on each machine that runs the player");
+            if (missing.Length > 0) Debug.LogWarning("the player has no JVM for " + string.Join(" and ", missing) + ": to take one along, install " + packages);
+            foreach (var platform in platforms)
+            {
+                if (Array.IndexOf(missing, platform) < 0) files[Installation.NameInPlayer(Installation.OwnFile(platform))] = Installation.BundledFor(platform);
+            }
+        }
+
+        private static void Add(string file, SortedDictionary<string, string> files) => files[Installation.NameInPlayer(file)] = Installation.PathOf(file);
+    }
+}

@@ -1,0 +1,67 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEditor.Build;
+using UnityEditor.SceneManagement;
+using UnityEngine.SceneManagement;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>A Simulation Manager of a scene that a player is built of.</summary>
+    internal sealed class SceneSimulation
+    {
+        private SceneSimulation(string scene, SimulationSettings settings)
+        {
+            Scene = scene;
+            Settings = settings;
+        }
+
+        /// <summary>The scene's path from the project's folder.</summary>
+        internal string Scene { get; }
+
+        internal SimulationSettings Settings { get; }
+
+        /// <summary>Whether its JVM comes with the package rather than from the machine.</summary>
+        internal bool NeedsJvm
+        {
+            get
+            {
+                var location = Settings.jvm == null ? JvmLocation.Automatic : Settings.jvm.settings.location;
+                return location == JvmLocation.Automatic || location == JvmLocation.Bundled;
+            }
+        }
+
+        /// <summary>Those of the scenes named, or of the open ones when a build names none, as they are on disk.</summary>
+        internal static List<SceneSimulation> FindAll(string[] scenes)
+        {
+            var found = new List<SceneSimulation>();
+            if (scenes == null || scenes.Length == 0)
+            {
+                for (var i = 0; i < SceneManager.sceneCount; i++) FindIn(SceneManager.GetSceneAt(i), SceneManager.GetSceneAt(i).path, found);
+                return found;
+            }
+            foreach (var path in scenes)
+            {
+                var scene = EditorSceneManager.OpenPreviewScene(path);
+                try
+                {
+                    FindIn(scene, path, found);
+                }
+                finally
+                {
+                    EditorSceneManager.ClosePreviewScene(scene);
+                }
+            }
+            return found;
+        }
+
+        internal BuildFailedException Failure(string problem) => new BuildFailedException("the simulation of " + Scene + " cannot start in the player: " + problem);
+
+        private static void FindIn(Scene scene, string path, List<SceneSimulation> found)
+        {
+            foreach (var root in scene.GetRootGameObjects())
+            {
+                foreach (var manager in root.GetComponentsInChildren<SimulationManager>(true)) found.Add(new SceneSimulation(path, manager.Settings));
+            }
+        }
+    }
+}

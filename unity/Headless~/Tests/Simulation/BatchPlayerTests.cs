@@ -1,0 +1,69 @@
+using System;
+using Collektive.Unity;
+using NUnit.Framework;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Simulation
+{
+    /// <summary>A built player that was started with -batchmode; the stand-in's player always is.</summary>
+    [TestFixture]
+    public sealed class BatchPlayerTests : SimulationFixture
+    {
+        [TearDown]
+        public void ReturnToEditor() => Loop.IsEditor = true;
+
+        [Test]
+        public void A_frame_is_a_tick_however_long_it_took_and_the_process_ends_with_the_run()
+        {
+            EnterPlayer(1);
+            MakeNode(2);
+            for (var frame = 0; frame < 20; frame++)
+            {
+                Assert.That(Loop.QuitRequested, Is.False);
+                Loop.Frame(0.001f);
+                Assert.That(Manager.Tick, Is.EqualTo(frame + 1));
+            }
+            Assert.That(Manager.Finished, Is.True);
+            Assert.That(Loop.QuitRequested, Is.True);
+            Assert.That(Loop.ExitCode, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void It_ends_with_1_after_errors()
+        {
+            EnterPlayer(0.1f);
+            MakeNode(2);
+            Manager.Ticked += _ => throw new InvalidOperationException("no");
+            for (var frame = 0; frame < 2; frame++) Loop.Frame(1);
+            Assert.That(Loop.QuitRequested, Is.True);
+            Assert.That(Loop.ExitCode, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void It_ends_with_1_when_the_simulation_cannot_start()
+        {
+            EnterPlayer(1, "no such program");
+            MakeNode(2);
+            Loop.Frame(1);
+            Assert.That(Errors, Is.Not.Empty);
+            Assert.That(Loop.QuitRequested, Is.True);
+            Assert.That(Loop.ExitCode, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void A_run_without_an_end_goes_with_the_clock()
+        {
+            EnterPlayer(0);
+            MakeNode(2);
+            Loop.Frame(0.15f);
+            Assert.That(Manager.Tick, Is.EqualTo(3));
+            Assert.That(Loop.QuitRequested, Is.False);
+        }
+
+        private void EnterPlayer(float stopAfter, string program = "double")
+        {
+            Loop.IsEditor = false;
+            Configure(program, settings => settings.stopAfter = stopAfter);
+        }
+    }
+}

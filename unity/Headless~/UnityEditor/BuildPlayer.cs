@@ -1,0 +1,73 @@
+using System;
+using System.IO;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    public enum BuildTarget
+    {
+        StandaloneOSX = 2,
+        StandaloneWindows = 5,
+        StandaloneWindows64 = 19,
+        StandaloneLinux64 = 24,
+        LinuxHeadlessSimulation = 41,
+        EmbeddedLinux = 45,
+        NoTarget = -2,
+    }
+
+    public struct BuildPlayerOptions
+    {
+        public string[] scenes { get; set; }
+        public BuildTarget target { get; set; }
+    }
+}
+
+namespace UnityEditor.Build
+{
+    public interface IOrderedCallback
+    {
+        int callbackOrder { get; }
+    }
+
+    public abstract class BuildPlayerProcessor : IOrderedCallback
+    {
+        public virtual int callbackOrder => 0;
+
+        public abstract void PrepareForBuild(BuildPlayerContext buildPlayerContext);
+    }
+
+    public sealed class BuildPlayerContext
+    {
+        readonly string streamingAssets;
+
+        internal BuildPlayerContext(BuildPlayerOptions options, string streamingAssets)
+        {
+            BuildPlayerOptions = options;
+            this.streamingAssets = streamingAssets;
+        }
+
+        public BuildPlayerOptions BuildPlayerOptions { get; }
+
+        /// A file, or all of a folder; no two of one name. Unity copies later, here it is done at once.
+        public void AddAdditionalPathToStreamingAssets(string directoryOrFile, string pathInStreamingAssets = null)
+        {
+            if (File.Exists(directoryOrFile))
+            {
+                var target = Path.Combine(streamingAssets, pathInStreamingAssets ?? Path.GetFileName(directoryOrFile));
+                if (File.Exists(target)) throw new ArgumentException("there is one of this name already: " + target);
+                Directory.CreateDirectory(Path.GetDirectoryName(target));
+                File.Copy(directoryOrFile, target);
+                return;
+            }
+            if (!Directory.Exists(directoryOrFile)) throw new FileNotFoundException("No such file or directory.", directoryOrFile);
+            foreach (var file in Directory.GetFiles(directoryOrFile, "*", SearchOption.AllDirectories))
+                AddAdditionalPathToStreamingAssets(file, Path.Combine(pathInStreamingAssets ?? "", file.Substring(directoryOrFile.Length).TrimStart('/')));
+        }
+    }
+
+    public class BuildFailedException : Exception
+    {
+        public BuildFailedException(string message) : base(message) { }
+        public BuildFailedException(Exception innerException) : base(null, innerException) { }
+    }
+}

@@ -1,0 +1,52 @@
+using System;
+using System.Collections;
+using System.Globalization;
+using System.IO;
+using System.Reflection;
+using System.Text.RegularExpressions;
+using UnityEngine;
+
+namespace UnityEditor.Headless
+{
+    /// Reads a scene's instances of prefabs, with the texts and numbers that the scene gives their scripts; nothing else of it.
+    static class SceneFile
+    {
+        internal static void Load(string path)
+        {
+            var text = File.ReadAllText(Project.FileOf(path));
+            foreach (Match instance in Regex.Matches(text, @"^PrefabInstance:\n(?:(?!---).*\n)+", RegexOptions.Multiline))
+            {
+                var guid = Regex.Match(instance.Value, @"m_SourcePrefab: .*guid: ([0-9a-f]+)").Groups[1].Value;
+                var made = PrefabFile.Load(Project.FileOf(Project.PathOf(guid)));
+                foreach (Match change in Regex.Matches(instance.Value, @"propertyPath: (.+)\n +value: (.*)\n"))
+                    Change(made, change.Groups[1].Value.Replace(".Array.data[", "[").Split('.'), change.Groups[2].Value);
+            }
+        }
+
+        /// Of the first script that has the field.
+        static void Change(GameObject made, string[] path, string value)
+        {
+            foreach (var script in made.GetComponents<MonoBehaviour>())
+                if (FieldOf(script, path[0]) != null)
+                {
+                    Change(script, path, 0, value);
+                    return;
+                }
+        }
+
+        static void Change(object owner, string[] path, int at, string value)
+        {
+            var element = Regex.Match(path[at], @"^(.+)\[(\d+)\]$");
+            var field = FieldOf(owner, element.Success ? element.Groups[1].Value : path[at]);
+            // The size of a list: its elements follow.
+            if (field == null || path[path.Length - 1] == "size") return;
+            if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), value);
+            else if (at < path.Length - 1) Change(field.GetValue(owner), path, at + 1, value);
+            else if (field.FieldType.IsEnum) field.SetValue(owner, Enum.Parse(field.FieldType, value));
+            else field.SetValue(owner, Convert.ChangeType(value, field.FieldType, CultureInfo.InvariantCulture));
+        }
+
+        static FieldInfo FieldOf(object owner, string name) =>
+            owner.GetType().GetField(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+    }
+}
