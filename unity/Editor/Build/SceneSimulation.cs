@@ -54,7 +54,8 @@ namespace Collektive.Unity.Editor
             return found;
         }
 
-        internal BuildFailedException Failure(string problem) => new BuildFailedException("the simulation of " + Scene + " cannot start in the player: " + problem);
+        internal BuildFailedException Failure(string problem) =>
+            new BuildFailedException("the simulation of " + Scene + " cannot start in the player: " + problem);
 
         private static void FindIn(Scene scene, string path, List<SceneSimulation> found)
         {

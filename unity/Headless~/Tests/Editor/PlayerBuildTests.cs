@@ -179,8 +179,8 @@ namespace Collektive.Headless.Tests.Editor
             if (Array.IndexOf(settings, "schema") < 0) settings = new List<string>(settings) { "schema", Schema }.ToArray();
             var text = "%YAML 1.1\n--- !u!1001 &1\nPrefabInstance:\n  m_Modification:\n    m_Modifications:\n";
             for (var i = 0; i < settings.Length; i += 2)
-                text += "    - target: {fileID: 2, guid: " + Manager + ", type: 3}\n      propertyPath: settings." + settings[i] + "\n      value: " + settings[i + 1]
-                    + "\n      objectReference: {fileID: 0}\n";
+                text += "    - target: {fileID: 2, guid: " + Manager + ", type: 3}\n      propertyPath: settings." + settings[i]
+                    + "\n      value: " + settings[i + 1] + "\n      objectReference: {fileID: 0}\n";
             Write("Assets/Swarm.unity", text + "  m_SourcePrefab: {fileID: 1, guid: " + Manager + ", type: 3}\n");
             return "Assets/Swarm.unity";
         }
