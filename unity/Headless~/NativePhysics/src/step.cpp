@@ -21,10 +21,7 @@ bool all_finite(const float *value, int count) {
     return true;
 }
 
-bool is_active(const Actor &actor) {
-    const PxRigidDynamic *body = actor.body();
-    return actor.placed || (body && !body->isSleeping());
-}
+bool is_finite(const physics_motion &motion) { return all_finite(&motion.pose.position.x, 7) && all_finite(&motion.velocity.x, 6); }
 
 bool spheres_overlap(const PxSphereGeometry &a, const PxVec3 &at_a, const PxSphereGeometry &b, const PxVec3 &at_b) {
     const float reach = a.radius + b.radius;
@@ -44,6 +41,11 @@ struct Finish final : PxLightCpuTask {
 
 } // namespace
 
+bool physics_world::is_active(int32_t actor) const {
+    const PxRigidDynamic *body = actors[actor].body();
+    return marks[actor] & PLACED || (body && !body->isSleeping());
+}
+
 void physics_world::apply(const physics_command &command) {
     Actor *actor = this->actor(command.actor);
     const bool posed = command.kind == PHYSICS_POSE || command.kind == PHYSICS_TARGET || command.kind == PHYSICS_INERTIA;
@@ -57,7 +59,7 @@ void physics_world::apply(const physics_command &command) {
     if (command.kind == PHYSICS_POSE) {
         actor->last_pose = PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized());
         actor->rigid->setGlobalPose(actor->last_pose);
-        actor->placed = true;
+        marks[command.actor] |= PLACED;
         placed++;
         return;
     }
@@ -99,7 +101,7 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_KINEMATIC:
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             if (value[0] == 0.0f) body->wakeUp();
-            actor->placed = true;
+            marks[command.actor] |= PLACED;
             break;
         case PHYSICS_GRAVITY: body->setActorFlag(PxActorFlag::eDISABLE_GRAVITY, value[0] == 0.0f); break;
         case PHYSICS_DAMPING:
@@ -114,18 +116,18 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_FREEZE: body->setRigidDynamicLockFlags(PxRigidDynamicLockFlags(PxU8(value[0]))); break;
         case PHYSICS_MASS:
             actor->mass = std::max(1e-7f, value[0]);
-            actor->mass_stale = true;
+            mass_changed(*actor);
             break;
         case PHYSICS_MASS_CENTER:
             actor->own_center = value[3] != 0.0f;
             actor->center = vector;
-            actor->mass_stale = true;
+            mass_changed(*actor);
             break;
         case PHYSICS_INERTIA:
             actor->own_inertia = vector.x != 0.0f || vector.y != 0.0f || vector.z != 0.0f;
             actor->inertia = vector;
             actor->inertia_rotation = PxQuat(value[3], value[4], value[5], value[6]).getNormalized();
-            actor->mass_stale = true;
+            mass_changed(*actor);
             break;
         case PHYSICS_SLEEP_BELOW: body->setSleepThreshold(std::max(0.0f, value[0])); break;
         case PHYSICS_ITERATIONS:
@@ -172,7 +174,7 @@ bool physics_world::crowded() {
 }
 
 void physics_world::onSleep(PxActor **sleepers, PxU32 count) {
-    for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(sleepers[index]->userData))].moved = true;
+    for (PxU32 index = 0; index < count; index++) marks[size_t(intptr_t(sleepers[index]->userData))] |= MOVED;
 }
 
 void physics_world::add_touch(int32_t a, int32_t b, int32_t phase, bool trigger) {
@@ -246,7 +248,7 @@ void physics_world::collect_overlaps() {
         const Shape &a = shapes[overlap.a], &b = shapes[overlap.b];
         const Actor &actor_a = actors[a.actor], &actor_b = actors[b.actor];
         const bool was = overlap.touching;
-        if (!overlap.tested || is_active(actor_a) || is_active(actor_b)) {
+        if (!overlap.tested || is_active(a.actor) || is_active(b.actor)) {
             const PxTransform at_a = PxShapeExt::getGlobalPose(*a.shape, *actor_a.rigid),
                               at_b = PxShapeExt::getGlobalPose(*b.shape, *actor_b.rigid);
             const PxGeometry &first = a.shape->getGeometry(), &second = b.shape->getGeometry();
@@ -267,34 +269,47 @@ void physics_world::collect_overlaps() {
 void physics_world::collect_motions() {
     PxU32 count = 0;
     PxActor **active = scene->getActiveActors(count);
-    for (PxU32 index = 0; index < count; index++) actors[size_t(intptr_t(active[index]->userData))].moved = true;
-    for (size_t handle = 0; handle < actors.size(); handle++) {
-        Actor &actor = actors[handle];
-        actor.placed = false;
-        if (!actor.moved) continue;
-        PxRigidDynamic &body = *actor.body();
-        physics_motion motion;
-        motion.actor = int32_t(handle);
-        motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
-        const PxTransform at = body.getGlobalPose();
-        motion.pose = pose(at);
-        motion.velocity = vec(body.getLinearVelocity());
-        motion.spin = vec(body.getAngularVelocity());
-        actor.moved = false;
-        if (at.isFinite() && all_finite(&motion.velocity.x, 6))
-            actor.last_pose = at;
-        else {
-            fail("A body's motion became infinite: it was put back where it was, at rest.");
-            body.setGlobalPose(actor.last_pose);
-            if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
-                body.setLinearVelocity(PxVec3(0.0f));
-                body.setAngularVelocity(PxVec3(0.0f));
-            }
-            motion.pose = pose(actor.last_pose);
-            motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
-        }
-        motions.push_back(motion);
+    for (PxU32 index = 0; index < count; index++) marks[size_t(intptr_t(active[index]->userData))] |= MOVED;
+    moved.clear();
+    for (size_t handle = 0; handle < marks.size(); handle++) {
+        if (marks[handle] & MOVED) moved.push_back(int32_t(handle));
+        marks[handle] = 0;
     }
+    motions.resize(moved.size());
+    std::atomic<bool> infinite{false};
+    workers.each(int(moved.size()), [this, &infinite](int first, int end) {
+        for (int index = first; index < end; index++) {
+            Actor &actor = actors[moved[index]];
+            const PxRigidDynamic &body = *actor.body();
+            physics_motion &motion = motions[index];
+            motion.actor = moved[index];
+            motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
+            const PxTransform at = body.getGlobalPose();
+            motion.pose = pose(at);
+            motion.velocity = vec(body.getLinearVelocity());
+            motion.spin = vec(body.getAngularVelocity());
+            if (is_finite(motion))
+                actor.last_pose = at;
+            else
+                infinite = true;
+        }
+    });
+    if (infinite)
+        for (physics_motion &motion : motions)
+            if (!is_finite(motion)) put_back(motion);
+}
+
+void physics_world::put_back(physics_motion &motion) {
+    const Actor &actor = actors[motion.actor];
+    PxRigidDynamic &body = *actor.body();
+    fail("A body's motion became infinite: it was put back where it was, at rest.");
+    body.setGlobalPose(actor.last_pose);
+    if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
+        body.setLinearVelocity(PxVec3(0.0f));
+        body.setAngularVelocity(PxVec3(0.0f));
+    }
+    motion.pose = pose(actor.last_pose);
+    motion.velocity = motion.spin = {0.0f, 0.0f, 0.0f};
 }
 
 extern "C" {
@@ -305,8 +320,10 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
                      physics_result *result) {
     *result = {};
     world->apply_all(commands, count);
-    for (Actor &actor : world->actors)
-        if (actor.mass_stale) world->refresh_mass(actor);
+    if (world->masses_stale)
+        for (Actor &actor : world->actors)
+            if (actor.mass_stale) world->refresh_mass(actor);
+    world->masses_stale = false;
     if (world->placed > FEW_PLACED && world->crowded()) {
         fail("More than " + std::to_string(MOST_PAIRS) +
              " pairs of colliders overlap in one place: physics does not step. Spread the objects out.");

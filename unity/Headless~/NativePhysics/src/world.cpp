@@ -202,7 +202,7 @@ void physics_world::refresh_mass(Actor &actor) {
 void physics_world::drop_shape(int32_t handle) {
     Shape &dying = shapes[handle];
     Actor &owner = actors[dying.actor];
-    owner.mass_stale = true;
+    mass_changed(owner);
     owner.rigid->detachShape(*dying.shape);
     dying = Shape();
     free_shapes.push_back(handle);
@@ -277,6 +277,9 @@ int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_p
         made.rigid = physics().createRigidStatic(made.last_pose);
     made.rigid->userData = reinterpret_cast<void *>(intptr_t(handle));
     world->actors[handle] = made;
+    world->masses_stale = true;
+    world->marks.resize(world->actors.size());
+    world->marks[handle] = PLACED;
     world->scene->addActor(*made.rigid);
     return handle;
 }
@@ -290,6 +293,7 @@ void physics_actor_destroy(physics_world *world, int32_t handle) {
     for (PxShape *each : own) world->drop_shape(int32_t(intptr_t(each->userData)));
     dying->rigid->release();
     *dying = Actor();
+    world->marks[handle] = 0;
     world->free_actors.push_back(handle);
 }
 
@@ -339,7 +343,7 @@ int32_t physics_shape_create(physics_world *world, int32_t owner, const physics_
     set_filters(*made, *from);
     actor->rigid->attachShape(*made);
     made->release(); // the actor holds it
-    actor->mass_stale = true;
+    world->mass_changed(*actor);
     world->placed++;
     Shape &slot = world->shapes[handle];
     slot.shape = made;
@@ -372,7 +376,7 @@ int32_t physics_shape_change(physics_world *world, int32_t handle, const physics
         PxShape *changed = shape->shape;
         world->scene->resetFiltering(*actor.rigid, &changed, 1);
     }
-    actor.mass_stale = true;
+    world->mass_changed(actor);
     world->placed++;
     return 1;
 }

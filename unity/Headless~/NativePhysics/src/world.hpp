@@ -39,13 +39,17 @@ struct Actor {
     float mass = 1.0f;
     bool own_center = false, own_inertia = false;
     bool mass_stale = true;
-    bool placed = true; // put somewhere since the last step
-    bool moved = false; // in the current step
     PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
     PxQuat inertia_rotation = PxQuat(PxIdentity);
     PxTransform last_pose = PxTransform(PxIdentity);
 
     PxRigidDynamic *body() const { return rigid ? rigid->is<PxRigidDynamic>() : nullptr; }
+};
+
+// Of an actor.
+enum Marks : uint8_t {
+    PLACED = 1, // put somewhere since the last step
+    MOVED = 2   // in the current step
 };
 
 struct Shape {
@@ -113,7 +117,11 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     std::vector<int32_t> free_actors, free_shapes, free_joints;
     std::unordered_map<std::string, physx::PxMaterial *> materials;
     collektive::Ignored ignored;
-    size_t placed = 0; // shapes made or put somewhere since the last step
+    size_t placed = 0;         // shapes made or put somewhere since the last step
+    bool masses_stale = false; // of any actor
+    // By the actor's handle: a step looks through all of them, and through few of the actors.
+    std::vector<uint8_t> marks;
+    std::vector<int32_t> moved; // of collect_motions, kept for its memory
 
     std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
     // Touching pairs whose boxes came apart, or that wait to be found again by a new filtering; by identities.
@@ -131,7 +139,9 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
         return handle >= 0 && size_t(handle) < shapes.size() && shapes[handle].shape ? &shapes[handle] : nullptr;
     }
     physx::PxMaterial *material(const physics_material &wanted);
+    void mass_changed(collektive::Actor &actor) { actor.mass_stale = masses_stale = true; }
     void refresh_mass(collektive::Actor &actor);
+    bool is_active(int32_t actor) const;
     void drop_shape(int32_t handle);
     void drop_joint(int32_t handle);
     void drop_joints_of(int32_t actor);
@@ -139,6 +149,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void apply_all(const physics_command *commands, int32_t count);
     bool crowded();
     void collect_motions();
+    void put_back(physics_motion &motion);
     void collect_overlaps();
     void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 
