@@ -5,8 +5,8 @@
  * physics_step applies it, moves the world and returns arrays of what moved and what touched. Nothing is called per body in steady state.
  *
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
- * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step and queries of several rays or spheres use worker
- * threads of the world's own inside the call.
+ * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step and queries of several rays use worker
+ * threads of the world's own inside the call, queries of several spheres between two calls.
  * Determinism: the same calls give the same bits, for any number of threads, on every start of the same build.
  * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next step.
  * Handles are small numbers that are reused after their destruction. A handle that is not alive is ignored, or answered with PHYSICS_NONE or 0.
@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 2
+#define PHYSICS_VERSION 3
 #define PHYSICS_NONE (-1)
 
 typedef struct physics_world physics_world;
@@ -267,10 +267,14 @@ PHYSICS_API int32_t physics_raycast_shape(physics_world *world, int32_t shape, c
 PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
                                     const physics_filter *filter, int32_t *shapes, int32_t capacity);
 
-/* All shapes that overlap each of several spheres, in no particular order: `capacity` places of `shapes` (1 or more) for each sphere, what does not fit
- * is left out; PHYSICS_NONE ends those that are fewer. There are as many filters as spheres. All threads work on them. */
-PHYSICS_API void physics_overlap_spheres(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
-                                         int32_t *shapes, int32_t capacity);
+/* Begins to find all shapes that overlap each of several spheres, in no particular order: `capacity` places of `shapes` (1 or more) for each sphere, what
+ * does not fit is left out; PHYSICS_NONE ends those that are fewer. There are as many filters as spheres. The world's other threads work on them; until
+ * physics_finish_overlaps the arrays belong to the world, and no other function may be called with it. */
+PHYSICS_API void physics_begin_overlaps(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
+                                        int32_t *shapes, int32_t capacity);
+
+/* Finds what the other threads have not found, and returns when all is done. */
+PHYSICS_API void physics_finish_overlaps(physics_world *world);
 
 /* Moves a geometry along a ray from its pose; shapes that it overlaps at the start are not hit. With a capacity of 1 the nearest hit, else all in no
  * particular order; returns their number. `point` is where they touch. */

@@ -123,10 +123,10 @@ int32_t physics_overlap(physics_world *world, const physics_geometry *geometry, 
     return int32_t(found.nbTouches);
 }
 
-void physics_overlap_spheres(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
-                             int32_t *shapes, int32_t capacity) {
+void physics_begin_overlaps(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
+                            int32_t *shapes, int32_t capacity) {
     world->scene->flushQueryUpdates();
-    world->workers.each(count, [=](int first, int end) {
+    world->workers.begin(count, [=](int first, int end) {
         for (int index = first; index < end; index++) {
             int32_t *own = shapes + size_t(index) * size_t(capacity);
             PxOverlapBuffer found(room<PxOverlapHit>(capacity), PxU32(capacity));
@@ -137,6 +137,8 @@ void physics_overlap_spheres(physics_world *world, const physics_sphere *spheres
         }
     });
 }
+
+void physics_finish_overlaps(physics_world *world) { world->workers.finish(); }
 
 int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *at, const physics_vector *direction,
                       float distance, const physics_filter *filter, physics_hit *hits, int32_t capacity) {

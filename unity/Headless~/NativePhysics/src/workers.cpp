@@ -2,6 +2,7 @@
 #include "workers.hpp"
 
 #include <algorithm>
+#include <utility>
 
 using namespace physx;
 
@@ -22,29 +23,19 @@ void pause() {
 #endif
 }
 
-// A share of a loop. Several of them take ranges until none is left.
-struct Share final : PxBaseTask {
-    Workers *workers = nullptr;
-    const std::function<void(int, int)> *part = nullptr;
-    std::atomic<int> *next = nullptr, *left = nullptr;
-    std::atomic<bool> *over = nullptr;
-    int count = 0;
-
-    void run() override {
-        for (int first; (first = next->fetch_add(TURNS_AT_ONCE)) < count;) (*part)(first, std::min(first + TURNS_AT_ONCE, count));
-    }
-    void release() override {
-        if (left->fetch_sub(1) == 1) workers->end(*over);
-    }
-    const char *getName() const override { return "share"; }
-    void addReference() override {}
-    void removeReference() override {}
-    PxI32 getReference() const override { return 1; }
-};
-
 } // namespace
 
-Workers::Workers(int threads) {
+void Workers::Share::run() {
+    for (int first; (first = workers->next.fetch_add(TURNS_AT_ONCE)) < workers->count;)
+        workers->part(first, std::min(first + TURNS_AT_ONCE, workers->count));
+}
+
+void Workers::Share::release() {
+    if (workers->left.fetch_sub(1) == 1) workers->end(workers->over);
+}
+
+Workers::Workers(int threads) : shares(size_t(std::max(0, threads - 1))) {
+    for (Share &share : shares) share.workers = this;
     for (int index = 1; index < threads; index++) workers.emplace_back([this] { work_until(quit); });
 }
 
@@ -111,24 +102,25 @@ void Workers::end(std::atomic<bool> &over) {
     changed.notify_all();
 }
 
-void Workers::each(int count, const std::function<void(int, int)> &part) {
-    if (workers.empty() || count <= TURNS_AT_ONCE) {
-        if (count > 0) part(0, count);
-        return;
-    }
-    std::atomic<int> next{0}, left{int(workers.size()) + 1};
-    std::atomic<bool> over{false};
-    std::vector<Share> shares(workers.size() + 1);
-    for (Share &share : shares) {
-        share.workers = this;
-        share.part = &part;
-        share.next = &next;
-        share.left = &left;
-        share.over = &over;
-        share.count = count;
-        submit(share, 1);
-    }
+void Workers::begin(int turns, std::function<void(int, int)> what) {
+    count = turns;
+    part = std::move(what);
+    next = 0;
+    left = int(shares.size());
+    over = shares.empty() || count <= TURNS_AT_ONCE;
+    if (over) return;
+    for (Share &share : shares) submit(share, 1);
+}
+
+void Workers::finish() {
+    for (int first; (first = next.fetch_add(TURNS_AT_ONCE)) < count;) part(first, std::min(first + TURNS_AT_ONCE, count));
     work_until(over);
+    count = 0;
+}
+
+void Workers::each(int turns, std::function<void(int, int)> what) {
+    begin(turns, std::move(what));
+    finish();
 }
 
 } // namespace collektive

@@ -26,10 +26,26 @@ class Workers final : public physx::PxCpuDispatcher {
     void work_until(const std::atomic<bool> &over);
     void end(std::atomic<bool> &over);
 
-    // Calls part(first, end) for ranges that together are 0 to count - 1, on all threads; returns when all are done.
-    void each(int count, const std::function<void(int first, int end)> &part);
+    // Calls part(first, end) for ranges that together are 0 to turns - 1, on all threads; returns when all are done.
+    void each(int turns, std::function<void(int first, int end)> part);
+
+    // The same, but the caller can do something else between: the other threads begin, and `finish` does what they have left. One at a time.
+    void begin(int turns, std::function<void(int first, int end)> part);
+    void finish();
 
   private:
+    // Of a loop, for one thread: it takes ranges until none is left.
+    struct Share final : physx::PxBaseTask {
+        Workers *workers = nullptr;
+
+        void run() override;
+        void release() override;
+        const char *getName() const override { return "share"; }
+        void addReference() override {}
+        void removeReference() override {}
+        physx::PxI32 getReference() const override { return 1; }
+    };
+
     bool work();
     void submit(physx::PxBaseTask &task, size_t waiting_to_wake);
 
@@ -40,6 +56,12 @@ class Workers final : public physx::PxCpuDispatcher {
     int asleep = 0;
     std::atomic<int> waiting{0}; // as many as there are tasks, to look at without the lock
     std::atomic<bool> quit{false};
+    // The loop.
+    std::vector<Share> shares;
+    std::function<void(int, int)> part;
+    int count = 0;
+    std::atomic<int> next{0}, left{0};
+    std::atomic<bool> over{true};
 };
 
 } // namespace collektive

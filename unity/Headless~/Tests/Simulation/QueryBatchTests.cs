@@ -128,6 +128,39 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(NativeArrays.Count, Is.EqualTo(arrays));
         }
 
+        [Test]
+        public void Queries_are_over_before_a_users_rule_can_change_what_they_ask_for()
+        {
+            MakeSwarm(4);
+            var rule = nodes[2].gameObject.AddComponent<Ramming>();
+            Play(2);
+            rule.Ball = new GameObject("Ball") { transform = { position = nodes[1].transform.position } }.AddComponent<SphereCollider>();
+            Play(1);
+            Assert.That(rule.Calls, Is.EqualTo(3));
+            Assert.That(rule.SawQueries, Is.False);
+            var seen = nodes[1].GetComponent<SensorTests.Obstacles>().Values;
+            Assert.That(seen.Exists(obstacle => ReferenceEquals(obstacle.Collider, rule.Ball)), Is.True, "as it was before the rules");
+            Assert.That(Errors, Is.Empty);
+        }
+
+        private sealed class Ramming : NeighbourhoodRule
+        {
+            internal Collider Ball { get; set; }
+
+            internal int Calls { get; private set; }
+
+            internal bool SawQueries { get; private set; }
+
+            protected override void FindNeighbours(NeighbourCollector neighbours)
+            {
+                Calls++;
+                SawQueries |= QueryLog.IsRunning;
+                if (Ball == null) return;
+                Ball.transform.position += new Vector3(0, 50, 0);
+                Physics.SyncTransforms();
+            }
+        }
+
         private void MakeSwarm(int count)
         {
             nodes.Clear();

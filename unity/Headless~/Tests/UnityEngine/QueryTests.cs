@@ -1,6 +1,8 @@
 using System.Collections.Generic;
 using NUnit.Framework;
+using Unity.Collections;
 using UnityEngine;
+using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
@@ -172,6 +174,42 @@ namespace Collektive.Headless.Tests.Engine
             var hits = new RaycastHit[16];
             Assert.That(Physics.RaycastNonAlloc(Vector3.zero, Vector3.right, hits), Is.EqualTo(5));
             Assert.That(Physics.RaycastNonAlloc(Vector3.zero, Vector3.right, hits, 5f), Is.EqualTo(2));
+        }
+
+        [TestCase(1)]
+        [TestCase(3)]
+        public void A_batch_of_overlaps_runs_until_something_is_asked(int threads)
+        {
+            Loop.PhysicsThreads = threads;
+            Loop.Reset();
+            var all = new List<Collider>();
+            for (var index = 0; index < 500; index++)
+            {
+                var ball = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+                ball.transform.position = new Vector3(2 * index, 0, 0);
+                all.Add(ball.GetComponent<Collider>());
+            }
+            Physics.SyncTransforms();
+            var commands = new NativeArray<OverlapSphereCommand>(500, Allocator.Persistent);
+            var hits = new NativeArray<ColliderHit>(1000, Allocator.Persistent);
+            for (var index = 0; index < 500; index++)
+                commands[index] = new OverlapSphereCommand(new Vector3(2 * index, 0, 0), 0.1f, QueryParameters.Default);
+            for (var way = 0; way < 2; way++)
+            {
+                var handle = OverlapSphereCommand.ScheduleBatch(commands, hits, 1, 2);
+                Assert.That(handle.IsCompleted, Is.False);
+                if (way == 0) handle.Complete();
+                else Physics.CheckSphere(Vector3.zero, 1);
+                Assert.That(handle.IsCompleted, Is.True);
+                for (var index = 0; index < 500; index++)
+                {
+                    Assert.That(hits[2 * index].collider, Is.SameAs(all[index]));
+                    Assert.That(hits[2 * index + 1].collider, Is.Null);
+                }
+            }
+            commands.Dispose();
+            hits.Dispose();
+            Loop.PhysicsThreads = 1;
         }
     }
 }

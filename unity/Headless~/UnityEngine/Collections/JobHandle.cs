@@ -1,9 +1,21 @@
+using UnityEngine;
+
 namespace Unity.Jobs
 {
-    /// Jobs are done when they are scheduled.
+    /// Of jobs that are done when they are scheduled, or of a batch of overlaps.
     public struct JobHandle
     {
-        public bool IsCompleted => true;
-        public void Complete() { }
+        readonly int batch;
+
+        internal JobHandle(int batch) => this.batch = batch;
+
+        bool IsRunning => OverlapBatch.IsRunning && batch == OverlapBatch.Number;
+
+        public bool IsCompleted => !IsRunning;
+
+        public void Complete()
+        {
+            if (IsRunning) OverlapBatch.Finish();
+        }
     }
 }

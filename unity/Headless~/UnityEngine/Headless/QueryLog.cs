@@ -8,5 +8,8 @@ namespace UnityEngine.Headless
 
         /// Batches of queries since the process began.
         public static long Batches { get; internal set; }
+
+        /// Whether a batch runs while the main thread does something else.
+        public static bool IsRunning => OverlapBatch.IsRunning;
     }
 }

@@ -28,7 +28,15 @@ namespace UnityEngine
         /// How many threads step the next world; results do not depend on it.
         public static int Threads = 1;
 
-        public static IntPtr Handle => world != IntPtr.Zero ? world : Create();
+        /// For a call: queries that run are finished first.
+        public static IntPtr Handle
+        {
+            get
+            {
+                if (OverlapBatch.IsRunning) OverlapBatch.Finish();
+                return world != IntPtr.Zero ? world : Create();
+            }
+        }
 
         static IntPtr Create()
         {
@@ -50,6 +58,7 @@ namespace UnityEngine
         /// All objects are destroyed already.
         public static void ResetState()
         {
+            OverlapBatch.Finish();
             Moved.Clear();
             Unpublished.Clear();
             Touching.Clear();

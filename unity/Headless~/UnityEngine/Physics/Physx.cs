@@ -6,7 +6,7 @@ namespace UnityEngine
     /// The C interface of collektive_physics, as its header tells (NativePhysics/include/collektive_physics.h).
     static unsafe class Physx
     {
-        public const int Version = 2;
+        public const int Version = 3;
         public const int None = -1;
 
         const string Library = "collektive_physics";
@@ -222,7 +222,8 @@ namespace UnityEngine
         [DllImport(Library)] public static extern int physics_raycast_shape(IntPtr world, int shape, RayLine* ray, Hit* hit);
         [DllImport(Library)] public static extern int physics_overlap(IntPtr world, Geometry* geometry, Pose* pose, Filter* filter, int* shapes, int capacity);
         [DllImport(Library)]
-        public static extern void physics_overlap_spheres(IntPtr world, Sphere* spheres, Filter* filters, int count, int* shapes, int capacity);
+        public static extern void physics_begin_overlaps(IntPtr world, Sphere* spheres, Filter* filters, int count, int* shapes, int capacity);
+        [DllImport(Library)] public static extern void physics_finish_overlaps(IntPtr world);
         [DllImport(Library)]
         public static extern int physics_sweep(IntPtr world, Geometry* geometry, Pose* pose, Vector3* direction, float distance, Filter* filter, Hit* hits,
             int capacity);

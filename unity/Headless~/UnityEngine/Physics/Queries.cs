@@ -8,7 +8,6 @@ namespace UnityEngine
         static Physx.Hit[] hits = new Physx.Hit[64];
         static int[] shapes = new int[64];
         static Physx.RayLine[] lines = new Physx.RayLine[64];
-        static Physx.Sphere[] spheres = new Physx.Sphere[64];
         static Physx.Filter[] filters = new Physx.Filter[64];
 
         /// PhysX's world, up to date.
@@ -21,7 +20,7 @@ namespace UnityEngine
             }
         }
 
-        static Physx.Filter Filter(int layerMask, QueryTriggerInteraction triggers) =>
+        internal static Physx.Filter Filter(int layerMask, QueryTriggerInteraction triggers) =>
             new Physx.Filter { Layers = layerMask, Triggers = HitsTriggers(triggers) ? 1 : 0 };
 
         static bool HitsTriggers(QueryTriggerInteraction triggers) =>
@@ -170,43 +169,6 @@ namespace UnityEngine
             var count = Overlapping(geometry, pose, layerMask, triggers, results.Length);
             for (var index = 0; index < count; index++) results[index] = PhysicsWorld.ColliderOf(shapes[index]);
             return count;
-        }
-
-        /// Puts colliders that touch each sphere into the results as far as its places go, and after them one that is null, asked on all threads of physics.
-        public static void Overlaps(Span<OverlapSphereCommand> commands, Span<ColliderHit> results, int places)
-        {
-            var count = commands.Length;
-            Reserve(ref spheres, count);
-            Reserve(ref filters, count);
-            Reserve(ref shapes, count * places);
-            for (var index = 0; index < count; index++)
-            {
-                ref var command = ref commands[index];
-                var centre = command.point;
-                var radius = Mathf.Abs(command.radius);
-                var sum = centre.x + centre.y + centre.z + radius;
-                // What is no number finds nothing.
-                if (sum - sum != 0f)
-                {
-                    spheres[index] = default;
-                    filters[index] = default;
-                    continue;
-                }
-                ref var sphere = ref spheres[index];
-                sphere.Centre = centre;
-                sphere.Radius = radius;
-                filters[index] = Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers);
-            }
-            fixed (Physx.Sphere* balls = spheres)
-            fixed (Physx.Filter* filter = filters)
-            fixed (int* found = shapes) Physx.physics_overlap_spheres(World, balls, filter, count, found, places);
-            for (var first = 0; first < count * places; first += places)
-                for (var place = first; place < first + places; place++)
-                {
-                    var shape = shapes[place];
-                    results[place].collider = PhysicsWorld.ColliderOf(shape);
-                    if (shape == Physx.None) break;
-                }
         }
 
         public static Collider[] Overlaps(Physx.Geometry geometry, Physx.Pose pose, int layerMask, QueryTriggerInteraction triggers)

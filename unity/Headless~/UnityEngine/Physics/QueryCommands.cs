@@ -74,7 +74,7 @@ namespace UnityEngine
         }
     }
 
-    /// A batch runs on all threads of physics and is complete on return.
+    /// A batch runs on physics' other threads until its handle, or anything else, asks for the results.
     public struct OverlapSphereCommand
     {
         public QueryParameters queryParameters;
@@ -94,8 +94,7 @@ namespace UnityEngine
         {
             if (results.Length < commands.Length * maxHits) throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
             Headless.QueryLog.Batches++;
-            Queries.Overlaps(commands.AsSpan(), results.AsSpan(), maxHits);
-            return default;
+            return new JobHandle(OverlapBatch.Begin(commands.AsSpan(), results, maxHits));
         }
     }
 }

@@ -23,6 +23,8 @@ namespace Collektive.Unity
         private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
         private int drops;
+        // Users' code may do anything with physics.
+        private bool isOwn;
 
         /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
         public bool Directed
@@ -41,7 +43,11 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
-        internal sealed override ref PartList ListOf(Node node) => ref node.Rules;
+        internal sealed override ref PartList ListOf(Node node)
+        {
+            isOwn = GetType().Assembly == typeof(NeighbourhoodRule).Assembly;
+            return ref node.Rules;
+        }
 
         internal sealed override void Detached()
         {
@@ -52,6 +58,7 @@ namespace Collektive.Unity
         internal sealed override void Run(Simulation simulation, int index)
         {
             var neighbours = simulation.Neighbours;
+            if (!isOwn) simulation.Queries.Finish();
             neighbours.Begin(Node);
             try
             {

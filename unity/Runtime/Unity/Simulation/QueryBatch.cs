@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Physics queries that run together: Unity divides them among its worker threads, and the calling thread waits for the results. Allocates nothing
-    /// once its capacity is reached.
+    /// Physics queries that run together: Unity divides them among its worker threads, and the calling thread can do something else before it waits for the
+    /// results, as long as that leaves physics alone. Allocates nothing once its capacity is reached.
     /// </summary>
     internal abstract class QueryBatch<TCommand, THit> : IDisposable
         where TCommand : struct
@@ -21,6 +21,7 @@ namespace Collektive.Unity
         private NativeArray<TCommand> commands;
         private NativeArray<THit> hits;
         private int wantedHits;
+        private JobHandle running;
 
         /// <param name="maxHits">The most hits of a query that are kept, 1 or more; with 1, the nearest.</param>
         protected QueryBatch(int maxHits) => MaxHits = wantedHits = maxHits;
@@ -41,11 +42,21 @@ namespace Collektive.Unity
 
         internal void Run()
         {
+            Begin();
+            Finish();
+        }
+
+        /// <summary>Lets the queries run. The batch may not change before <see cref="Finish"/>.</summary>
+        internal void Begin()
+        {
             if (Count == 0) return;
             MaxHits = wantedHits;
             if (Count * MaxHits > hits.Length) Grow(ref hits, 0, commands.Length * MaxHits);
-            Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits).Complete();
+            running = Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits);
         }
+
+        /// <summary>Waits until there are all results. A second call does nothing.</summary>
+        internal void Finish() => running.Complete();
 
         /// <summary>A hit of a query; <paramref name="place"/> is below <see cref="MaxHits"/>. Hits have no order; one without a collider is the end.</summary>
         internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
@@ -56,6 +67,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         public void Dispose()
         {
+            Finish();
             Count = 0;
             Free(ref commands);
             Free(ref hits);

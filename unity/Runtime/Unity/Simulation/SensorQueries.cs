@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// The physics queries of the ready sensors: one batch of rays and one of spheres at the beginning of the sensors' phase, and single queries where a batch
-    /// is not enough. It belongs to the simulation and keeps no collider after its end.
+    /// The physics queries of the ready sensors: one batch of rays and one of spheres, which run while the rules are called, and single queries where a
+    /// batch is not enough. It belongs to the simulation and keeps no collider after its end.
     /// </summary>
     internal sealed class SensorQueries : IDisposable
     {
@@ -20,12 +20,12 @@ namespace Collektive.Unity
         /// <summary>The nearest hit of each ray.</summary>
         internal RayBatch Rays { get; } = new RayBatch(1);
 
-        internal SphereBatch Spheres { get; } = new SphereBatch(32);
+        internal SphereBatch Spheres { get; } = new SphereBatch(8);
 
         internal BatchedParts Sensors { get; }
 
-        /// <summary>Runs the batches of all sensors whose nodes are due.</summary>
-        internal void Ask(double now)
+        /// <summary>Begins the batches of all sensors whose nodes are due. Physics may not be changed before <see cref="Finish"/>.</summary>
+        internal void Begin(double now)
         {
             Rays.Clear();
             Spheres.Clear();
@@ -34,8 +34,15 @@ namespace Collektive.Unity
             {
                 if (Sensors[i].Node.IsDue(now)) Sensors.Enqueue(Sensors[i]);
             }
-            Rays.Run();
-            Spheres.Run();
+            Rays.Begin();
+            Spheres.Begin();
+        }
+
+        /// <summary>Waits for the results.</summary>
+        internal void Finish()
+        {
+            Rays.Finish();
+            Spheres.Finish();
         }
 
         /// <summary>Makes both twice as long; what is in them stays.</summary>

@@ -271,12 +271,16 @@ namespace Collektive.Unity
             roster.Flush(session.Request);
         }
 
+        /// <summary>Simulated seconds up to which nodes are due in this tick.</summary>
+        private double Now => session.Time + Tolerance * Settings.deltaTime;
+
         private void UpdateRules()
         {
             present.Clear();
             present.AddRange(Nodes);
             Grid.Build(present, Grid.MeanRadius, Settings.threads > 1);
             SightLines.Begin();
+            Queries.Begin(Now);
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
                 var node = present[i];
@@ -293,8 +297,8 @@ namespace Collektive.Unity
             var request = session.Request;
             request.ClearDue();
             request.Sensors.EnsureCapacity(present.Count);
-            var now = session.Time + Tolerance * Settings.deltaTime;
-            Queries.Ask(now);
+            var now = Now;
+            Queries.Finish();
             for (var i = 0; i < present.Count && IsOpen; i++)
             {
                 var node = present[i];
