@@ -69,8 +69,8 @@ namespace Collektive.Unity
         internal void Begin()
         {
             obstacles.Clear();
-            Rules.Begin();
-            for (var i = 0; i < Rules.Count; i++) Rules.Enqueue(Rules[i]);
+            // Rules are called for nodes that are not due, too.
+            Rules.Begin(double.PositiveInfinity);
             Cast();
         }
 

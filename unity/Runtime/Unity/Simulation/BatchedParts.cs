@@ -13,10 +13,6 @@ namespace Collektive.Unity
 
         internal BatchedParts(Simulation simulation) => this.simulation = simulation;
 
-        internal int Count => parts.Count;
-
-        internal NodePart this[int place] => parts[place];
-
         /// <summary>The number of the batch of this tick, 1 or greater.</summary>
         internal ulong Batch { get; private set; }
 
@@ -30,22 +26,26 @@ namespace Collektive.Unity
             return false;
         }
 
-        /// <summary>Adds a part's queries to the batch.</summary>
-        internal void Enqueue(NodePart part)
-        {
-            part.BatchedAt = Batch;
-            part.Enqueue();
-        }
-
-        /// <summary>Begins a batch, and drops parts that take no part in the simulation any more; the order of the rest changes.</summary>
-        internal void Begin()
+        /// <summary>
+        /// Begins a batch with the queries of all parts whose nodes are due by <paramref name="now"/>, in simulated seconds. Drops parts that take no part in
+        /// the simulation any more.
+        /// </summary>
+        internal void Begin(double now)
         {
             Batch++;
+            // One pass: each part and node is far away in memory.
             for (var i = parts.Count - 1; i >= 0; i--)
             {
                 var part = parts[i];
-                if (part.IsAttached && ReferenceEquals(part.Node.Simulation, simulation)) continue;
+                if (part.IsAttached && ReferenceEquals(part.Node.Simulation, simulation))
+                {
+                    if (!part.Node.IsDue(now)) continue;
+                    part.BatchedAt = Batch;
+                    part.Enqueue();
+                    continue;
+                }
                 if (ReferenceEquals(part.BatchedIn, this)) part.BatchedIn = null;
+                // The last one has had its turn.
                 parts[i] = parts[parts.Count - 1];
                 parts.RemoveAt(parts.Count - 1);
             }

@@ -29,11 +29,7 @@ namespace Collektive.Unity
         {
             Rays.Clear();
             Spheres.Clear();
-            Sensors.Begin();
-            for (var i = 0; i < Sensors.Count; i++)
-            {
-                if (Sensors[i].Node.IsDue(now)) Sensors.Enqueue(Sensors[i]);
-            }
+            Sensors.Begin(now);
             Rays.Begin();
             Spheres.Begin();
         }

@@ -62,7 +62,7 @@ namespace Collektive.Unity
             for (var hit = 0; hit < spheres.MaxHits; hit++)
             {
                 var collider = spheres.HitOf(query, hit).collider;
-                if (collider == null) return true;
+                if (collider is null) return true;
                 if (found == queries.Obstacles.Length) queries.Grow();
                 Take(collider, queries.Obstacles, ref found);
             }
