@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using Collektive.Unity;
 using UnityEngine;
+using UnityEngine.Headless;
 using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
@@ -18,6 +19,9 @@ namespace Collektive.Headless
 
         /// <summary>Moving shapes that are recorded, at most: their poses lie in the page's header.</summary>
         private const int MostMovers = 64;
+
+        /// <summary>Along each side of a terrain that is drawn, at most.</summary>
+        private const int MostSquaresOfTerrain = 64;
 
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
@@ -132,6 +136,7 @@ namespace Collektive.Headless
                 else if (collider is BoxCollider box) Add(metadata, box);
                 else if (collider is SphereCollider sphere) Add(metadata, sphere);
                 else if (collider is MeshCollider mesh && mesh.sharedMesh != null) Add(metadata, mesh);
+                else if (collider is TerrainCollider terrain && terrain.terrainData != null) Add(metadata, terrain);
             }
             if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
             // The page wants an arena of some size.
@@ -217,15 +222,27 @@ namespace Collektive.Headless
         private static void Add(ReplayMetadata metadata, MeshCollider collider)
         {
             var corners = collider.sharedMesh.vertices;
+            for (var i = 0; i < corners.Length; i++) corners[i] = Vector3.Scale(corners[i], collider.transform.lossyScale);
+            Add(metadata, corners, collider.sharedMesh.triangles, collider.transform.position, collider.transform.rotation);
+        }
+
+        /// <summary>A terrain is drawn of few of its samples.</summary>
+        private static void Add(ReplayMetadata metadata, TerrainCollider collider)
+        {
+            var data = collider.terrainData;
+            var step = Math.Max(1, (data.heightmapResolution - 1) / MostSquaresOfTerrain);
+            var triangles = TerrainMesh.Triangles((data.heightmapResolution - 1) / step + 1);
+            Add(metadata, TerrainMesh.Points(data, step), triangles, collider.transform.position, Quaternion.identity);
+        }
+
+        private static void Add(ReplayMetadata metadata, Vector3[] corners, int[] triangles, Vector3 place, Quaternion turn)
+        {
             var vertices = new float[3 * corners.Length];
             for (var i = 0; i < corners.Length; i++)
             {
-                var corner = Vector3.Scale(corners[i], collider.transform.lossyScale);
-                for (var axis = 0; axis < 3; axis++) vertices[3 * i + axis] = corner[axis];
+                for (var axis = 0; axis < 3; axis++) vertices[3 * i + axis] = corners[i][axis];
             }
-            var place = collider.transform.position;
-            var turn = collider.transform.rotation;
-            metadata.AddMesh(vertices, collider.sharedMesh.triangles, place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
+            metadata.AddMesh(vertices, triangles, place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
         }
 
         private static void Add(ReplayMetadata metadata, BoxCollider box)

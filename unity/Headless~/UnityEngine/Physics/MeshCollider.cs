@@ -7,7 +7,7 @@ namespace UnityEngine
     {
         Mesh ownMesh;
         bool ownConvex;
-        IntPtr cooked;
+        readonly CookedMesh cooked = new CookedMesh();
         int cookedVersion;
         Vector3 cookedScale;
 
@@ -38,7 +38,7 @@ namespace UnityEngine
         void MeshChanged()
         {
             DropShape();
-            Release();
+            cooked.Release();
             ShapeChanged();
         }
 
@@ -52,45 +52,37 @@ namespace UnityEngine
                     + $"Object '{NameImpl}' has no shape.", this);
                 return false;
             }
-            if (cooked != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
+            if (cooked.Handle != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
             {
                 DropShape(); // a new mesh may lie where the old one was
-                Release();
+                cooked.Release();
             }
-            if (cooked == IntPtr.Zero) Cook(scale);
-            if (cooked == IntPtr.Zero) return false;
+            if (cooked.Handle == IntPtr.Zero) Cook(scale);
+            if (cooked.Handle == IntPtr.Zero) return false;
             shape.Geometry.Kind = Physx.Kind.Mesh;
-            shape.Geometry.Mesh = cooked;
+            shape.Geometry.Mesh = cooked.Handle;
             shape.Pose = new Physx.Pose(Vector3.zero, Quaternion.identity);
             return true;
         }
 
         /// The scale goes into the vertices: any scale will do, mirrored and flat ones too.
-        unsafe void Cook(Vector3 scale)
+        void Cook(Vector3 scale)
         {
             var points = ownMesh.vertices;
             var indices = ownMesh.triangles;
             for (var index = 0; index < points.Length; index++) points[index] = Vector3.Scale(points[index], scale);
             if (scale.x * scale.y * scale.z < 0f)
                 for (var index = 0; index + 2 < indices.Length; index += 3) (indices[index], indices[index + 1]) = (indices[index + 1], indices[index]);
-            fixed (Vector3* first = points)
-            fixed (int* firstIndex = indices)
-                cooked = Physx.physics_mesh_create(first, points.Length, firstIndex, indices.Length, ownConvex ? 1 : 0);
+            var problem = cooked.Cook(points, indices, ownConvex);
             cookedScale = scale;
             cookedVersion = ownMesh.Version;
-            if (cooked == IntPtr.Zero) Debug.LogError($"The mesh '{ownMesh.name}' of MeshCollider '{NameImpl}' cannot be a collider: {Physx.Error()}", this);
-        }
-
-        void Release()
-        {
-            if (cooked != IntPtr.Zero) Physx.physics_mesh_release(cooked);
-            cooked = IntPtr.Zero;
+            if (problem != null) Debug.LogError($"The mesh '{ownMesh.name}' of MeshCollider '{NameImpl}' cannot be a collider: {problem}", this);
         }
 
         internal override void Deactivate()
         {
             base.Deactivate();
-            Release();
+            cooked.Release();
         }
 
         internal override void CopyFrom(Component original)

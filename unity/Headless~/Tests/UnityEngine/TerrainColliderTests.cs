@@ -1,0 +1,105 @@
+using NUnit.Framework;
+using UnityEngine;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class TerrainColliderTests : PhysicsFixture
+    {
+        /// 64 m by 64 m; the height is half of x.
+        static TerrainData Slope()
+        {
+            var data = new TerrainData { heightmapResolution = 65, size = new Vector3(64f, 100f, 64f) };
+            var heights = new float[65, 65];
+            for (var z = 0; z < 65; z++)
+                for (var x = 0; x < 65; x++) heights[z, x] = x / 200f;
+            data.SetHeights(0, 0, heights);
+            return data;
+        }
+
+        static TerrainCollider Terrain(TerrainData data, Vector3 place)
+        {
+            var collider = new GameObject("Terrain").AddComponent<TerrainCollider>();
+            collider.transform.position = place;
+            collider.terrainData = data;
+            return collider;
+        }
+
+        static float HeightAt(float x, float z)
+        {
+            Physics.SyncTransforms();
+            Assert.That(Physics.Raycast(new Vector3(x, 500f, z), Vector3.down, out var hit), Is.True);
+            return hit.point.y;
+        }
+
+        [Test]
+        public void Its_surface_is_the_height_map_from_the_objects_place_on()
+        {
+            Terrain(Slope(), new Vector3(10f, 1f, 20f));
+            Assert.That(HeightAt(14f, 30f), Is.EqualTo(3f).Within(1e-3f));
+            Assert.That(HeightAt(50.5f, 83.9f), Is.EqualTo(1f + 20.25f).Within(1e-3f));
+            Assert.That(Physics.Raycast(new Vector3(9f, 500f, 30f), Vector3.down), Is.False, "beside it");
+        }
+
+        [Test]
+        public void Turn_and_scale_of_its_object_count_for_nothing()
+        {
+            var terrain = Terrain(Slope(), Vector3.zero);
+            terrain.transform.rotation = Quaternion.Euler(0f, 90f, 0f);
+            terrain.transform.localScale = new Vector3(3f, 3f, 3f);
+            Assert.That(HeightAt(20f, 40f), Is.EqualTo(10f).Within(1e-3f));
+        }
+
+        [Test]
+        public void Heights_that_change_are_felt()
+        {
+            var data = Slope();
+            var terrain = Terrain(data, Vector3.zero);
+            Assert.That(HeightAt(20f, 40f), Is.EqualTo(10f).Within(1e-3f));
+            data.SetHeights(0, 0, new float[65, 65]);
+            terrain.terrainData = data;
+            Assert.That(HeightAt(20f, 40f), Is.EqualTo(0f).Within(1e-3f));
+        }
+
+        [Test]
+        public void A_ball_rolls_down_its_slope_and_none_falls_through()
+        {
+            Terrain(Slope(), Vector3.zero);
+            var ball = Ball(new Vector3(40f, 20.7f, 30f));
+            Run(2f);
+            Assert.That(ball.position.x, Is.LessThan(37f));
+            Assert.That(ball.position.y, Is.EqualTo(0.5f * ball.position.x + 0.5f * Mathf.Sqrt(1.25f)).Within(0.1f));
+        }
+
+        [Test]
+        public void A_resolution_is_a_power_of_two_and_one()
+        {
+            var data = new TerrainData { heightmapResolution = 100 };
+            Assert.That(data.heightmapResolution, Is.EqualTo(129));
+            data.heightmapResolution = 1;
+            Assert.That(data.heightmapResolution, Is.EqualTo(33));
+            data.heightmapResolution = 9999;
+            Assert.That(data.heightmapResolution, Is.EqualTo(4097));
+        }
+
+        [Test]
+        public void Heights_are_shares_of_the_size_and_stay_inside()
+        {
+            var data = new TerrainData { size = new Vector3(32f, 50f, 32f) };
+            data.SetHeights(31, 32, new[,] { { 0.5f, 7f } });
+            Assert.That(data.GetHeight(31, 32), Is.EqualTo(25f));
+            Assert.That(data.GetHeight(32, 32), Is.EqualTo(50f));
+            Assert.That(data.GetHeights(31, 32, 2, 1), Is.EqualTo(new[,] { { 0.5f, 1f } }));
+            Assert.That(() => data.SetHeights(32, 0, new float[1, 2]), Throws.ArgumentException.With.Message.StringContaining("33 samples"));
+        }
+
+        [Test]
+        public void It_cannot_fall()
+        {
+            var terrain = Terrain(Slope(), Vector3.zero);
+            terrain.gameObject.AddComponent<Rigidbody>();
+            Physics.SyncTransforms();
+            Assert.That(Physics.Raycast(new Vector3(20f, 500f, 40f), Vector3.down), Is.False);
+            Assert.That(Errors[0], Is.StringContaining("A TerrainCollider cannot be part of a Rigidbody that is not kinematic"));
+        }
+    }
+}

@@ -1,0 +1,26 @@
+using System;
+
+namespace UnityEngine
+{
+    /// Triangles, or the hull around points, as PhysX has them.
+    sealed class CookedMesh
+    {
+        public IntPtr Handle { get; private set; }
+
+        /// Null when it worked, else why not.
+        public unsafe string Cook(Vector3[] points, int[] indices, bool convex)
+        {
+            Release();
+            fixed (Vector3* first = points)
+            fixed (int* firstIndex = indices)
+                Handle = Physx.physics_mesh_create(first, points.Length, firstIndex, indices.Length, convex ? 1 : 0);
+            return Handle == IntPtr.Zero ? Physx.Error() : null;
+        }
+
+        public void Release()
+        {
+            if (Handle != IntPtr.Zero) Physx.physics_mesh_release(Handle);
+            Handle = IntPtr.Zero;
+        }
+    }
+}

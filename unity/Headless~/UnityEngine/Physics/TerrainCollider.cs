@@ -1,0 +1,67 @@
+using System;
+using UnityEngine.Headless;
+
+namespace UnityEngine
+{
+    /// The surface of a height map, two triangles for each square of samples. It is where its object is, without its turn and scale.
+    public class TerrainCollider : Collider
+    {
+        readonly CookedMesh cooked = new CookedMesh();
+        TerrainData ownData;
+        int cookedVersion;
+
+        public TerrainData terrainData
+        {
+            get => ownData;
+            set
+            {
+                ownData = value;
+                DropShape();
+                cooked.Release();
+                ShapeChanged();
+            }
+        }
+
+        internal override bool HasClosestPoint => false;
+
+        internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
+        {
+            if (!ownData) return false;
+            if (!(Body is null) && !Body.isKinematic)
+            {
+                Debug.LogError($"A TerrainCollider cannot be part of a Rigidbody that is not kinematic. Object '{NameImpl}' has no shape.", this);
+                return false;
+            }
+            if (cooked.Handle != IntPtr.Zero && cookedVersion != ownData.Version)
+            {
+                DropShape(); // a new mesh may lie where the old one was
+                cooked.Release();
+            }
+            if (cooked.Handle == IntPtr.Zero) Cook();
+            if (cooked.Handle == IntPtr.Zero) return false;
+            shape.Geometry.Kind = Physx.Kind.Mesh;
+            shape.Geometry.Mesh = cooked.Handle;
+            shape.Pose = new Physx.Pose(Vector3.zero, Quaternion.Inverse(transform.rotation));
+            return true;
+        }
+
+        void Cook()
+        {
+            var problem = cooked.Cook(TerrainMesh.Points(ownData, 1), TerrainMesh.Triangles(ownData.heightmapResolution), false);
+            cookedVersion = ownData.Version;
+            if (problem != null) Debug.LogError($"The terrain of '{NameImpl}' cannot be a collider: {problem}", this);
+        }
+
+        internal override void Deactivate()
+        {
+            base.Deactivate();
+            cooked.Release();
+        }
+
+        internal override void CopyFrom(Component original)
+        {
+            base.CopyFrom(original);
+            ownData = ((TerrainCollider)original).ownData;
+        }
+    }
+}

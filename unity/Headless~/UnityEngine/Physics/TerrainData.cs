@@ -1,0 +1,65 @@
+using System;
+
+namespace UnityEngine
+{
+    /// A map of heights. Nothing of it is drawn here.
+    public sealed class TerrainData : Object
+    {
+        const int LeastResolution = 33, MostResolution = 4097;
+
+        float[,] heights = new float[LeastResolution, LeastResolution]; // by z and x, as shares of the size
+        Vector3 ownSize = new Vector3(LeastResolution - 1, 600f, LeastResolution - 1);
+
+        /// Grows with each change.
+        internal int Version { get; private set; }
+
+        /// Samples along each side: a power of two and one, from 33 to 4097, or else the nearest such number above. All heights become 0.
+        public int heightmapResolution
+        {
+            get => heights.GetLength(0);
+            set
+            {
+                var resolution = LeastResolution;
+                while (resolution < value && resolution < MostResolution) resolution = 2 * resolution - 1;
+                heights = new float[resolution, resolution];
+                Version++;
+            }
+        }
+
+        /// Metres between samples, and of the greatest height.
+        public Vector3 heightmapScale => new Vector3(ownSize.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
+
+        public Vector3 size
+        {
+            get => ownSize;
+            set
+            {
+                ownSize = value;
+                Version++;
+            }
+        }
+
+        public float GetHeight(int x, int y) => ownSize.y * heights[Inside(y), Inside(x)];
+
+        /// `heights` has a row for each step along z.
+        public void SetHeights(int xBase, int yBase, float[,] heights)
+        {
+            int rows = heights.GetLength(0), columns = heights.GetLength(1);
+            if (xBase < 0 || yBase < 0 || xBase + columns > heightmapResolution || yBase + rows > heightmapResolution)
+                throw new ArgumentException("The heights lie outside of the height map, which has " + heightmapResolution + " samples along each side.");
+            for (var row = 0; row < rows; row++)
+                for (var column = 0; column < columns; column++) this.heights[yBase + row, xBase + column] = Mathf.Clamp01(heights[row, column]);
+            Version++;
+        }
+
+        public float[,] GetHeights(int xBase, int yBase, int width, int height)
+        {
+            var part = new float[height, width];
+            for (var row = 0; row < height; row++)
+                for (var column = 0; column < width; column++) part[row, column] = heights[yBase + row, xBase + column];
+            return part;
+        }
+
+        int Inside(int index) => Math.Max(0, Math.Min(heightmapResolution - 1, index));
+    }
+}
