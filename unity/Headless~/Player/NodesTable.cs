@@ -45,11 +45,7 @@ namespace Collektive.Headless
                 writer.Write(start);
                 writer.Write(node.Id);
                 var answer = node.Answer;
-                foreach (var column in columns)
-                {
-                    writer.Write(',');
-                    writer.Write(column.Text(column.Member == null ? node.transform.position : answer == null ? null : column.Read(answer)));
-                }
+                foreach (var column in columns) column.Write(writer, column.Member == null ? node.transform.position : answer == null ? null : column.Read(answer));
                 writer.Write('\n');
             }
             writer.Flush();
@@ -84,13 +80,18 @@ namespace Collektive.Headless
 
         private sealed class Column
         {
-            private readonly string[] parts;
+            private const BindingFlags Any = BindingFlags.Public | BindingFlags.Instance | BindingFlags.IgnoreCase;
+
+            // Of a vector; none for other types.
+            private readonly MemberInfo[] parts;
 
             internal Column(string name, MemberInfo member, Type type)
             {
                 Member = member;
-                parts = PartsOf(type);
-                Header = parts.Length == 0 ? name : string.Join(",", parts.Select(part => name + "." + part));
+                var names = PartsOf(type);
+                type = Nullable.GetUnderlyingType(type) ?? type;
+                parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, Any) ?? type.GetProperty(part, Any));
+                Header = names.Length == 0 ? name : string.Join(",", names.Select(part => name + "." + part));
             }
 
             internal MemberInfo Member { get; }
@@ -99,19 +100,25 @@ namespace Collektive.Headless
 
             internal static bool CanHold(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
 
-            internal object Read(object answer) => Member is FieldInfo field ? field.GetValue(answer) : ((PropertyInfo)Member).GetValue(answer);
+            internal object Read(object answer) => ValueOf(Member, answer);
 
-            internal string Text(object value)
+            /// <summary>Writes a value with a comma before it, or before each part of a vector; empty cells for null.</summary>
+            internal void Write(TextWriter writer, object value)
             {
-                if (parts.Length == 0) return Cell(value);
-                return string.Join(",", parts.Select(part => value == null ? "" : Cell(Part(value, part))));
+                if (parts.Length == 0)
+                {
+                    writer.Write(',');
+                    writer.Write(Cell(value));
+                }
+                foreach (var part in parts)
+                {
+                    writer.Write(',');
+                    if (value != null) writer.Write(Cell(ValueOf(part, value)));
+                }
             }
 
-            private static object Part(object vector, string name)
-            {
-                const BindingFlags Any = BindingFlags.Public | BindingFlags.Instance | BindingFlags.IgnoreCase;
-                return vector.GetType().GetField(name, Any)?.GetValue(vector) ?? vector.GetType().GetProperty(name, Any).GetValue(vector);
-            }
+            private static object ValueOf(MemberInfo member, object owner) =>
+                member is FieldInfo field ? field.GetValue(owner) : ((PropertyInfo)member).GetValue(owner);
 
             private static string[] PartsOf(Type type)
             {
