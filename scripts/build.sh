@@ -88,6 +88,8 @@ build_csharp() {
   setup_flatbuffers
   setup_physics
   library "$NEWTONSOFT"
+  # Mono has it in a place of its own; CoreCLR looks beside the program.
+  library "$MONO_POSIX"
   # Mono looks for native libraries beside the assembly that calls them.
   library "$BUILD/physics/libcollektive_physics.so"
   local unity="$ROOT/unity"
@@ -117,9 +119,12 @@ make_replay_page() {
   COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/build.mjs" "$BUILD/replay.html"
 }
 
-# managed RUNTIME PROGRAM ARGUMENTS...: runs a .NET program with the shim in reach.
+# The command coreclr.
+export PATH="$ROOT/tools/coreclr:$PATH"
+
+# managed RUNTIME PROGRAM ARGUMENTS...: runs a .NET program with the shim in reach, on mono-sgen, mono-boehm or coreclr.
 managed() {
   local runtime=$1
   shift
-  LD_LIBRARY_PATH="$SHIM${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$runtime" --debug "$@"
+  LD_LIBRARY_PATH="$SHIM${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" COLLEKTIVE_RUNTIME="$runtime" "$runtime" --debug "$@"
 }

@@ -260,7 +260,8 @@ build_roslyn() {
   cp "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.dll "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.CSharp.dll \
     "$sdk/sdk/$version"/Roslyn/bincore/System.*.dll "$out/"
   cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472/System.*.dll "$out/"
-  cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk/tools/net472/Newtonsoft.Json.dll "$out/"
+  # For netstandard2.0: on Mono and on CoreCLR.
+  cp "$sdk/sdk/$version"/DotnetTools/dotnet-user-secrets/*/tools/netcoreapp3.1/any/Newtonsoft.Json.dll "$out/"
   cp "$sdk"/packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1/*.dll "$out/ref/"
   mcs -nologo -out:"$out/roslyn.exe" -r:"$out/Microsoft.CodeAnalysis.dll" -r:"$out/Microsoft.CodeAnalysis.CSharp.dll" \
     -r:"$out/System.Collections.Immutable.dll" -r:/usr/lib/mono/4.8-api/Facades/netstandard.dll "$ROOT/tools/roslyn/Roslyn.cs"
