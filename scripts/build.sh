@@ -17,6 +17,13 @@ GENERATED_CODE_SYMBOLS=("$(cat "$ROOT/unity/Runtime/Bridge/csc.rsp")" -unsafe+)
 PACKAGE_REFERENCES=("-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll" "-r:$CSHARP/UnityEngine.dll"
   "-r:$CSHARP/Collektive.Unity.dll")
 
+# What runs scenes.
+build_all() {
+  build_native
+  build_jvm
+  build_csharp
+}
+
 build_native() {
   setup_flatc
   once native-shim "$(fingerprint "$ROOT/native-shim" "$ROOT/CMakeLists.txt")-$(find_jdk)" build_shim

@@ -42,7 +42,7 @@ class Suite:
 
 def all_suites(jdks: list[str]) -> list[Suite]:
     """All suites in their order. The JVM side comes first: its tests build what the others use."""
-    built = ["build_native", "build_jvm", "build_csharp"]
+    built = ["build_all"]
     nunit = ["setup_nunit", *built, "build_csharp_tests"]
     newest = jdks[-1:]
     return [

@@ -108,13 +108,7 @@ test_jdks() {
 
 # Linters and test tools from PyPI, in a virtual environment.
 setup_python() {
-  once python-tools "$(fingerprint "$ROOT/tools/python") $(python3 --version)" fetch_python
-}
-
-fetch_python() {
-  rm -rf "$BUILD/python"
-  python3 -m venv "$BUILD/python"
-  "$PYTHON" -m pip install --disable-pip-version-check --no-deps --only-binary :all: -r "$ROOT/tools/python/requirements.txt"
+  once python-tools "$(fingerprint "$ROOT/tools/python") $(python3 --version)" new_environment "$BUILD/python" "$ROOT/tools/python/requirements.txt"
 }
 
 # ktlint with all that it needs, from Maven Central.
