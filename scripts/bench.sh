@@ -21,9 +21,7 @@ H
 }
 
 build_bench() {
-  build_native
-  build_jvm
-  build_csharp
+  build_all
   assembly Collektive.Headless.Bench.exe "$ROOT/unity/Headless~/Bench" "$ROOT/unity/Headless~/Player/Quantiles.cs" \
     "$ROOT/unity/Samples~/GradientAscent/Generated" -- "${GENERATED_CODE_SYMBOLS[@]}" "-r:$CSHARP/Collektive.FlatBuffers.dll" \
     "-r:$CSHARP/Collektive.Bridge.dll" "-r:$NEWTONSOFT" -target:exe
@@ -64,9 +62,7 @@ bench_scene() {
     esac
   done
   setup_system
-  build_native
-  build_jvm
-  build_csharp
+  build_all
   # Before the runs: their memory is measured with that of all processes that they start.
   scripts_dll "$sample/gradient_ascent.fbs" "$sample" >/dev/null
   python3 "$ROOT/scripts/bench_scene.py" "$out" "${arguments[@]}"

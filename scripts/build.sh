@@ -17,6 +17,13 @@ GENERATED_CODE_SYMBOLS=("$(cat "$ROOT/unity/Runtime/Bridge/csc.rsp")" -unsafe+)
 PACKAGE_REFERENCES=("-r:$CSHARP/Collektive.FlatBuffers.dll" "-r:$CSHARP/Collektive.Bridge.dll" "-r:$CSHARP/UnityEngine.dll"
   "-r:$CSHARP/Collektive.Unity.dll")
 
+# What runs scenes.
+build_all() {
+  build_native
+  build_jvm
+  build_csharp
+}
+
 build_native() {
   setup_flatc
   once native-shim "$(fingerprint "$ROOT/native-shim" "$ROOT/CMakeLists.txt")-$(find_jdk)" build_shim
@@ -88,6 +95,8 @@ build_csharp() {
   setup_flatbuffers
   setup_physics
   library "$NEWTONSOFT"
+  # Mono has it in a place of its own; CoreCLR looks beside the program.
+  library "$MONO_POSIX"
   # Mono looks for native libraries beside the assembly that calls them.
   library "$BUILD/physics/libcollektive_physics.so"
   local unity="$ROOT/unity"
@@ -117,9 +126,12 @@ make_replay_page() {
   COLLEKTIVE_NODE_MODULES="$BUILD/npm/node_modules" node "$ROOT/unity/Headless~/Replay/build.mjs" "$BUILD/replay.html"
 }
 
-# managed RUNTIME PROGRAM ARGUMENTS...: runs a .NET program with the shim in reach.
+# The command coreclr.
+export PATH="$ROOT/tools/coreclr:$PATH"
+
+# managed RUNTIME PROGRAM ARGUMENTS...: runs a .NET program with the shim in reach, on mono-sgen, mono-boehm or coreclr.
 managed() {
   local runtime=$1
   shift
-  LD_LIBRARY_PATH="$SHIM${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$runtime" --debug "$@"
+  LD_LIBRARY_PATH="$SHIM${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" COLLEKTIVE_RUNTIME="$runtime" "$runtime" --debug "$@"
 }

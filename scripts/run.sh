@@ -186,9 +186,7 @@ cmd_run() {
   done
   [ -n "$scenario" ] || fail "run: name a scenario file (see ./collektive run --help)"
   setup_system
-  build_native
-  build_jvm
-  build_csharp
+  build_all
   local plan schema programs scripts replay pictures jars plugin jar dll template=()
   plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "${reading[@]}")
   schema=$(planned "$plan" schema)

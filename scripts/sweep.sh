@@ -33,23 +33,15 @@ H
 
 # Python packages from PyPI, in a virtual environment of their own: only who sweeps or plots waits for them.
 setup_experiments() {
-  once experiments "$(fingerprint "$EXPERIMENTS/requirements.txt") $(python3 --version)" fetch_experiments requirements.txt
-}
-
-# fetch_experiments LIST: a new environment with the packages of requirements.txt, or others added to it.
-fetch_experiments() {
-  if [ "$1" = requirements.txt ]; then
-    rm -rf "$BUILD/experiments"
-    python3 -m venv "$BUILD/experiments"
-  fi
-  "$EXPERIMENTS_PYTHON" -m pip install --disable-pip-version-check --no-deps --only-binary :all: -r "$EXPERIMENTS/$1"
+  once experiments "$(fingerprint "$EXPERIMENTS/requirements.txt") $(python3 --version)" new_environment "$BUILD/experiments" "$EXPERIMENTS/requirements.txt"
 }
 
 # The same with what the tests of experiments/ use.
 setup_experiments_tests() {
   setup_experiments
   [ -n "${COLLEKTIVE_ALL:-}" ] || setup_ray
-  once experiments-tests "$(cat "$BUILD/stamp/experiments") $(fingerprint "$EXPERIMENTS/requirements-test.txt")" fetch_experiments requirements-test.txt
+  once experiments-tests "$(cat "$BUILD/stamp/experiments") $(fingerprint "$EXPERIMENTS/requirements-test.txt")" \
+    add_packages "$BUILD/experiments" "$EXPERIMENTS/requirements-test.txt"
 }
 
 cmd_sweep() { experiments sweep "$@"; }
@@ -67,7 +59,8 @@ experiments() {
 
 setup_ray() {
   setup_experiments
-  once ray "$(cat "$BUILD/stamp/experiments") $(fingerprint "$EXPERIMENTS/requirements-ray.txt")" fetch_experiments requirements-ray.txt
+  once ray "$(cat "$BUILD/stamp/experiments") $(fingerprint "$EXPERIMENTS/requirements-ray.txt")" \
+    add_packages "$BUILD/experiments" "$EXPERIMENTS/requirements-ray.txt"
 }
 
 experiments_python() {
@@ -88,9 +81,7 @@ test_experiments() {
 sweep_bundle() {
   local scenario=$1 folder=$2 plan jar dll file
   shift 2
-  build_native
-  build_jvm
-  build_csharp
+  build_all
   plan=$(managed mono-sgen "$CSHARP/Collektive.Player.exe" plan "$scenario" "$@")
   jar=$(programs_jar "$(planned "$plan" schema)" "$(planned "$plan" programs)" "$(planned "$plan" runtime_jars)" "$(planned "$plan" runtime_plugin)")
   dll=$(scripts_dll "$(planned "$plan" schema)" "$(planned "$plan" scripts)")

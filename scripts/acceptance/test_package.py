@@ -116,6 +116,11 @@ class ThePackage(Packaged):
         self.assertEqual(collektive("package", "--out", again).returncode, 0)
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
+    def test_its_assembly_does_not_depend_on_where_it_was_built(self):
+        # Symbols have the paths of the sources, and the assembly would have the symbols' id.
+        with open(os.path.join(self.root, "unity/Runtime/Plugins/Collektive.FlatBuffers.dll"), "rb") as file:
+            self.assertNotIn(b".pdb", file.read())
+
     def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self):
         # No file of the project and no variable says where the clone is.
         self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, self.project.folder], capture_output=True, text=True).stdout, "")

@@ -103,7 +103,7 @@ def test_the_results_of_ctest_are_read(tmp_path):
 def test_suites_are_chosen_by_name():
     known = suites.all_suites(["/jvm/17", "/jvm/25"])
     titles = [suite.title for suite in suites.chosen(known, ["shim", "csharp"])]
-    assert titles == ["shim-on-17", "shim-on-25", "unity", "csharp-on-17", "csharp-on-25"]
+    assert titles == ["shim-on-17", "shim-on-25", "unity", "csharp-on-17", "csharp-on-25", "csharp-on-coreclr"]
     with pytest.raises(ValueError, match="unknown suite 'nonesuch'; known: lint "):
         suites.chosen(known, ["nonesuch"])
 

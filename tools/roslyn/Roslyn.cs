@@ -31,7 +31,7 @@ static class Roslyn
         var output = Path.Combine(arguments.OutputDirectory, arguments.OutputFileName);
         Directory.CreateDirectory(arguments.OutputDirectory);
         using (var assembly = new MemoryStream())
-        using (var symbols = new MemoryStream())
+        using (var symbols = arguments.EmitPdb ? new MemoryStream() : null)
         using (var documentation = arguments.DocumentationPath == null ? null : new MemoryStream())
         {
             var result = compilation.Emit(
@@ -40,7 +40,9 @@ static class Roslyn
             Report(result.Diagnostics);
             if (!result.Success) return 1;
             File.WriteAllBytes(output, assembly.ToArray());
-            File.WriteAllBytes(Path.ChangeExtension(output, ".pdb"), symbols.ToArray());
+            var symbolsFile = Path.ChangeExtension(output, ".pdb");
+            if (symbols == null) File.Delete(symbolsFile);
+            else File.WriteAllBytes(symbolsFile, symbols.ToArray());
             if (documentation != null) File.WriteAllBytes(arguments.DocumentationPath, documentation.ToArray());
         }
         return 0;

@@ -1,4 +1,6 @@
 using System;
+using System.Reflection;
+using System.Runtime.CompilerServices;
 using System.Threading;
 using Collektive.Headless.Tests;
 
@@ -8,6 +10,12 @@ namespace Collektive.Headless.Faults
     internal static class Domains
     {
         private const int Times = 50;
+        private const int Collections = 20;
+
+        private static readonly Type[] Parts =
+        {
+            typeof(Google.FlatBuffers.FlatBufferBuilder), typeof(Bridge.Jvm), typeof(UnityEngine.Object), typeof(Unity.SimulationManager), typeof(ShimCounts),
+        };
 
         /// <summary>Whether all plays went well and left no session, slot or thread behind.</summary>
         internal static bool Play()
@@ -20,9 +28,7 @@ namespace Collektive.Headless.Faults
             {
                 // Every third one is unloaded in the middle of its play.
                 arguments[arguments.Length - 1] = i % 3 == 2 ? "act=play-on" : "act=play";
-                var domain = AppDomain.CreateDomain("play " + i);
-                var code = domain.ExecuteAssembly(typeof(Domains).Assembly.Location, arguments);
-                AppDomain.Unload(domain);
+                var code = IsCoreClr ? PlayInContext(arguments) : PlayInDomain(arguments);
                 if (code != 0 || ShimCounts.Sessions != 0 || ShimCounts.Slots != 0)
                 {
                     Console.WriteLine("play " + i + ": code " + code + ", " + ShimCounts.Sessions + " sessions, " + ShimCounts.Slots + " slots");
@@ -33,6 +39,45 @@ namespace Collektive.Headless.Faults
             var left = Settled() - threads;
             Console.WriteLine(left + " threads more after " + Times + " domains");
             return left <= 2;
+        }
+
+        private static bool IsCoreClr => typeof(object).Assembly.GetName().Name == "System.Private.CoreLib";
+
+        private static int PlayInDomain(string[] arguments)
+        {
+            var domain = AppDomain.CreateDomain("play");
+            var code = domain.ExecuteAssembly(typeof(Domains).Assembly.Location, arguments);
+            AppDomain.Unload(domain);
+            return code;
+        }
+
+        /// <summary>CoreCLR has load contexts in the place of domains. One goes when nothing refers to its code any more.</summary>
+        private static int PlayInContext(string[] arguments)
+        {
+            var code = PlayInContext(arguments, out var context);
+            for (var i = 0; i < Collections && context.IsAlive; i++)
+            {
+                GC.Collect();
+                GC.WaitForPendingFinalizers();
+            }
+            if (context.IsAlive) throw new InvalidOperationException("something still refers to the code of a play that is over");
+            return code;
+        }
+
+        // By reflection, as the class is not in netstandard2.1. No variable of the caller may refer to what is in the context.
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static int PlayInContext(string[] arguments, out WeakReference reference)
+        {
+            var type = typeof(object).Assembly.GetType("System.Runtime.Loader.AssemblyLoadContext", true);
+            var load = type.GetMethod("LoadFromAssemblyPath");
+            var context = Activator.CreateInstance(type, "play", true);
+            reference = new WeakReference(context, true);
+            // What is not loaded there is shared with the caller.
+            foreach (var part in Parts) load.Invoke(context, new object[] { part.Assembly.Location });
+            var program = (Assembly)load.Invoke(context, new object[] { typeof(Domains).Assembly.Location });
+            var code = (int)program.EntryPoint.Invoke(null, new object[] { arguments });
+            type.GetMethod("Unload").Invoke(context, null);
+            return code;
         }
 
         private static int Settled()

@@ -8,7 +8,8 @@ namespace Collektive.Headless.Faults
     /// <summary>
     /// One fault in a process of its own: plays a scene, has the fault happen in its fourth tick or at its start, and tells what still
     /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, limit (of a tick, in milliseconds), fault (of
-    /// the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0.
+    /// the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0. With act=exit it ends in the way that
+    /// how says.
     /// </summary>
     internal static class Program
     {
@@ -19,7 +20,6 @@ namespace Collektive.Headless.Faults
 
         private static int Main(string[] arguments)
         {
-            Loop.IsEditor = true;
             var options = new List<string>();
             var values = new Dictionary<string, string>();
             foreach (var argument in arguments)
@@ -30,10 +30,12 @@ namespace Collektive.Headless.Faults
             }
             string Value(string key, string other) => values.TryGetValue(key, out var value) ? value : other;
             var act = Value("act", "none");
-            limitMs = int.Parse(values["limit"]);
+            limitMs = int.Parse(Value("limit", "30000"));
             var good = new Setting(values["home"], values["host"], values["jar"], new[] { "-Xmx128m", "-XX:+UseSerialGC" });
             var faulty = new Setting(Value("bad-home", good.Home), Value("bad-host", good.Host), Value("bad-jar", good.Jar),
                 options.Count > 0 ? options.ToArray() : good.Options);
+            Loop.IsEditor = act != "exit";
+            if (act == "exit") return Exit.Play(faulty, values["how"]);
             if (act == "play") return Play(good, "none", "none") ? 0 : 1;
             if (act == "play-on")
             {

@@ -15,18 +15,24 @@ namespace Collektive.Headless.Faults
 
         internal Scene(Setting setting, string fault, int limitMs)
         {
+            manager = MakeManager(setting);
+            manager.Settings.stepLimitMs = limitMs;
+            good = MakeNode("none", out _);
+            bad = MakeNode(fault, out trigger);
+        }
+
+        internal static SimulationManager MakeManager(Setting setting)
+        {
             Installation.JavaHome = setting.Home;
             Installation.HostJar = setting.Host;
-            manager = new GameObject("Simulation Manager").AddComponent<SimulationManager>();
+            var manager = new GameObject("Simulation Manager").AddComponent<SimulationManager>();
             manager.Settings.schema = "probe.ProbeSchema";
             manager.Settings.jars.Add(setting.Jar);
             manager.Settings.program = "fault";
-            manager.Settings.stepLimitMs = limitMs;
             manager.Settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             manager.Settings.jvm.settings.cdsArchive = false;
             manager.Settings.jvm.settings.flags.AddRange(setting.Options);
-            good = MakeNode("none", out _);
-            bad = MakeNode(fault, out trigger);
+            return manager;
         }
 
         /// <summary>Whether the nodes' rounds go on after the fault.</summary>

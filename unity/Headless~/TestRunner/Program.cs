@@ -10,8 +10,9 @@ using UnityEngine.Headless;
 using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
-/// Usage: Collektive.TestRunner.exe [--results FILE] [--without CATEGORY] ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
-/// or none ran. FILE gets the results as JUnit XML at the end; a run that does not come to its end leaves none.
+/// Usage: Collektive.TestRunner.exe [--results FILE] [--without CATEGORY]... ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
+/// or none ran; tests of a category that are left out are counted. FILE gets the results as JUnit XML at the end; a run that does not come to its
+/// end leaves none.
 /// An attribute of NUnit's that this runner does not know is a failure: its test might not be run as it asks.
 /// Tests of an assembly that uses Unity's test framework get what it gives them: log assertions, coroutines, and, unless it uses the
 /// editor, play mode.
@@ -29,7 +30,7 @@ static class Program
     };
 
     static readonly XElement results = new XElement("testsuite");
-    static string without = "";
+    static readonly SortedDictionary<string, int> leftOut = new SortedDictionary<string, int>(StringComparer.Ordinal);
     static int passed, failed;
     static bool isUnity, isPlayMode;
 
@@ -39,7 +40,7 @@ static class Program
         while (arguments[0].StartsWith("--", StringComparison.Ordinal))
         {
             if (arguments[0] == "--results") file = arguments[1];
-            else if (arguments[0] == "--without") without = arguments[1];
+            else if (arguments[0] == "--without") leftOut[arguments[1]] = 0;
             else throw new ArgumentException("unknown option " + arguments[0]);
             arguments = arguments.AsSpan(2).ToArray();
         }
@@ -65,6 +66,7 @@ static class Program
                 foreach (TestCaseAttribute testCase in cases) Run(type, method, testCase, filter);
             }
         }
+        foreach (var category in leftOut) Console.WriteLine($"{category.Value} tests of category {category.Key} are left out");
         Console.WriteLine($"{passed} passed, {failed} failed");
         if (file != null)
         {
@@ -79,7 +81,12 @@ static class Program
         var arguments = testCase?.Arguments;
         var name = $"{type.FullName}.{method.Name}" + (arguments == null ? "" : "(" + string.Join(", ", arguments) + ")");
         if (name.IndexOf(filter, StringComparison.Ordinal) < 0 || method.IsDefined(typeof(IgnoreAttribute), true)) return;
-        if (IsIn(without, method) || IsIn(without, type)) return;
+        foreach (var category in new List<string>(leftOut.Keys))
+        {
+            if (!IsIn(category, method) && !IsIn(category, type)) continue;
+            leftOut[category]++;
+            return;
+        }
         var clock = Stopwatch.StartNew();
         Exception failure = null;
         if (isUnity) Begin();

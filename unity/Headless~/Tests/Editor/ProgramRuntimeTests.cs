@@ -12,6 +12,7 @@ namespace Collektive.Headless.Tests.Editor
     /// <summary>
     /// Tools &gt; Collektive &gt; Rebuild Programs for a scene that runs on Collektive. The package's library and compiler plugin stand in for Collektive's.
     /// </summary>
+    [Category("Mono")]
     public sealed class ProgramRuntimeTests : ProjectFixture
     {
         private const string Jar = "Library/Collektive/swarm-collektive.jar";

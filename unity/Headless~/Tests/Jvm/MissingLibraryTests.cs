@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests
         private string Play(string where, string assemblies)
         {
             var arguments = "--debug \"" + Path.Combine(assemblies, Program) + "\" " + where;
-            var start = new ProcessStartInfo(Process.GetCurrentProcess().MainModule.FileName, arguments)
+            var start = new ProcessStartInfo(TestJvm.Variable("COLLEKTIVE_RUNTIME"), arguments)
             {
                 UseShellExecute = false,
                 RedirectStandardOutput = true,
