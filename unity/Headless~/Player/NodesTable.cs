@@ -45,7 +45,8 @@ namespace Collektive.Headless
                 writer.Write(start);
                 writer.Write(node.Id);
                 var answer = node.Answer;
-                foreach (var column in columns) column.Write(writer, column.Member == null ? node.transform.position : answer == null ? null : column.Read(answer));
+                foreach (var column in columns)
+                    column.Write(writer, column.Member == null ? node.transform.position : answer == null ? null : column.Read(answer));
                 writer.Write('\n');
             }
             writer.Flush();
