@@ -30,30 +30,42 @@ cmd_package() {
   if [ -n "$jre" ] && [ -n "$all" ]; then fail "package: --all makes packages of JVMs; it does not go with --jre"; fi
   setup_system
   build_all
-  if [ -n "$all" ]; then
-    build_platforms
-    for platform in $FLATC_PLATFORMS; do setup_platform_flatc "$platform"; done
-  fi
+  if [ -n "$all" ]; then build_all_platforms; fi
   # Each command makes the package in a folder of its own, so that several can do it at once.
   package=$(mktemp -d)
   # shellcheck disable=SC2064 # the folder of now
   trap "rm -rf '$package'" EXIT
-  mkdir "$package/archive" "$package/content"
-  logged "$BUILD/log/stage-package.log" stage_package "$package/content" "$all"
-  if [ -n "$jre" ]; then logged "$BUILD/log/stage-jre.log" stage_jre "$package/content"; fi
-  mkdir -p "$out"
-  pack "$package" content "$out" "$jre"
+  pack_core "$package" "$out" "$jre" "$all"
   [ -n "$all" ] || return 0
-  for platform in $(platforms); do
-    cut_jre "$platform"
-    logged "$BUILD/log/stage-jvm-$platform.log" stage_jvm_package "$package/$platform" "$platform"
-    pack "$package" "$platform" "$out" ""
-  done
+  for platform in $(platforms); do pack_jvm "$package" "$out" "$platform"; done
+}
+
+# What the package of all platforms has beside what this one's has.
+build_all_platforms() {
+  local platform
+  build_platforms
+  for platform in $FLATC_PLATFORMS; do setup_platform_flatc "$platform"; done
+}
+
+# pack_core WORK OUT -jre|"" yes|"": the package into OUT, with a JVM or not, for all platforms or this one; WORK is a folder for its parts.
+pack_core() {
+  mkdir "$1/content"
+  logged "$BUILD/log/stage-package.log" stage_package "$1/content" "$4"
+  if [ -n "$3" ]; then logged "$BUILD/log/stage-jre.log" stage_jre "$1/content"; fi
+  pack "$1" content "$2" "$3"
+}
+
+# pack_jvm WORK OUT PLATFORM: the package with a platform's JVM.
+pack_jvm() {
+  cut_jre "$3"
+  logged "$BUILD/log/stage-jvm-$3.log" stage_jvm_package "$1/$3" "$3"
+  pack "$1" "$3" "$2" ""
 }
 
 # pack WORK NAME OUT SUFFIX: packs the folder WORK/NAME into OUT and prints the archive.
 pack() {
   local archive
+  mkdir -p "$1/archive" "$3"
   archive=$(npm pack "$1/$2" --pack-destination "$1/archive" --ignore-scripts --silent)
   mv "$1/archive/$archive" "$3/${archive%.tgz}$4.tgz"
   echo "$3/${archive%.tgz}$4.tgz"

@@ -89,7 +89,7 @@ static int32_t load(create_function **create) {
     char why[512];
     snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, jvm.launch.home);
     void *library = prim_library_open(path, why, sizeof why);
-    if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s cannot be loaded: %s", path, why);
+    if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s cannot be loaded: %s; the JVM must be one for " PRIM_PLATFORM, path, why);
     created_function *created;
     *(void **)create = prim_library_symbol(library, "JNI_CreateJavaVM");
     *(void **)&created = prim_library_symbol(library, "JNI_GetCreatedJavaVMs");

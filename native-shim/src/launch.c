@@ -127,9 +127,10 @@ static int32_t check_home_file(const char *home, const char *file) {
     snprintf(path, sizeof path, "%s/%s", home, file);
     switch (prim_file_kind(path)) {
         case PRIM_FILE: return CLK_OK;
-        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "%s cannot be read; check its permissions", path);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "%s cannot be read; " PRIM_READ_ADVICE, path);
         default:
-            return error_set(CLK_JVM_NOT_FOUND, "%s is missing; the JVM's home must be the root of a JRE or JDK of version 17 or newer",
+            return error_set(CLK_JVM_NOT_FOUND,
+                             "%s is missing; the JVM's home must be the root of a JRE or JDK of version 17 or newer for " PRIM_PLATFORM,
                              path);
     }
 }
@@ -140,8 +141,8 @@ static int32_t check_release(const char *home, int version, const char *system, 
                          OLDEST_JAVA);
     }
     if (strcmp(system, PRIM_SYSTEM) == 0 && strcmp(architecture, PRIM_ARCHITECTURE) == 0) return CLK_OK;
-    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is for %s on %s; this process needs one for " PRIM_SYSTEM " on " PRIM_ARCHITECTURE,
-                     home, system, architecture);
+    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is for %s on %s; this process needs one for " PRIM_PLATFORM, home, system,
+                     architecture);
 }
 
 /* What the file `release` does not tell, or a home without one, is accepted. */
@@ -164,7 +165,7 @@ static int32_t check_home(const char *home) {
     switch (prim_file_kind(home)) {
         case PRIM_DIRECTORY: break;
         case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; give the root of a JRE or JDK", home);
-        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; check its permissions", home);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; " PRIM_READ_ADVICE, home);
         default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
     }
     /* Another platform's JVM has other files. */
@@ -185,7 +186,7 @@ static int32_t check_class_path(const char *class_path) {
         if (kind == PRIM_MISSING) {
             return error_set(CLK_HOST, "%s of the host's class path does not exist; build or reinstall the host", entry);
         }
-        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "%s of the host's class path cannot be read; check its permissions", entry);
+        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "%s of the host's class path cannot be read; " PRIM_READ_ADVICE, entry);
         at = end != NULL ? end + 1 : at + length;
     }
     return CLK_OK;

@@ -18,6 +18,7 @@
 #define PRIM_JAVA "bin/java.exe"
 #define PRIM_NULL_FILE "NUL"
 #define PRIM_SYSTEM "Windows"
+#define PRIM_READ_ADVICE "check its permissions, and close the program that keeps it open"
 #define PRIM_FOREIGN_TEXT "the code page of Windows cannot express %s; use a path of plain ASCII"
 typedef struct {
     void *lock;
@@ -33,6 +34,7 @@ typedef union {
 #define PRIM_PATH_SEPARATOR ':'
 #define PRIM_JAVA "bin/java"
 #define PRIM_NULL_FILE "/dev/null"
+#define PRIM_READ_ADVICE "check its permissions"
 #define PRIM_FOREIGN_TEXT "the locale of the process cannot express %s; set LC_ALL=C.UTF-8 or use a path of plain ASCII"
 typedef pthread_mutex_t prim_mutex;
 #define PRIM_MUTEX_INIT PTHREAD_MUTEX_INITIALIZER
@@ -56,6 +58,7 @@ typedef struct {
 #else
 #define PRIM_ARCHITECTURE "x86_64"
 #endif
+#define PRIM_PLATFORM PRIM_SYSTEM " on " PRIM_ARCHITECTURE
 
 /* ---- Time: monotonic nanoseconds, also as deadlines ------------------------------------------------------------------ */
 

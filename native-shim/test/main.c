@@ -55,13 +55,20 @@ void check_code(const char *file, int line, const char *call, int32_t expected, 
 
 /* ---- Places ---------------------------------------------------------------------------------------------------------- */
 
-/* A copy: on Windows a change of the environment moves what getenv returned. */
+/* The variable CLK_TEST_JAVA_HOME in UTF-8; NULL without one. */
+static const char *named_java_home(void) {
+#if defined(_WIN32)
+    static char home[4096];
+    const wchar_t *wide = _wgetenv(L"CLK_TEST_JAVA_HOME");
+    return wide != NULL && WideCharToMultiByte(CP_UTF8, 0, wide, -1, home, sizeof home, NULL, NULL) > 0 ? home : NULL;
+#else
+    return getenv("CLK_TEST_JAVA_HOME");
+#endif
+}
+
 const char *java_home(void) {
-    static char *home;
-    const char *named = getenv("CLK_TEST_JAVA_HOME");
-    if (home == NULL) home = strdup(named != NULL ? named : TEST_JAVA_HOME);
-    CHECK(home != NULL);
-    return home;
+    const char *named = named_java_home();
+    return named != NULL ? named : TEST_JAVA_HOME;
 }
 
 bool java_is_17(void) {

@@ -91,7 +91,7 @@ void home_of_another_platform(void) {
     const char *home = make_broken_home();
     write_file(home, "lib/modules", "x", 0644);
     write_file(home, "release", "JAVA_VERSION=\"25\"\nOS_ARCH=\"riscv64\"\nOS_NAME=\"" PRIM_SYSTEM "\"\n", 0644);
-    CHECK_CODE(CLK_JVM_NOT_FOUND, " on riscv64; this process needs one for " PRIM_SYSTEM " on " PRIM_ARCHITECTURE, start_home(home));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, " on riscv64; this process needs one for " PRIM_PLATFORM, start_home(home));
     write_file(home, "release", "JAVA_VERSION=\"25\"\nOS_ARCH=\"" PRIM_ARCHITECTURE "\"\nOS_NAME=\"SunOS\"\n", 0644);
     CHECK_CODE(CLK_JVM_NOT_FOUND, "is for SunOS on", start_home(home));
     check_start_still_works();
@@ -100,7 +100,49 @@ void home_of_another_platform(void) {
 void home_with_a_broken_libjvm(void) {
     const char *home = make_broken_home();
     write_file(home, "lib/modules", "", 0644);
-    CHECK_CODE(CLK_JVM_NOT_FOUND, "cannot be loaded", start_home(home));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "; the JVM must be one for " PRIM_PLATFORM, start_home(home));
+    check_start_still_works();
+}
+
+#if defined(_WIN32)
+/* As another program does that opens a file for itself. */
+static void *withhold(const char *folder, const char *name) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    HANDLE file = CreateFileA(path, GENERIC_READ, 0, NULL, OPEN_EXISTING, 0, NULL);
+    CHECK(file != INVALID_HANDLE_VALUE);
+    return file;
+}
+
+static void give_back(void *file) { CloseHandle(file); }
+#else
+/* Nobody may read it; this process may be of root's, who may read all. */
+static void *withhold(const char *folder, const char *name) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    CHECK(chmod(path, 0) == 0 && (geteuid() != 0 || setreuid(65534, (uid_t)-1) == 0));
+    return NULL;
+}
+
+static void give_back(void *file) {
+    (void)file;
+    CHECK(geteuid() != 0 || setreuid(0, (uid_t)-1) == 0);
+}
+#endif
+
+void files_that_cannot_be_read(void) {
+    char path[4096];
+    const char *home = make_broken_home();
+    write_file(home, "lib/modules", "", 0644);
+    write_file(home, "host.jar", "", 0644);
+    snprintf(path, sizeof path, "%s/host.jar", home);
+    void *library = withhold(home, PRIM_LIBJVM);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, PRIM_LIBJVM " cannot be read; " PRIM_READ_ADVICE, start_home(home));
+    give_back(library);
+    void *jar = withhold(home, "host.jar");
+    CHECK_CODE(CLK_HOST, "host.jar of the host's class path cannot be read; " PRIM_READ_ADVICE,
+               start_at(java_home(), path, NULL, true, 60000));
+    give_back(jar);
     check_start_still_works();
 }
 
