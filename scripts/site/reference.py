@@ -1,16 +1,13 @@
-"""Pages of the site that are made from the code: the command line, error codes, JVM settings, the APIs of C#, Kotlin and C."""
+"""Pages of the site that are made from the code: the command line, errors, JVM settings, the APIs of C#, Kotlin and C."""
 import glob
 import os
 import re
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
+from errors import errors
 from places import COLLEKTIVE, ROOT
-
-
-def text(path):
-    with open(os.path.join(ROOT, path)) as file:
-        return file.read()
+from sources import text
 
 
 def command_line(_):
@@ -55,13 +52,6 @@ def eval_shift(number):
     """The value of `8` and of `1 << 20`."""
     base, _, shift = number.partition("<<")
     return int(base) << int(shift or 0)
-
-
-def error_codes(_):
-    rows = re.findall(r'X\((\w+), (-?\d+), "([^"]+)"\)', text("native-shim/include/collektive_shim.h"))
-    page = ("# Error codes\n\nWhat the functions of the native library return, and `BridgeException.Code` in C#. The text of an error says more; "
-            "[Troubleshooting](../troubleshooting.md) lists texts and what to do.\n\n| Code | Name | Meaning |\n|---|---|---|\n")
-    return page + "".join(f"| {code} | `CLK_{name}` | {meaning} |\n" for name, code, meaning in rows)
 
 
 def c_header(_):
@@ -214,7 +204,7 @@ PAGES = {
     "command-line": command_line,
     "simulation-settings": simulation_settings,
     "jvm-settings": jvm_settings,
-    "error-codes": error_codes,
+    "errors": errors,
     "csharp-unity": csharp("Collektive.Unity"),
     "csharp-bridge": csharp("Collektive.Bridge"),
     "kotlin-api": kotlin("api", "What a program sees beside the DSL: its annotation, its device, its parameters."),
