@@ -17,6 +17,9 @@ field of the scene builder: nodes=100. --recording makes a flight recording of t
 A tick of which every round fails ends the run; with --keep-going it goes on.
 --trust-jvm lets the file's JVM settings write files, open ports and load code, which else are refused: Documentation~/trust.md.
 The scenario file's keys are described in Documentation~/headless.md.
+
+Exit code: 0 the simulation reached its end; 1 it stopped early, or rounds, sensors or actuators failed; 130 Ctrl-C; any that a
+script gives to Application.Quit.
 H
 }
 

@@ -1,17 +1,13 @@
-"""Pages of the site that are made from the code: the command line, errors, settings, the APIs of C#, Kotlin and C."""
+"""Pages of the site that are made from the code: the command line, errors, JVM settings, the APIs of C#, Kotlin and C."""
 import glob
-import json
 import os
 import re
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
+from errors import errors
 from places import COLLEKTIVE, ROOT
-
-
-def text(path):
-    with open(os.path.join(ROOT, path)) as file:
-        return file.read()
+from sources import text
 
 
 def command_line(_):
@@ -56,37 +52,6 @@ def eval_shift(number):
     """The value of `8` and of `1 << 20`."""
     base, _, shift = number.partition("<<")
     return int(base) << int(shift or 0)
-
-
-def errors(_):
-    """Codes of the C header, diagnostics of the compiler plugin, and the faults that the tests cause."""
-    rows = re.findall(r'X\((\w+), (-?\d+), "([^"]+)"\)', text("native-shim/include/collektive_shim.h"))
-    names = dict(re.findall(r"(?m)^        (\w+) = (-\d+),", text("unity/Runtime/Bridge/BridgeException.cs")))
-    kinds = {code: name for name, code in names.items()}
-    page = ("# Errors\n\nThe text of an error says what happened, to what, and what to do; [Troubleshooting](../troubleshooting.md) lists texts.\n\n"
-            "## Of the native library\n\nWhat its functions return, and `BridgeException.Error` in C#.\n\n| Code | C | C# | Meaning |\n|---|---|---|---|\n")
-    page += "".join(f"| {code} | `CLK_{name}` | {f'`{kinds[code]}`' if code in kinds else ''} | {meaning} |\n" for name, code, meaning in rows)
-    page += ("\n## Of the compiler plugin\n\nErrors stop the build of programs, warnings do not. `@Suppress` takes the names.\n\n"
-             "| Name | | Text |\n|---|---|---|\n")
-    page += "".join(f"| `{name}` | {kind} | {message} |\n" for name, kind, message in diagnostics())
-    page += ("\n## Faults that were tried\n\nEach is caused by the tests in a process of its own, on each runtime of C# and each JVM: what the user reads, "
-             "as a regular expression, and what works afterwards.\n\n| Fault | Message | Afterwards works |\n|---|---|---|\n")
-    for fault in json.loads(text("scripts/faults/faults.json")):
-        message = f"`{fault['reads']}`".replace("|", "\\|") if "reads" in fault else "none"
-        page += f"| {fault['fault']} | {message} | {fault['works']} |\n"
-    return page
-
-
-def diagnostics():
-    """Name, kind and text of each diagnostic of the compiler plugin; X, Y for what a text names."""
-    source = text("jvm-host/compiler-plugin/src/main/kotlin/org/collektive/compiler/checks/AggregateDiagnostics.kt")
-    texts = {}
-    pattern = r'(?:listOf\(([A-Z_, ]+)\)[^"]*?|map\.put\(\s*([A-Z_]+),\s*)((?:"[^"]*"[\s+]*)+)'
-    for listed, single, quoted in re.findall(pattern, source):
-        message = "".join(re.findall(r'"([^"]*)"', quoted)).replace("''{0}''", "`X`").replace("{1}", "Y").replace("'{'", "{").replace("'}'", "}")
-        texts |= {name: message for name in (listed or single).split(", ")}
-    for name, kind in re.findall(r"val ([A-Z_]+) by (error|warning)\d", source):
-        yield name, kind, texts[name]
 
 
 def c_header(_):

@@ -4,7 +4,6 @@ import os
 import re
 
 import pytest
-import reference
 from places import ROOT
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"links"})
@@ -66,20 +65,3 @@ def test_what_lacks_documentation_is_found():
     assert list(undocumented_kotlin("/**\n * A.\n *\n * @property a its a.\n */\n@Serializable\npublic class A(\n    public val a: Int,\n)")) == []
     assert list(undocumented_c("\nCLK_API int f(void);\n\ntypedef struct a {\n    uint32_t size;\n    int b;\n    int c; /* c */\n} a;\n")) == [
         "2: CLK_API int f(void);", "4: typedef struct a {", "6: int b;"]
-
-
-def test_the_page_of_errors_has_all_codes_diagnostics_and_faults():
-    page = reference.errors(None)
-    with open(os.path.join(ROOT, HEADER)) as file:
-        codes = re.findall(r"X\((\w+), (-?\d+), ", file.read())
-    assert [name for name, code in codes if f"| {code} | `CLK_{name}` |" not in page] == []
-    with open(os.path.join(ROOT, "unity/Runtime/Bridge/BridgeException.cs")) as file:
-        kinds = re.findall(r"(?m)^        (\w+) = -\d+,$", file.read())
-    assert len(kinds) + 1 == len(codes)
-    assert [kind for kind in kinds if f"| `{kind}` |" not in page] == []
-    declared = set()
-    for path in glob.glob(os.path.join(ROOT, "jvm-host/compiler-plugin/src/main/kotlin/**/*.kt"), recursive=True):
-        with open(path) as file:
-            declared |= set(re.findall(r"val ([A-Z_]+) by (?:error|warning)\d", file.read()))
-    assert declared == {name for name, kind, message in reference.diagnostics() if kind in ("error", "warning") and len(message) > 20}
-    assert page.count("| next tick |") > 20

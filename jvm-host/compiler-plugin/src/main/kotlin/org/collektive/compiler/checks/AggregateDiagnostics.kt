@@ -10,15 +10,36 @@ import org.jetbrains.kotlin.diagnostics.warning0
 import org.jetbrains.kotlin.diagnostics.warning1
 import org.jetbrains.kotlin.diagnostics.warning2
 
-/** The diagnostics of the checks. `@Suppress` accepts their names. */
+/** The diagnostics of the checks: when each is reported, and what to do. `@Suppress` accepts their names. */
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
+    /**
+     * A `Field` is the value of an arm of `if` or `when`.
+     * Collapse it inside the arm, or make it before the branch and choose between values.
+     */
     val FIELD_FROM_BRANCH by error0<PsiElement>()
+
+    /** A `Field` leaves an arm by `?:`, by `return` or by assignment to something outside. Do the same as for [FIELD_FROM_BRANCH]. */
     val FIELD_LEAVES_BRANCH by warning0<PsiElement>()
+
+    /**
+     * An aggregate call stands in a loop or a collection's lambda without `alignedOn`.
+     * Wrap the body in `alignedOn(key)`, with a key that differs in each iteration.
+     */
     val AGGREGATE_CALL_IN_LOOP by warning1<PsiElement, String>()
+
+    /** `align` or `dealign` is called by hand. Use `alignedOn`. */
     val MANUAL_ALIGNMENT by warning1<PsiElement, String>()
+
+    /** `evolve` sends its old value by `neighboring`. Use `share`, which sends it a round earlier. */
     val EVOLVE_THAT_SHARES by warning0<PsiElement>()
+
+    /** The lambda of a primitive ignores its parameter. Use the simpler expression that the message names. */
     val IGNORED_PARAMETER by warning2<PsiElement, String, String>()
+
+    /** `yielding` returns the value that is stored. Use the variant without it. */
     val NEEDLESS_YIELDING by warning0<PsiElement>()
+
+    /** `neighboring` sends a literal. Use `neighborhood()` or `mapNeighborhood`. */
     val CONSTANT_NEIGHBORING by warning0<PsiElement>()
 
     override fun getRendererFactory(): BaseDiagnosticRendererFactory = Texts
