@@ -186,7 +186,8 @@ test_platforms() {
   python3 "$ROOT/scripts/skipped.py" "$1" >>"$1/notes"
   unlock
   # shellcheck disable=SC2310 # its result is that of its last command
-  COLLEKTIVE_CROSS="$CROSS" COLLEKTIVE_PLATFORMS="$chosen" COLLEKTIVE_JAVA_COMMANDS="{$java_commands}" COLLEKTIVE_JDK=$(find_jdk) python_tests "$1" "$ROOT/scripts/platforms" || code=1
+  COLLEKTIVE_CROSS="$CROSS" COLLEKTIVE_PLATFORMS="$chosen" COLLEKTIVE_JAVA_COMMANDS="{$java_commands}" COLLEKTIVE_JDK=$(find_jdk) \
+    python_tests "$1" "$ROOT/scripts/platforms" || code=1
   cat "$1/notes"
   return "$code"
 }
