@@ -44,7 +44,11 @@ public class JarBytes(public val path: String, public val bytes: ByteArray) {
         } catch (e: InvalidPathException) {
             throw HostException(HostError.PROGRAM, "'$path' is not a path of a jar", e)
         } catch (e: IOException) {
-            throw HostException(HostError.PROGRAM, "the jar $path cannot be read: $e", e)
+            throw HostException(
+                HostError.PROGRAM,
+                "the jar $path cannot be read: $e; check its permissions, and close the program that keeps it open",
+                e,
+            )
         }
     }
 }
