@@ -19,6 +19,11 @@ internal class NameRules(
     private val objects = (0 until schema.objectsLength()).map(schema::objects).filter { isOwn(it.declarationFile()) }
     private val enums = (0 until schema.enumsLength()).map(schema::enums).filter { isOwn(it.declarationFile()) }
 
+    /** The first parts of all namespaces that generated code names. */
+    private val roots = (
+        (0 until schema.objectsLength()).map { schema.objects(it).name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
+        ).map { it.substringBefore('.') }.toSet()
+
     /** Checks the types of the user's files, and the names [made] of generated types. */
     fun check(made: List<String>) {
         for (name in objects.map { it.name() } + enums.map { it.name() }) checkType(name)
@@ -50,6 +55,10 @@ internal class NameRules(
                 "the namespace ${namespace.joinToString(".")} is that of a library, or a name in generated code; rename the namespace",
             )
         }
+        if (simple in roots) refuse(name, "in generated code it hides the namespace $simple; rename one of them")
+        namespace.drop(1).find { it in roots }?.let {
+            refuse(name, "in C# the $it in its namespace hides the namespace $it; rename one of them")
+        }
         if (name.length > MAX_NAME) {
             refuse(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
         }
@@ -67,6 +76,10 @@ internal class NameRules(
             val other = seen.put(name.replace('.', '_').uppercase(), name) ?: continue
             val place = if (name in made) other else name
             refuse(place, if (name == other) "$TAKEN; rename the type" else "its name is too similar to that of $other; rename one of them")
+        }
+        for (name in objects.map { it.name() }) {
+            val verifier = seen["${name}Verify".replace('.', '_').uppercase()] ?: continue
+            refuse(verifier, "generated code of $name has a class of this name; rename one of them")
         }
         val namespaces = seen.values.flatMap { name -> prefixes(name) }.toSet()
         seen.values.find { it in namespaces }?.let { refuse(it, "a namespace has the same name; rename one of them") }
@@ -87,11 +100,24 @@ internal class NameRules(
             val member = upperCamel(field.name())
             checkWord(place, field.name())
             if (member in RESERVED_MEMBERS) refuse(place, "C# or Java has a member of this name in every class; rename the field")
+            if (member in roots) refuse(place, "in C# it hides the namespace $member; rename one of them")
+            if (type.isStruct) checkInner(field)
             if (!field.name().first().isLetter()) refuse(place, "a name begins with a letter; rename the field")
             seen.put(member, field.name())?.let {
                 refuse(place, "generated code calls both this field and $it $member; rename one of them")
             }
             taken[member]?.let { refuse(place, "generated code of $it has a member of this name; rename one of them") }
+        }
+    }
+
+    /** What makes a struct has a parameter for each number in it, whose name C# cannot write if a keyword is in its middle. */
+    private fun checkInner(field: BinaryField) {
+        if (field.type().baseType() != BaseType.Obj) return
+        val inner = schema.objects(field.type().index())
+        for (index in 0 until inner.fieldsLength()) {
+            val part = inner.fields(index)
+            if (part.type().baseType() != BaseType.Obj || part.name() !in Words.reserved) continue
+            refuse("${inner.name()}.${part.name()}", "C# cannot name it where this struct is part of another one; rename the field")
         }
     }
 
@@ -129,7 +155,7 @@ internal class NameRules(
         /** Field names with which flatc's code does not compile. */
         val RESERVED_MEMBERS = setOf(
             "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
-            "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer",
+            "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer", "Table",
         )
     }
 }

@@ -115,6 +115,16 @@ internal class RefusalTest {
             namespace("kotlin") to "the namespace kotlin is that of a library",
             namespace("org.collektive.frames") to "the namespace org.collektive.frames is that of a library",
             namespace("data") to "the namespace data is that of a library, or a name in generated code",
+            fields("table: int;") to "user.fbs:4: SensorData.table: C# or Java has a member of this name",
+            type("struct SensorDataVerify { y: int; }") to
+                "user.fbs:3: SensorDataVerify: generated code of a.SensorData has a class of this name; rename one of them",
+            type("struct a { y: int; }") to "user.fbs:3: a: in generated code it hides the namespace a; rename one of them",
+            namespace("SensorData.inner") to "SensorData: in generated code it hides the namespace SensorData",
+            namespace("swarm.inner.swarm") to "in C# the swarm in its namespace hides the namespace swarm; rename one of them",
+            "include \"types.fbs\";\n" + namespace("swarm.org") to "in C# the org in its namespace hides the namespace org",
+            namespace("Big").replace("x: int", "big: int") to "user.fbs:2: SensorData.big: in C# it hides the namespace Big",
+            type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
+                "user.fbs:4: B.is: C# cannot name it where this struct is part of another one; rename the field",
             type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
             type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier has other characters",
         )
