@@ -3,9 +3,9 @@ import glob
 import json
 import os
 import re
-import textwrap
 import unittest
 
+from blocks import of_kind
 from command import Folder, collektive
 from places import ROOT
 
@@ -37,13 +37,8 @@ import swarm.SensorData
 
 
 def fragments(language):
-    """Code blocks without a title of the package's pages, and where they begin."""
-    for path in sorted(glob.glob(os.path.join(ROOT, "Documentation~/*.md"))):
-        with open(path) as file:
-            text = file.read()
-        for found in re.finditer(rf"(?m)^( *)```{language}\n(.*?)^\1```$", text, re.S):
-            place = f"{os.path.relpath(path, ROOT)}:{text.count(chr(10), 0, found.start()) + 1}"
-            yield place, textwrap.dedent(found[2])
+    """Where each code block of the package's pages that is no file of a tutorial begins, and its code."""
+    return [(block.place, block.text) for block in of_kind("fragment") if block.language == language]
 
 
 def csharp(number, place, code):
