@@ -214,12 +214,19 @@ def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: P
     assert len(set(project.table()["run"])) == 40
 
 
-def test_the_worked_study_runs_to_its_figures(tmp_path: Path) -> None:
+def of_page(language: str) -> str:
+    """The only code block in a language of the page about experiments."""
+    (found,) = re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())
+    return str(found)
+
+
+def test_the_worked_study_runs_to_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     experiment = json.loads((GRADIENTS / "experiment.json").read_text())
+    assert experiment == json.loads(of_page("json"))
     experiment["scenario"] = str(GRADIENTS / "scenario.json")
     experiment["vary"] |= {"network.loss": [0, 0.4], "seed": "1-3"}
     (tmp_path / "experiment.json").write_text(json.dumps(experiment))
-    out = tmp_path / "out"
+    out = tmp_path / "out/gradients"
     for words in (["sweep", str(tmp_path / "experiment.json"), "--out", str(out)], ["plot", str(out)]):
         result = subprocess.run([COLLEKTIVE, *words], capture_output=True, text=True, timeout=300)
         assert result.returncode == 0, result.stderr
@@ -232,6 +239,11 @@ def test_the_worked_study_runs_to_its_figures(tmp_path: Path) -> None:
     page = (out / "figures.html").read_text()
     assert page.count("<svg") == 5
     assert "95 % bootstrap interval of 3 runs per configuration" in page
+    # The page's Python, in the folder of the sweep.
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, str] = {}
+    exec(of_page("python"), names)
+    assert "error" in names["caption"]
 
 
 def test_the_notebook_runs(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,9 +2,9 @@
 import json
 import os
 import re
-import textwrap
 
 import pytest
+from blocks import of_kind
 from command import Folder, collektive
 from places import ROOT
 
@@ -44,11 +44,7 @@ import org.collektive.api.Program
     @pytest.mark.quick
     def test_its_example_runs(self):
         """The schema, the Kotlin and the C# of the page, in the scene above."""
-        with open(os.path.join(ROOT, "Documentation~/getting-started.md")) as file:
-            blocks = [textwrap.dedent(block) for block in re.findall(r"^ *```\w*\n(.*?)^ *```", file.read(), re.M | re.S)]
-        schema = next(block for block in blocks if block.startswith("namespace"))
-        kotlin = next(block for block in blocks if "@Program" in block)
-        csharp = next(block for block in blocks if "public sealed class" in block)
+        schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
         os.makedirs(self.path("programs"))
         os.makedirs(self.path("scene"))
         scenario = {"version": 1, "scene": "Example", "scripts": "scene", "schema": "swarm.fbs", "programs": "programs",

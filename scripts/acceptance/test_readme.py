@@ -1,10 +1,9 @@
 """The project of the README is complete as it is written there, and short."""
 import os
-import re
 
 import pytest
+from blocks import of_kind
 from command import Folder, collektive
-from places import ROOT
 
 # The scene, which an editor's user would make by hand: ten nodes in a row, of which the first six sense more than 90.
 SCENE = """
@@ -45,22 +44,20 @@ SCENARIO = """{
 }"""
 
 
-def blocks():
+def project():
     """The code of the section "A program": schema, program, sensor, actuator."""
-    with open(os.path.join(ROOT, "README.md")) as file:
-        section = file.read().split("\n## A program\n")[1].split("\n## ")[0]
-    return re.findall(r"^```\w*\n(.*?)^```$", section, re.DOTALL | re.MULTILINE)
+    return [block.text for block in of_kind("project") if block.page == "README.md"]
 
 
 @pytest.mark.quick
 class TheReadmesProject(Folder):
     def test_it_has_at_most_25_lines_of_its_authors(self):
         # All lines but empty ones: imports and braces count.
-        lines = [line for block in blocks() for line in block.splitlines() if line.strip()]
+        lines = [line for block in project() for line in block.splitlines() if line.strip()]
         self.assertLessEqual(len(lines), 25, "\n".join(lines))
 
     def test_it_runs_as_it_is(self):
-        schema, program, sensor, actuator = blocks()
+        schema, program, sensor, actuator = project()
         files = {
             "swarm.fbs": schema, "programs/Hops.kt": program, "scripts/LightSensor.cs": sensor, "scripts/HopsColour.cs": actuator,
             "scripts/RowScene.cs": SCENE, "swarm.json": SCENARIO,

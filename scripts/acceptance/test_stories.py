@@ -3,34 +3,19 @@
 A block with a title is a file of the reader's project; a later block of the same title replaces it. Lines of a block `sh` are commands. A block
 `text` below them shows lines of what they print, in order; `...` stands for anything.
 """
-import glob
 import os
 import re
 import shutil
 import subprocess
 import tempfile
-from dataclasses import dataclass
 
 import pytest
+from blocks import STORIES, blocks
 from command import WORK
 from places import ROOT
 
-BLOCK = re.compile(r'(?m)^```(\w+)(?: title="([^"]+)")?\n(.*?)^```$', re.S)
-STORIES = ["Documentation~/without-unity.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")))]
 # These say by a code of 1 that two runs differ.
 COMPARE = ("collektive diff ", "collektive replay ")
-
-
-@dataclass(frozen=True)
-class Block:
-    language: str
-    title: str
-    text: str
-
-
-def blocks(page):
-    with open(os.path.join(ROOT, page)) as file:
-        return [Block(*found) for found in BLOCK.findall(file.read())]
 
 
 def missing(shown, printed):

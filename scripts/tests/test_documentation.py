@@ -59,6 +59,16 @@ def test_every_declaration_of_the_c_header_has_a_comment():
         assert [line for line in undocumented_c(file.read()) if "CLK_X" not in line and "CLK_ERRORS" not in line] == []
 
 
+def test_the_editor_part_has_no_public_type():
+    """So it has no public members, which the build would not count: it does not compile that part with documentation."""
+    types = []
+    for path in sorted(glob.glob(os.path.join(ROOT, "unity/Editor/**/*.cs"), recursive=True)):
+        with open(path) as file:
+            types += re.findall(r"(?m)^    ((?:\w+ )*(?:class|struct|interface|enum|delegate) \w+)", file.read())
+    assert len(types) > 20
+    assert [declared for declared in types if not declared.startswith("internal ")] == []
+
+
 def test_what_lacks_documentation_is_found():
     bare = "/** A thing. */\npublic class A(\n    public val a: Int,\n)\n\npublic fun b() = 1"
     assert list(undocumented_kotlin(bare)) == ["3: public val a: Int,", "6: public fun b() = 1"]

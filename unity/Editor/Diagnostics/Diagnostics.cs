@@ -30,6 +30,7 @@ namespace Collektive.Unity.Editor
         /// <summary>The last lines of the JVM's log, the oldest first.</summary>
         internal IReadOnlyCollection<string> Log => log;
 
+        /// <inheritdoc/>
         public void Dispose()
         {
             Manager.Ticked -= Ticked;
