@@ -37,7 +37,8 @@ namespace Collektive.Headless.Tests.Schema
                 {
                     var required = property.Name == "Main";
                     if (!required && (nesting >= MaxNesting || Coin())) continue;
-                    Fill((Draft)draft.GetType().GetMethod("Make" + property.Name).Invoke(draft, null), nesting + 1);
+                    // A property that is named like its class has an underscore behind its name.
+                    Fill((Draft)draft.GetType().GetMethod("Make" + property.Name.TrimEnd('_')).Invoke(draft, null), nesting + 1);
                 }
                 else
                 {
