@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
+import replay
 from command import Project, collektive, last_error, processes
 from places import COLLEKTIVE
 
@@ -23,6 +24,14 @@ class Outputs(Project):
 
     def outcome(self):
         return self.manifest(self.path("out"))["outcome"]
+
+    def test_a_scene_without_shades_shows_what_its_nodes_answer(self):
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.assertEqual(self.run_it().returncode, 0)
+        _, frames = replay.read(self.path("out", "replay.html"))
+        _, nodes, _ = frames[-1]
+        brightest = {round(value, 3) for *_, value in nodes.values()}
+        self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
 
     def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self):
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')

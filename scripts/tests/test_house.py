@@ -57,7 +57,7 @@ class TheHouse(unittest.TestCase):
         shared = player[player.index("Shared ="):player.index("private readonly JObject root")]
         keys = set(settings) - set(re.findall(r"nameof\(SimulationSettings\.(\w+)\)", shared))
         keys |= set(re.findall(r'"(\w+)"', player[player.index("OwnKeys ="):player.index("};")]))
-        outputs = re.findall(r'"(\w+)"', player[player.index('"outputs.", new[]'):].split("}")[0])
+        outputs = re.findall(r'"(\w+)"', player[player.index('"outputs", new[]'):].split("}")[0])
         self.assertGreater(len(keys), 18)
         with open(os.path.join(ROOT, "Documentation~/headless.md")) as file:
             page = file.read()

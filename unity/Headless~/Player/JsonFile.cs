@@ -53,6 +53,17 @@ namespace Collektive.Headless
             }
         }
 
+        /// <summary>An object in a part of the file, with no other keys than those known; an empty one where there is none.</summary>
+        internal JObject Part(JObject whole, string place, string key, IEnumerable<string> known)
+        {
+            var token = whole[key];
+            if (token == null) return new JObject();
+            if (!(token is JObject part))
+                throw Error(token, NotOfType(token, place + key, typeof(JObject)) + "; known in it: " + string.Join(", ", known));
+            RefuseUnknown(part, place + key + ".", known);
+            return part;
+        }
+
         internal T Required<T>(JObject part, string key)
         {
             if (part[key] == null) throw new ScenarioException(path + ": the key '" + key + "' is missing");
@@ -78,9 +89,8 @@ namespace Collektive.Headless
                     field.SetValue(target, Convert(token, field.FieldType, key));
                     continue;
                 }
-                var inner = (JObject)Convert(token, typeof(JObject), key);
                 var known = field.FieldType.GetFields(BindingFlags.Public | BindingFlags.Instance);
-                RefuseUnknown(inner, key + ".", known.Select(each => each.Name));
+                var inner = Part(part, place, field.Name, known.Select(each => each.Name));
                 Fill(field.GetValue(target), known, inner, key + ".");
             }
         }
@@ -109,7 +119,7 @@ namespace Collektive.Headless
                 // Falls through: the value does not fit the type.
             }
             var names = type.IsEnum ? " (one of " + string.Join(", ", Enum.GetNames(type)) + ")" : "";
-            throw Error(token, "'" + key + "' is " + token.ToString(Formatting.None) + ", it must be of type " + NameOf(type) + names);
+            throw Error(token, NotOfType(token, key, type) + names);
         }
 
         internal ScenarioException Error(JToken token, string message)
@@ -117,6 +127,9 @@ namespace Collektive.Headless
             var line = (IJsonLineInfo)token;
             return new ScenarioException(path + (line.HasLineInfo() ? ":" + line.LineNumber : "") + ": " + message);
         }
+
+        private static string NotOfType(JToken token, string key, Type type) =>
+            "'" + key + "' is " + token.ToString(Formatting.None) + ", it must be of type " + NameOf(type);
 
         /// <summary>The enum's own name for it; <c>Enum.Parse</c> would also take numbers and lists of names.</summary>
         private static string NameIn(Type type, string text) =>

@@ -4,7 +4,6 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
-using Collektive.Bridge;
 using Collektive.Unity;
 using UnityEngine;
 using Schema = org.collektive.schema;
@@ -27,12 +26,8 @@ namespace Collektive.Headless
         internal NodesTable(string path, IEnumerable<string> fields, SimulationManager manager)
         {
             this.manager = manager;
-            var answers = AnswerType(manager);
-            foreach (var field in fields)
-            {
-                if (field == Position) columns.Add(new Column(field, null, typeof(Vector3)));
-                else columns.Add(Find(answers, field));
-            }
+            var answers = AnswerField.Of(manager);
+            foreach (var field in fields) columns.Add(field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field));
             writer = new StreamWriter(path);
             writer.Write("second,node," + string.Join(",", columns.Select(column => column.Header)) + "\n");
         }
@@ -46,7 +41,7 @@ namespace Collektive.Headless
                 writer.Write(node.Id);
                 var answer = node.Answer;
                 foreach (var column in columns)
-                    column.Write(writer, column.Member == null ? node.transform.position : answer == null ? null : column.Read(answer));
+                    column.Write(writer, column.Field == null ? node.transform.position : answer == null ? null : column.Field.Read(answer));
                 writer.Write('\n');
             }
             writer.Flush();
@@ -54,25 +49,17 @@ namespace Collektive.Headless
 
         public void Dispose() => writer.Dispose();
 
-        private static Type AnswerType(SimulationManager manager)
-        {
-            var buffer = Schemas.Find(manager.Settings.schema).CreateActuators().GetType();
-            while (!buffer.IsGenericType || buffer.GetGenericTypeDefinition() != typeof(ActuatorBuffer<>)) buffer = buffer.BaseType;
-            return buffer.GetGenericArguments()[0];
-        }
-
-        private static Column Find(Type answers, string field)
+        private static Column Find(List<AnswerField> answers, string wanted)
         {
             var known = new List<string> { Position };
-            foreach (var member in answers.GetMembers(BindingFlags.Public | BindingFlags.Instance))
+            foreach (var field in answers)
             {
-                var type = member is FieldInfo plain ? plain.FieldType : (member as PropertyInfo)?.PropertyType;
-                if (type == null || !Column.CanHold(type)) continue;
-                if (Plain(member.Name) == Plain(field)) return new Column(field, member, type);
-                known.Add(member.Name);
+                if (!Column.CanHold(field.Type)) continue;
+                if (Plain(field.Name) == Plain(wanted)) return new Column(wanted, field, field.Type);
+                known.Add(field.Name);
             }
             throw new ScenarioException(
-                "'outputs.nodes.fields': " + answers.Name + " has no field '" + field + "' that is a number, a string, true or false, or a vector; there are: "
+                "'outputs.nodes.fields': the answers have no field '" + wanted + "' that is a number, a string, true or false, or a vector; there are: "
                     + string.Join(", ", known));
         }
 
@@ -86,22 +73,21 @@ namespace Collektive.Headless
             // Of a vector; none for other types.
             private readonly MemberInfo[] parts;
 
-            internal Column(string name, MemberInfo member, Type type)
+            /// <param name="field">Null for the node's position.</param>
+            internal Column(string name, AnswerField field, Type type)
             {
-                Member = member;
+                Field = field;
                 var names = PartsOf(type);
                 type = Nullable.GetUnderlyingType(type) ?? type;
                 parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, Any) ?? type.GetProperty(part, Any));
                 Header = names.Length == 0 ? name : string.Join(",", names.Select(part => name + "." + part));
             }
 
-            internal MemberInfo Member { get; }
+            internal AnswerField Field { get; }
 
             internal string Header { get; }
 
             internal static bool CanHold(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
-
-            internal object Read(object answer) => ValueOf(Member, answer);
 
             /// <summary>Writes a value with a comma before it, or before each part of a vector; empty cells for null.</summary>
             internal void Write(TextWriter writer, object value)
@@ -114,12 +100,9 @@ namespace Collektive.Headless
                 foreach (var part in parts)
                 {
                     writer.Write(',');
-                    if (value != null) writer.Write(Cell(ValueOf(part, value)));
+                    if (value != null) writer.Write(Cell(AnswerField.ValueOf(part, value)));
                 }
             }
-
-            private static object ValueOf(MemberInfo member, object owner) =>
-                member is FieldInfo field ? field.GetValue(owner) : ((PropertyInfo)member).GetValue(owner);
 
             private static string[] PartsOf(Type type)
             {

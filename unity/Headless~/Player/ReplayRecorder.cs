@@ -26,7 +26,8 @@ namespace Collektive.Headless
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
         private readonly SimulationManager manager;
-        private readonly IReadOnlyList<NodeShade> shades;
+        // By field of the replay: a node's value.
+        private readonly List<Func<Node, double>> readers = new List<Func<Node, double>>();
         private readonly ReplayMetrics metrics;
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
@@ -39,7 +40,6 @@ namespace Collektive.Headless
         {
             this.scene = scene;
             this.manager = manager;
-            shades = scene.Shades;
             if (IsColoured(manager)) colours = new Dictionary<int, IColors>();
             metrics = new ReplayMetrics(MetricsTable.NamesOf(scene));
             var metadata = new ReplayMetadata
@@ -90,9 +90,8 @@ namespace Collektive.Headless
             {
                 var node = nodes[i];
                 var position = node.transform.position;
-                writer.Node(node.Id, position.x, position.y, position.z, shades.Count > 0 ? shades[0].Read(node) : ColourOf(node));
-                for (var shade = 1; shade < shades.Count; shade++) writer.Value(shade, shades[shade].Read(node));
-                if (colours != null && shades.Count > 0) writer.Value(shades.Count, ColourOf(node));
+                writer.Node(node.Id, position.x, position.y, position.z, readers[0](node));
+                for (var field = 1; field < readers.Count; field++) writer.Value(field, readers[field](node));
             }
             foreach (var mover in movers)
             {
@@ -141,24 +140,37 @@ namespace Collektive.Headless
             if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
             // The page wants an arena of some size.
             arena.Expand(new Vector3(arena.size.x > 0 ? 0 : 1, 0, arena.size.z > 0 ? 0 : 1));
-            metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z);
+            metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z, grows: floor == null);
             foreach (var landmark in scene.Landmarks)
             {
                 metadata.AddMarker(landmark.Key, landmark.Value.x, landmark.Value.y, landmark.Value.z);
             }
         }
 
-        private ReplayField[] Fields()
+        /// <summary>The scene's own shades and then colours; for a scene without shades, its colours and then what its nodes answer.</summary>
+        private List<ReplayField> Fields()
         {
             var fields = new List<ReplayField>();
-            foreach (var shade in shades)
-            {
-                var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
-                fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Words = shade.Words });
-            }
-            // A scene without shades and colours has this field too: nodes without a value.
-            if (colours != null || fields.Count == 0) fields.Add(new ReplayField("colour in the scene", ReplayFieldKind.Colour));
-            return fields.ToArray();
+            foreach (var shade in scene.Shades) Add(fields, shade);
+            var hasShades = fields.Count > 0;
+            if (colours != null) AddColours(fields);
+            if (!hasShades) foreach (var shade in AnswerShades.Of(manager)) Add(fields, shade);
+            // The page wants one: here all nodes are without a value.
+            if (fields.Count == 0) AddColours(fields);
+            return fields;
+        }
+
+        private void Add(List<ReplayField> fields, NodeShade shade)
+        {
+            var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
+            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Words = shade.Words });
+            readers.Add(shade.Read);
+        }
+
+        private void AddColours(List<ReplayField> fields)
+        {
+            fields.Add(new ReplayField("colour in the scene", ReplayFieldKind.Colour));
+            readers.Add(ColourOf);
         }
 
         private static bool IsColoured(SimulationManager manager)

@@ -66,12 +66,10 @@ namespace Collektive.Headless
                 if (Directory.Exists(Programs)) RuntimePlugin = Existing(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
             }
             Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder, trustsJvm);
-            var outputs = file.Optional(root, "outputs", new JObject());
-            file.RefuseUnknown(outputs, "outputs.", new[] { "metrics", "interval", "nodes", "replay", "pictures", "record" });
+            var outputs = file.Part(root, "", "outputs", new[] { "metrics", "interval", "nodes", "replay", "pictures", "record" });
             Metrics = file.Optional(outputs, "metrics", true);
             Interval = ReadInterval(file, outputs, "outputs.");
-            var nodes = file.Optional(outputs, "nodes", new JObject());
-            file.RefuseUnknown(nodes, "outputs.nodes.", new[] { "fields", "interval" });
+            var nodes = file.Part(outputs, "outputs.", "nodes", new[] { "fields", "interval" });
             NodeFields = file.Optional(nodes, "fields", new string[0]);
             NodeInterval = ReadInterval(file, nodes, "outputs.nodes.");
             Replay = file.Optional(outputs, "replay", false);

@@ -13,7 +13,6 @@ namespace Collektive.Headless
     {
         private readonly JArray shapes = new JArray();
         private readonly JArray markers = new JArray();
-        private JObject arena = Arena(-10, 0, -10, 10, 5, 10);
 
         public string Title { get; set; } = "Replay";
         public ulong Seed { get; set; }
@@ -30,12 +29,16 @@ namespace Collektive.Headless
         public ReplayMetrics Metrics { get; set; }
 
         /// <summary>The space that the first view frames; the floor is drawn at <paramref name="minY"/>.</summary>
-        public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ)
+        /// <param name="grows">
+        /// Whether it grows to hold nodes that leave it: at each end of an axis by its longest side at most, so that a node that flies away does not make
+        /// all others small.
+        /// </param>
+        public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ, bool grows = false)
         {
             if (!(minX < maxX && minY <= maxY && minZ < maxZ))
                 throw new ArgumentException("The replay's arena must have its least corner first and a floor of some size.");
-            arena = Arena(minX, minY, minZ, maxX, maxY, maxZ);
-            ArenaSide = Math.Max((double)maxX - minX, Math.Max((double)maxY - minY, (double)maxZ - minZ));
+            foreach (var place in new[] { minX, minY, minZ, maxX, maxY, maxZ }) Number(place);
+            Arena = new ReplayArena(new[] { minX, minY, minZ }, new[] { maxX, maxY, maxZ }, grows);
         }
 
         /// <summary>A static box, turned by the unit quaternion; height 0 makes a plane.</summary>
@@ -74,8 +77,7 @@ namespace Collektive.Headless
             markers.Add(new JObject { ["name"] = Text(name), ["position"] = Numbers(x, y, z) });
         }
 
-        /// <summary>The longest side of the arena.</summary>
-        internal double ArenaSide { get; private set; } = 20;
+        internal ReplayArena Arena { get; private set; } = new ReplayArena(new[] { -10f, 0, -10 }, new[] { 10f, 5, 10 }, false);
 
         /// <summary>The shapes that move.</summary>
         internal List<ReplayMover> Movers { get; } = new List<ReplayMover>();
@@ -89,7 +91,7 @@ namespace Collektive.Headless
                 ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),
-                ["arena"] = arena,
+                ["arena"] = Arena.ToJson(),
                 ["shapes"] = shapes,
                 ["markers"] = markers,
             };
@@ -113,10 +115,7 @@ namespace Collektive.Headless
             return shape;
         }
 
-        private static JObject Arena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ) =>
-            new JObject { ["min"] = Numbers(minX, minY, minZ), ["max"] = Numbers(maxX, maxY, maxZ) };
-
-        private static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
+        internal static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
 
         // JSON has no place for other numbers.
         internal static double Number(double value)

@@ -34,6 +34,7 @@ namespace Collektive.Headless
         private readonly ReplayField[] fields;
         private readonly ReplayMetrics metrics;
         private readonly List<ReplayMover> movers;
+        private readonly ReplayArena arena;
         private readonly double positionStep;
         private readonly ReplaySegment segment;
         private readonly LinkSorter sorter = new LinkSorter();
@@ -62,7 +63,8 @@ namespace Collektive.Headless
             metrics = metadata.Metrics;
             movers = metadata.Movers;
             segment = new ReplaySegment(fields);
-            positionStep = metadata.ArenaSide / 65535;
+            arena = metadata.Arena.Copy();
+            positionStep = arena.LongestSide / 65535;
             this.scratchPath = scratchPath;
             scratch = new StreamWriter(scratchPath, false, new UTF8Encoding(false));
         }
@@ -105,6 +107,7 @@ namespace Collektive.Headless
             else if (frame.Has(slot))
                 throw new ArgumentException("Node " + Number(id) + " is given twice in frame " + Number(Frames - 1) + " of the replay: give each node once.");
             frame.Set(slot, Steps(x), Steps(y), Steps(z));
+            arena.Include(x, y, z);
             slotOfLast = slot;
             Value(0, value);
         }
@@ -210,6 +213,7 @@ namespace Collektive.Headless
 
         private string Header()
         {
+            metadata["arena"] = arena.ToJson();
             var header = new JObject
             {
                 ["version"] = Version,

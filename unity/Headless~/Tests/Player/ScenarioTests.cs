@@ -62,7 +62,8 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("network", "{\"loss\": 0.1, \"los\": 0.1}", "unknown key 'network.los'; known here: loss, lossPerMetre")]
         [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\", it must be of type number")]
-        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object")]
+        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object; known in it: loss, ")]
+        [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"], it must be of type object; known in it: fields, interval")]
         [TestCase("threads", "2.5", "'threads' is 2.5, it must be of type whole number")]
         [TestCase("stopAfter", "1", "unknown key 'stopAfter'; known here: version, scene")]
         public void What_is_wrong_is_named_with_its_place(string key, string value, string message)

@@ -161,6 +161,24 @@ namespace Collektive.Headless.Tests
             }
         }
 
+        [TestCase(false, "[-1.0,0.0,-2.0]", "[3.0,1.0,2.0]", TestName = "AnArenaStays")]
+        [TestCase(true, "[-1.0,-4.0,-2.5]", "[7.0,1.0,2.0]", TestName = "AnArenaThatGrowsHoldsNodesUpToItsLongestSideAway")]
+        public void ArenaOf(bool grows, string least, string greatest)
+        {
+            var metadata = new ReplayMetadata();
+            metadata.SetArena(-1, 0, -2, 3, 1, 2, grows);
+            for (var time = 0; time < 2; time++)
+            {
+                var replay = Record(writer =>
+                {
+                    writer.BeginFrame(0);
+                    writer.Node(1, 1e6f, -1e6f, -2.5f, 0);
+                    writer.EndFrame();
+                }, metadata);
+                Assert.AreEqual("{\"min\":" + least + ",\"max\":" + greatest + "}", replay.Header["metadata"]["arena"].ToString(Formatting.None));
+            }
+        }
+
         [Test]
         public void LinksAboveTheBudgetAreASteadyShareOfAll()
         {

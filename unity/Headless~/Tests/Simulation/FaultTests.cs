@@ -204,6 +204,23 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_same_error_of_many_sensors_is_logged_once_and_counted()
+        {
+            for (var i = 0; i < 12; i++) MakeNode(1).Node.gameObject.AddComponent<ThrowingSensor>();
+            Play(10);
+            Assert.That(Errors.Count, Is.EqualTo(5));
+            Assert.That(Errors[0], Is.StringContaining("ThrowingSensor of node 0").And.StringContaining("at tick 1"));
+            Assert.That(Errors[1], Is.StringContaining("10 calls of ThrowingSensor").And.StringContaining("node 9"));
+            Assert.That(Errors[2], Is.StringContaining("100 calls of ThrowingSensor"));
+            Assert.That(Errors[3], Is.StringContaining("is disabled"));
+            Assert.That(Errors[4], Is.StringContaining("10 components ThrowingSensor are disabled"));
+            Assert.That(Manager.ErrorCount, Is.EqualTo(120));
+            Manager.enabled = false;
+            Assert.That(Errors[5], Is.StringContaining("120 calls of ThrowingSensor"));
+            Assert.That(Errors[6], Is.StringContaining("12 components ThrowingSensor").And.StringContaining("node 11"));
+        }
+
+        [Test]
         public void A_sensor_made_for_another_schema_is_refused_with_both_types()
         {
             var node = MakeNode(1);

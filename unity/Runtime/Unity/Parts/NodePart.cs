@@ -51,14 +51,13 @@ namespace Collektive.Unity
 
         internal void Succeeded() => failuresInRow = 0;
 
-        /// <summary>Counts a failure; a component that fails again and again is disabled, so that the rest can go on.</summary>
-        internal void Failed()
+        /// <summary>Counts a failure.</summary>
+        /// <returns>Whether there were so many in a row that the component must be disabled, so that the rest can go on.</returns>
+        internal bool HasFailedTooOften()
         {
-            if (++failuresInRow < MaxFailuresInRow) return;
+            if (++failuresInRow < MaxFailuresInRow) return false;
             failuresInRow = 0;
-            Debug.LogError(
-                GetType().Name + " on '" + name + "' failed " + MaxFailuresInRow + " times in a row and is disabled: correct it, then enable it again", this);
-            enabled = false;
+            return true;
         }
 
         /// <summary>The node's list that this part is in while it is enabled.</summary>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Text;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -12,7 +13,7 @@ namespace Collektive.Unity
     {
         private readonly Dictionary<int, List<NodeErrors>> places = new Dictionary<int, List<NodeErrors>>();
         private readonly List<NodeErrors> all = new List<NodeErrors>();
-        private readonly RepeatedErrors rounds = new RepeatedErrors();
+        private readonly RepeatedErrors repeated = new RepeatedErrors();
 
         internal IReadOnlyList<NodeErrors> All => all;
 
@@ -24,7 +25,8 @@ namespace Collektive.Unity
             if (node != null) node.LastError = message;
             Count++;
             PlaceOf(program, node == null ? NodeErrors.Left : id).Add(1, tick, message);
-            rounds.Report(id, program, tick, message, node);
+            if (repeated.IsFirst(KeyOf(program, message), "rounds of program '" + program + "' have failed so", id, FirstLine(message)))
+                Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + tick + ": " + message, node);
         }
 
         /// <summary>A sensor, actuator or rule threw an exception.</summary>
@@ -35,10 +37,16 @@ namespace Collektive.Unity
             Count++;
             // Its own code may have made the node leave: then the id is that of those that have left.
             PlaceOf(source, node.Id).Add(1, tick, error.Message);
-            Debug.LogException(
-                new InvalidOperationException(source + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tick + ": " + error.Message, error),
-                part);
-            part.Failed();
+            if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " have failed so", node.Id, error.GetType() + ": " + error.Message))
+            {
+                var message = source + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tick + ": " + error.Message;
+                Debug.LogException(new InvalidOperationException(message, error), part);
+            }
+            if (!part.HasFailedTooOften()) return;
+            var disabled = source + " on '" + part.name + "' failed " + NodePart.MaxFailuresInRow + " times in a row and is disabled";
+            if (repeated.IsFirst("disabled " + source, "components " + source + " are disabled so", node.Id, disabled))
+                Debug.LogError(disabled + ": correct it, then enable it again", part);
+            part.enabled = false;
         }
 
         /// <summary>A handler of <see cref="SimulationManager.Ticked"/> or a stop condition threw an exception.</summary>
@@ -62,8 +70,33 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Logs how often errors of rounds have come that were not logged each time.</summary>
-        internal void TellCounts() => rounds.TellCounts();
+        /// <summary>Logs how often errors have come that were not logged each time.</summary>
+        internal void TellCounts() => repeated.TellCounts();
+
+        /// <summary>Errors with the same program, exception and place in the code: without the text, which may contain numbers, if there is a stack.</summary>
+        private static string KeyOf(string program, string message)
+        {
+            var stack = message.IndexOf('\n');
+            var words = message.IndexOf(':');
+            return stack < 0 || words < 0 || words > stack ? program + message : program + message.Substring(0, words) + message.Substring(stack);
+        }
+
+        /// <summary>Errors of the same component, exception, text and place in the code; numbers in the text make no difference.</summary>
+        private static string KeyOf(string source, Exception error)
+        {
+            var key = new StringBuilder(source).Append(error.GetType());
+            foreach (var letter in error.Message)
+            {
+                if (!char.IsDigit(letter) && letter != '.' && letter != '-') key.Append(letter);
+            }
+            return key.Append(error.StackTrace).ToString();
+        }
+
+        private static string FirstLine(string message)
+        {
+            var end = message.IndexOf('\n');
+            return end < 0 ? message : message.Substring(0, end);
+        }
 
         private NodeErrors PlaceOf(string source, int node)
         {

@@ -4,8 +4,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Errors of rounds for the console: each is logged at its first occurrence, then counted. Errors with the same program, exception
-    /// and place in the code are the same error, whatever the node.
+    /// Errors for the console: each is logged whole when it comes for the first time, then counted. What the key says is the same error, whatever the node.
     /// </summary>
     internal sealed class RepeatedErrors
     {
@@ -14,20 +13,18 @@ namespace Collektive.Unity
 
         private readonly Dictionary<string, Kind> kinds = new Dictionary<string, Kind>();
 
-        /// <summary>Logs the error of a round, or its count when it has come 10, 100, 1000... times.</summary>
-        internal void Report(int node, string program, ulong tick, string message, Object context)
+        /// <summary>Counts an error, and logs its count when it has come 10, 100, 1000... times.</summary>
+        /// <param name="what">What has happened to many, for instance <c>rounds of program 'p' have failed so</c>.</param>
+        /// <param name="first">The first one, in a line.</param>
+        /// <returns>Whether it is the first one, which the caller logs.</returns>
+        internal bool IsFirst(string key, string what, int node, string first)
         {
-            var key = Key(program, message);
             if (!kinds.ContainsKey(key) && kinds.Count >= MaxKinds) key = Others;
-            if (!kinds.TryGetValue(key, out var kind))
-            {
-                kind = new Kind(program, key == Others ? Others : FirstLine(message));
-                kinds.Add(key, kind);
-                Debug.LogError("round of node " + node + " (program '" + program + "') failed at tick " + tick + ": " + message, context);
-            }
+            if (!kinds.TryGetValue(key, out var kind)) kinds.Add(key, kind = new Kind(what, key == Others ? Others : first));
             kind.Count++;
             kind.LastNode = node;
             if (kind.Count > 1 && IsPowerOfTen(kind.Count)) kind.Tell();
+            return kind.Count == 1;
         }
 
         /// <summary>Logs how often each error has come, if more than once, and forgets them all.</summary>
@@ -40,20 +37,6 @@ namespace Collektive.Unity
             kinds.Clear();
         }
 
-        /// <summary>Without the text of the message, which may contain numbers, if there is a stack to identify the error.</summary>
-        private static string Key(string program, string message)
-        {
-            var stack = message.IndexOf('\n');
-            var words = message.IndexOf(':');
-            return stack < 0 || words < 0 || words > stack ? program + message : program + message.Substring(0, words) + message.Substring(stack);
-        }
-
-        private static string FirstLine(string message)
-        {
-            var end = message.IndexOf('\n');
-            return end < 0 ? message : message.Substring(0, end);
-        }
-
         private static bool IsPowerOfTen(long count)
         {
             while (count % 10 == 0) count /= 10;
@@ -64,19 +47,16 @@ namespace Collektive.Unity
         {
             internal long Count;
             internal int LastNode;
-            private readonly string program;
+            private readonly string what;
             private readonly string first;
 
-            internal Kind(string program, string first)
+            internal Kind(string what, string first)
             {
-                this.program = program;
+                this.what = what;
                 this.first = first;
             }
 
-            internal void Tell()
-            {
-                Debug.LogError(Count + " rounds of program '" + program + "' have failed so, the last one of node " + LastNode + "; the first one: " + first);
-            }
+            internal void Tell() => Debug.LogError(Count + " " + what + ", the last one of node " + LastNode + "; the first one: " + first);
         }
     }
 }

@@ -1,0 +1,48 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using Collektive.Bridge;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>A field of the answers of a scene's schema.</summary>
+    internal sealed class AnswerField
+    {
+        private readonly MemberInfo member;
+
+        private AnswerField(MemberInfo member, Type type)
+        {
+            this.member = member;
+            Type = type;
+        }
+
+        /// <summary>As the generated code has it: its capitals are not the schema's.</summary>
+        internal string Name => member.Name;
+
+        internal Type Type { get; }
+
+        /// <summary>Fields and properties of the schema's answers, in their order there.</summary>
+        internal static List<AnswerField> Of(SimulationManager manager)
+        {
+            var buffer = Schemas.Find(manager.Settings.schema).CreateActuators().GetType();
+            while (!buffer.IsGenericType || buffer.GetGenericTypeDefinition() != typeof(ActuatorBuffer<>)) buffer = buffer.BaseType;
+            var fields = new List<AnswerField>();
+            foreach (var member in buffer.GetGenericArguments()[0].GetMembers(BindingFlags.Public | BindingFlags.Instance))
+            {
+                var type = TypeOf(member);
+                if (type != null) fields.Add(new AnswerField(member, type));
+            }
+            return fields;
+        }
+
+        /// <param name="answer">A node's answer, not null.</param>
+        internal object Read(object answer) => ValueOf(member, answer);
+
+        /// <summary>The type of a field or property; null for other members.</summary>
+        private static Type TypeOf(MemberInfo member) => member is FieldInfo field ? field.FieldType : (member as PropertyInfo)?.PropertyType;
+
+        internal static object ValueOf(MemberInfo member, object owner) =>
+            member is FieldInfo field ? field.GetValue(owner) : ((PropertyInfo)member).GetValue(owner);
+    }
+}

@@ -1,0 +1,46 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>Shades for a scene that has none of its own: its nodes' answers.</summary>
+    internal static class AnswerShades
+    {
+        /// <summary>Each costs time and room in every frame.</summary>
+        private const int Most = 8;
+
+        /// <summary>A shade for each number, truth value and enum of the answers; the first eight.</summary>
+        internal static List<NodeShade> Of(SimulationManager manager)
+        {
+            var shades = new List<NodeShade>();
+            foreach (var field in AnswerField.Of(manager))
+            {
+                if (shades.Count == Most) break;
+                if (Converter(field.Type) is Func<object, double> convert) shades.Add(Shade(field, convert));
+            }
+            return shades;
+        }
+
+        private static NodeShade Shade(AnswerField field, Func<object, double> convert)
+        {
+            var name = char.ToLowerInvariant(field.Name[0]) + field.Name.Substring(1);
+            var shade = new NodeShade(name, node => node.Answer is object answer ? convert(field.Read(answer)) : double.NaN);
+            if (field.Type == typeof(bool)) (shade.IsCategory, shade.Words) = (true, new[] { "false", "true" });
+            else if (field.Type.IsEnum) (shade.IsCategory, shade.Words) = (true, Enum.GetNames(field.Type));
+            return shade;
+        }
+
+        private static Func<object, double> Converter(Type type)
+        {
+            if (type == typeof(bool)) return value => (bool)value ? 1 : 0;
+            // Its place among the names, which Enum.GetValues has in the same order.
+            if (type.IsEnum) return value => { var place = Array.IndexOf(Enum.GetValues(type), value); return place < 0 ? double.NaN : place; };
+            if (type.IsPrimitive && type != typeof(char)) return value => Finite(Convert.ToDouble(value));
+            return null;
+        }
+
+        /// <summary>A distance is infinite where there is none: no value.</summary>
+        private static double Finite(double value) => double.IsInfinity(value) ? double.NaN : value;
+    }
+}

@@ -1,0 +1,49 @@
+using System;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>The space that the page's first view frames, in metres.</summary>
+    internal sealed class ReplayArena
+    {
+        private readonly float[] least;
+        private readonly float[] greatest;
+        // Metres by which it may grow at each end of an axis.
+        private readonly float mayGrow;
+        private readonly float[] leastReached;
+        private readonly float[] greatestReached;
+
+        internal ReplayArena(float[] least, float[] greatest, bool grows)
+        {
+            this.least = least;
+            this.greatest = greatest;
+            for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)greatest[axis] - least[axis]);
+            mayGrow = grows ? (float)LongestSide : 0;
+            leastReached = (float[])least.Clone();
+            greatestReached = (float[])greatest.Clone();
+        }
+
+        /// <summary>Of the arena before it grows.</summary>
+        internal double LongestSide { get; }
+
+        /// <summary>The arena as it was before it grew.</summary>
+        internal ReplayArena Copy() => new ReplayArena(least, greatest, mayGrow > 0);
+
+        /// <summary>Grows to a place, as far as it may.</summary>
+        internal void Include(float x, float y, float z)
+        {
+            Include(0, x);
+            Include(1, y);
+            Include(2, z);
+        }
+
+        internal JObject ToJson() =>
+            new JObject { ["min"] = ReplayMetadata.Numbers(leastReached), ["max"] = ReplayMetadata.Numbers(greatestReached) };
+
+        private void Include(int axis, float place)
+        {
+            if (place < leastReached[axis]) leastReached[axis] = Math.Max(place, least[axis] - mayGrow);
+            if (place > greatestReached[axis]) greatestReached[axis] = Math.Min(place, greatest[axis] + mayGrow);
+        }
+    }
+}
