@@ -34,7 +34,7 @@ ROOT_PAGES = {"CHANGELOG.md": "repository/changelog.md", "CONTRIBUTING.md": "rep
               "THIRD-PARTY.md": "repository/third-party.md"}
 STYLE = """
 /* Wide tables and code scroll in themselves. */
-.md-typeset td code, .md-typeset th code { word-break: normal; overflow-wrap: anywhere; }
+.md-typeset td code, .md-typeset th code { word-break: normal; overflow-wrap: break-word; }
 .md-typeset :is(p, li, h1, h2, h3) { overflow-wrap: anywhere; }
 .md-grid { max-width: 72rem; }
 """
