@@ -32,6 +32,8 @@ namespace Collektive.Headless
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
         private readonly Dictionary<int, IColors> colours;
+        // By node id; null unless they are all that can colour the nodes.
+        private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
         private double last = double.NegativeInfinity;
@@ -108,8 +110,15 @@ namespace Collektive.Headless
         private int CountLinks()
         {
             var count = 0;
+            if (neighbours != null) neighbours = new int[manager.Simulation.IdCapacity];
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
-                if (pair.IsHeld) count++;
+            {
+                if (!pair.IsHeld) continue;
+                count++;
+                if (neighbours == null) continue;
+                neighbours[pair.Low]++;
+                neighbours[pair.High]++;
+            }
             return count;
         }
 
@@ -155,8 +164,11 @@ namespace Collektive.Headless
             var hasShades = fields.Count > 0;
             if (colours != null) AddColours(fields);
             if (!hasShades) foreach (var shade in AnswerShades.Of(manager)) Add(fields, shade);
-            // The page wants one: here all nodes are without a value.
-            if (fields.Count == 0) AddColours(fields);
+            if (fields.Count == 0)
+            {
+                neighbours = Array.Empty<int>();
+                Add(fields, new NodeShade("neighbours", node => neighbours[node.Id]));
+            }
             return fields;
         }
 
