@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 
 import pytest
+import replay
 from blocks import STORIES, blocks
 from command import WORK
 from places import ROOT
@@ -62,6 +63,15 @@ def test_a_tutorial_does_what_it_tells(page, folder):
         elif block.language == "text":
             line = missing(block.text, printed)
             assert line is None, f"{page} shows a line that is not printed: {line}\n{printed}"
+    if page.endswith("tutorial-first-swarm.md"):
+        see_neighbours(os.path.join(folder, "out", "replay.html"))
+
+
+def see_neighbours(page):
+    """The replay of nodes that answer no numbers is coloured by how many neighbours they have."""
+    _, nodes, links = replay.read(page)[1][-1]
+    for node, (*_, value) in nodes.items():
+        assert value == pytest.approx(sum(node in link for link in links), abs=0.01)
 
 
 def test_a_line_that_is_not_printed_is_found():
