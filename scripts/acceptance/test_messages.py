@@ -23,6 +23,16 @@ class Messages(Project):
         log = last_error(result).rsplit(" ", 1)[1]
         self.assertTrue(os.path.isfile(log), log)
 
+    def test_a_run_without_nodes_is_a_failure(self):
+        result = self.run_it("--set", "lamps=0")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("there was no node in any tick: the scene builder must make GameObjects with the component Node", last_error(result))
+        self.assertEqual(self.manifest(self.path("out"))["outcome"], "there was no node in any tick")
+
+    def test_programs_without_a_mark_are_told_how_to_mark_them(self):
+        self.change("programs/Brightest.kt", '@Program("brightest")', "")
+        self.assertIn('they have no program at all: mark its function with @Program("brightest")', last_error(self.run_it()))
+
     def test_an_error_in_a_schema_has_its_place_at_the_front(self):
         self.change("light.fbs", "brightness: float;", "brightness: flaot;")
         place = self.path("project", "light.fbs")

@@ -153,6 +153,7 @@ namespace Collektive.Headless
             // A repetition goes on like the former run.
             var stopsAtFailures = !options.KeepGoing && scenario.Former == null;
             JObject parameters = null;
+            var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
@@ -178,6 +179,7 @@ namespace Collektive.Headless
                         ended = Stopwatch.GetTimestamp();
                         continue;
                     }
+                    hadNodes |= manager.Nodes.Count > 0;
                     if (stopsAtFailures && manager.Simulation.NoRoundWorked)
                         throw new ScenarioException("stopped at tick " + done + ": all its rounds failed; the messages are above (--keep-going goes on)");
                     parameters = parameters ?? ProgramsWithParameters(manager);
@@ -215,6 +217,13 @@ namespace Collektive.Headless
                 var problem = done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager";
                 Console.Error.WriteLine("collektive: " + problem + "; end a run with Application.Quit or a stop condition");
                 manifest.Outcome = problem;
+                return 1;
+            }
+            if (!hadNodes)
+            {
+                const string Problem = "there was no node in any tick";
+                Console.Error.WriteLine("collektive: " + Problem + ": the scene builder must make GameObjects with the component Node");
+                manifest.Outcome = Problem;
                 return 1;
             }
             manifest.Outcome = Manifest.Complete;

@@ -24,7 +24,10 @@ internal class Programs(private val byName: Map<String, LoadedProgram>, default:
 
     private inline fun find(name: String, who: () -> String) = byName[name] ?: throw HostException(
         HostError.PROGRAM,
-        "${who()} wants the program '$name', which is in none of the jars; there are ${byName.keys}. " +
-            "Correct the name, or build the jar that has it",
+        "${who()} wants the program '$name', which is in none of the jars; " + if (byName.isEmpty()) {
+            "they have no program at all: mark its function with @Program(\"$name\")"
+        } else {
+            "there are ${byName.keys}. Correct the name, or build the jar that has it"
+        },
     )
 }
