@@ -34,13 +34,17 @@ namespace Collektive.Headless
         private static Func<object, double> Converter(Type type)
         {
             if (type == typeof(bool)) return value => (bool)value ? 1 : 0;
-            // Its place among the names, which Enum.GetValues has in the same order.
-            if (type.IsEnum) return value => { var place = Array.IndexOf(Enum.GetValues(type), value); return place < 0 ? double.NaN : place; };
-            if (type.IsPrimitive && type != typeof(char)) return value => Finite(Convert.ToDouble(value));
+            if (type.IsEnum)
+            {
+                // In the same order as the names.
+                var values = Enum.GetValues(type);
+                return value => Array.IndexOf(values, value) is var place && place >= 0 ? place : double.NaN;
+            }
+            if (type.IsPrimitive && type != typeof(char)) return value => Storable(Convert.ToDouble(value));
             return null;
         }
 
-        /// <summary>A distance is infinite where there is none: no value.</summary>
-        private static double Finite(double value) => double.IsInfinity(value) ? double.NaN : value;
+        /// <summary>Infinity and greater numbers than a float holds, such as the distance to no source, count as no value: the page stores floats.</summary>
+        private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
     }
 }

@@ -24,8 +24,7 @@ namespace Collektive.Headless
             foreach (var property in metrics.Properties())
             {
                 var key = "converged." + property.Name;
-                var part = (JObject)file.Convert(property.Value, typeof(JObject), key);
-                file.RefuseUnknown(part, key + ".", new[] { "from", "to", "seconds" });
+                var part = file.Part(metrics, "converged.", property.Name, new[] { "from", "to", "seconds" });
                 var criterion = new Criterion(
                     property.Name, file.Optional(part, "from", double.NegativeInfinity), file.Optional(part, "to", double.PositiveInfinity),
                     file.Optional(part, "seconds", 0.0));

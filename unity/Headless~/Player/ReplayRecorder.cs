@@ -32,7 +32,7 @@ namespace Collektive.Headless
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
         private readonly Dictionary<int, IColors> colours;
-        // By node id; null unless they are all that can colour the nodes.
+        // By node id; null unless the scene gives nothing else to colour nodes by.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();

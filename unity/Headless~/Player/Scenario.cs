@@ -65,7 +65,7 @@ namespace Collektive.Headless
                 // Programs that are a jar were compiled already.
                 if (Directory.Exists(Programs)) RuntimePlugin = Existing(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
             }
-            Jvm = ReadJvm(file, file.Optional(root, "jvm", new JObject()), folder, trustsJvm);
+            Jvm = ReadJvm(file, file.Part(root, "", "jvm", JvmSetting.All.Select(setting => setting.Key)), folder, trustsJvm);
             var outputs = file.Part(root, "", "outputs", new[] { "metrics", "interval", "nodes", "replay", "pictures", "record" });
             Metrics = file.Optional(outputs, "metrics", true);
             Interval = ReadInterval(file, outputs, "outputs.");
@@ -268,7 +268,6 @@ namespace Collektive.Headless
         private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder, bool trusted)
         {
             var settings = new JvmSettings();
-            file.RefuseUnknown(root, "jvm.", JvmSetting.All.Select(setting => setting.Key));
             foreach (var setting in JvmSetting.All)
             {
                 var token = root[setting.Key];

@@ -219,7 +219,8 @@ namespace Collektive.Headless
                 manifest.Outcome = problem;
                 return 1;
             }
-            if (!hadNodes)
+            // A script that quits says itself how the run ended.
+            if (!hadNodes && !Loop.QuitRequested)
             {
                 const string Problem = "there was no node in any tick";
                 Console.Error.WriteLine("collektive: " + Problem + ": the scene builder must make GameObjects with the component Node");

@@ -4,7 +4,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Errors for the console: each is logged whole when it comes for the first time, then counted. What the key says is the same error, whatever the node.
+    /// Errors for the console: each is logged whole when it comes for the first time, then counted. Errors with equal keys are the same error, on any node.
     /// </summary>
     internal sealed class RepeatedErrors
     {
@@ -14,13 +14,17 @@ namespace Collektive.Unity
         private readonly Dictionary<string, Kind> kinds = new Dictionary<string, Kind>();
 
         /// <summary>Counts an error, and logs its count when it has come 10, 100, 1000... times.</summary>
-        /// <param name="what">What has happened to many, for instance <c>rounds of program 'p' have failed so</c>.</param>
+        /// <param name="what">What happened, in the plural, for instance <c>rounds of program 'p' have failed so</c>.</param>
         /// <param name="first">The first one, in a line.</param>
         /// <returns>Whether it is the first one, which the caller logs.</returns>
         internal bool IsFirst(string key, string what, int node, string first)
         {
             if (!kinds.ContainsKey(key) && kinds.Count >= MaxKinds) key = Others;
-            if (!kinds.TryGetValue(key, out var kind)) kinds.Add(key, kind = new Kind(what, key == Others ? Others : first));
+            if (!kinds.TryGetValue(key, out var kind))
+            {
+                kind = key == Others ? new Kind("rounds or components have failed", Others) : new Kind(what, first);
+                kinds.Add(key, kind);
+            }
             kind.Count++;
             kind.LastNode = node;
             if (kind.Count > 1 && IsPowerOfTen(kind.Count)) kind.Tell();
