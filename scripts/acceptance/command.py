@@ -1,8 +1,10 @@
 """Uses ./collektive as its users do; shared by the acceptance tests."""
 import atexit
+import contextlib
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -15,6 +17,8 @@ SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
 # Of all tests of this process: what one has compiled, the next one finds again at the same place.
 WORK = tempfile.mkdtemp(prefix="collektive-test-")
 atexit.register(shutil.rmtree, WORK, ignore_errors=True)
+# Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def collektive(*arguments, cwd=None):
@@ -53,6 +57,13 @@ class Folder(unittest.TestCase):
         self.folder = os.path.join(WORK, "test")
         os.mkdir(self.folder)
         self.addCleanup(shutil.rmtree, self.folder)
+        self.addCleanup(self.end_processes)
+
+    def end_processes(self):
+        """What a failed test left running would go on beside the others."""
+        for pid in processes(self.folder + "/"):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
 
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
