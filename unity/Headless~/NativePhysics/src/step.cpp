@@ -14,11 +14,20 @@ const PxForceMode::Enum FORCE_MODES[] = {PxForceMode::eFORCE, PxForceMode::eIMPU
 // A pair costs about half a kilobyte.
 const uint64_t MOST_PAIRS = 4000000;
 const size_t FEW_PLACED = 512;
+// In a large scene each body is far away in memory. So many bodies later, what was prefetched is there.
+const int AHEAD = 8;
 
 bool all_finite(const float *value, int count) {
     for (int index = 0; index < count; index++)
         if (!std::isfinite(value[index])) return false;
     return true;
+}
+
+// Of what a body is asked for in a step.
+void prefetch(const PxRigidActor *body) {
+    const size_t line = 64, lines = 5;
+    const char *begin = reinterpret_cast<const char *>(body);
+    for (size_t offset = 0; offset < line * lines; offset += line) __builtin_prefetch(begin + offset);
 }
 
 bool is_finite(const physics_motion &motion) { return all_finite(&motion.pose.position.x, 7) && all_finite(&motion.velocity.x, 6); }
@@ -143,7 +152,11 @@ void physics_world::apply(const physics_command &command) {
 }
 
 void physics_world::apply_all(const physics_command *commands, int32_t count) {
-    for (int32_t index = 0; index < count; index++) apply(commands[index]);
+    for (int32_t index = 0; index < count; index++) {
+        const Actor *next = index + AHEAD < count ? actor(commands[index + AHEAD].actor) : nullptr;
+        if (next) prefetch(next->rigid);
+        apply(commands[index]);
+    }
 }
 
 // Whether the boxes of shapes overlap in more pairs than memory has room for. Sweeps the boxes along x, as long as that is not too many pairs.
@@ -269,7 +282,10 @@ void physics_world::collect_overlaps() {
 void physics_world::collect_motions() {
     PxU32 count = 0;
     PxActor **active = scene->getActiveActors(count);
-    for (PxU32 index = 0; index < count; index++) marks[size_t(intptr_t(active[index]->userData))] |= MOVED;
+    for (PxU32 index = 0; index < count; index++) {
+        if (index + PxU32(AHEAD) < count) __builtin_prefetch(&active[index + PxU32(AHEAD)]->userData);
+        marks[size_t(intptr_t(active[index]->userData))] |= MOVED;
+    }
     moved.clear();
     for (size_t handle = 0; handle < marks.size(); handle++) {
         if (marks[handle] & MOVED) moved.push_back(int32_t(handle));
@@ -279,6 +295,7 @@ void physics_world::collect_motions() {
     std::atomic<bool> infinite{false};
     workers.each(int(moved.size()), [this, &infinite](int first, int end) {
         for (int index = first; index < end; index++) {
+            if (index + AHEAD < end) prefetch(actors[moved[index + AHEAD]].rigid);
             Actor &actor = actors[moved[index]];
             const PxRigidDynamic &body = *actor.body();
             physics_motion &motion = motions[index];

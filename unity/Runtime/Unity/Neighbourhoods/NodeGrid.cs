@@ -83,23 +83,28 @@ namespace Collektive.Unity
             most = new Cell { X = int.MinValue, Y = int.MinValue, Z = int.MinValue };
             EnsureCapacity();
             Array.Clear(starts, 0, mask + 2);
+            // Each node is far away in memory. A processor looks further ahead in a short loop.
             for (var i = 0; i < count; i++)
             {
                 var node = all[i];
                 var position = node.Body.position;
                 node.Position = position;
-                var cell = new Cell { X = CellOf(position.x), Y = CellOf(position.y), Z = CellOf(position.z) };
-                Include(cell);
-                nodes[i] = node;
                 node.PlaceInGrid = i;
+                nodes[i] = node;
                 expected[i] = node.SearchRadius;
                 ref var entry = ref unsorted[i];
                 entry.X = position.x;
                 entry.Y = position.y;
                 entry.Z = position.z;
-                entry.Row = Row(cell.Y, cell.Z);
                 entry.Place = i;
                 entry.Id = node.Id;
+            }
+            for (var i = 0; i < count; i++)
+            {
+                ref var entry = ref unsorted[i];
+                var cell = new Cell { X = CellOf(entry.X), Y = CellOf(entry.Y), Z = CellOf(entry.Z) };
+                Include(cell);
+                entry.Row = Row(cell.Y, cell.Z);
                 var bucket = Bucket(cell.X, entry.Row);
                 bucketOf[i] = bucket;
                 starts[bucket + 1]++;

@@ -49,7 +49,11 @@ namespace Collektive.Unity
             Detached();
         }
 
-        internal void Succeeded() => failuresInRow = 0;
+        internal void Succeeded()
+        {
+            // Nearly always it is 0 already: a write would dirty a cache line in each call.
+            if (failuresInRow != 0) failuresInRow = 0;
+        }
 
         /// <summary>Counts a failure.</summary>
         /// <returns>Whether there were so many in a row that the component must be disabled, so that the rest can go on.</returns>
