@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 3
+#define PHYSICS_VERSION 4
 #define PHYSICS_NONE (-1)
 
 typedef struct physics_world physics_world;
@@ -186,8 +186,9 @@ typedef struct {
     float value[7];
 } physics_command;
 
+/* Where a body is and how it moves. */
 typedef struct {
-    int32_t actor;
+    int32_t step; /* the step in which it last moved or fell asleep */
     int32_t asleep;
     physics_pose pose;
     physics_vector velocity, spin;
@@ -212,20 +213,20 @@ typedef struct {
 } physics_contact;
 
 typedef struct {
-    const physics_motion *motions; /* bodies that moved or fell asleep, in the order of their handles */
-    const physics_touch *touches;  /* by identities */
+    const physics_touch *touches; /* by identities */
     const physics_contact *contacts;
     const int32_t *broken; /* joints that broke in this step: they are gone */
-    int32_t motion_count, touch_count, contact_count, broken_count;
+    int32_t touch_count, contact_count, broken_count;
 } physics_result;
 
 /* Applies commands without a step. */
 PHYSICS_API void physics_apply(physics_world *world, const physics_command *commands, int32_t count);
 
 /* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes lie in one
- * place than memory allows pairs of. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
+ * place than memory allows pairs of. `motions` has an item for each handle of a body; written are those of the bodies that move or fall asleep, with
+ * the step's number. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
 PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds,
-                                 const physics_vector *gravity, physics_result *result);
+                                 const physics_vector *gravity, int32_t number, physics_motion *motions, physics_result *result);
 
 /* ---- Queries ----
  * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are seen only when asked for. */

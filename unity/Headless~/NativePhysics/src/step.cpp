@@ -279,7 +279,7 @@ void physics_world::collect_overlaps() {
     }
 }
 
-void physics_world::collect_motions() {
+void physics_world::collect_motions(int32_t step, physics_motion *motions) {
     PxU32 count = 0;
     PxActor **active = scene->getActiveActors(count);
     for (PxU32 index = 0; index < count; index++) {
@@ -291,15 +291,14 @@ void physics_world::collect_motions() {
         if (marks[handle] & MOVED) moved.push_back(int32_t(handle));
         marks[handle] = 0;
     }
-    motions.resize(moved.size());
     std::atomic<bool> infinite{false};
-    workers.each(int(moved.size()), [this, &infinite](int first, int end) {
+    workers.each(int(moved.size()), [this, step, motions, &infinite](int first, int end) {
         for (int index = first; index < end; index++) {
             if (index + AHEAD < end) prefetch(actors[moved[index + AHEAD]].rigid);
             Actor &actor = actors[moved[index]];
             const PxRigidDynamic &body = *actor.body();
-            physics_motion &motion = motions[index];
-            motion.actor = moved[index];
+            physics_motion &motion = motions[moved[index]];
+            motion.step = step;
             motion.asleep = body.isSleeping() && !(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC);
             const PxTransform at = body.getGlobalPose();
             motion.pose = pose(at);
@@ -312,12 +311,12 @@ void physics_world::collect_motions() {
         }
     });
     if (infinite)
-        for (physics_motion &motion : motions)
-            if (!is_finite(motion)) put_back(motion);
+        for (const int32_t handle : moved)
+            if (!is_finite(motions[handle])) put_back(handle, motions[handle]);
 }
 
-void physics_world::put_back(physics_motion &motion) {
-    const Actor &actor = actors[motion.actor];
+void physics_world::put_back(int32_t handle, physics_motion &motion) {
+    const Actor &actor = actors[handle];
     PxRigidDynamic &body = *actor.body();
     fail("A body's motion became infinite: it was put back where it was, at rest.");
     body.setGlobalPose(actor.last_pose);
@@ -334,7 +333,7 @@ extern "C" {
 void physics_apply(physics_world *world, const physics_command *commands, int32_t count) { world->apply_all(commands, count); }
 
 int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds, const physics_vector *gravity,
-                     physics_result *result) {
+                     int32_t number, physics_motion *motions, physics_result *result) {
     *result = {};
     world->apply_all(commands, count);
     if (world->masses_stale)
@@ -347,7 +346,6 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
         return 0;
     }
     world->placed = 0;
-    world->motions.clear();
     world->touches.clear();
     world->contacts.clear();
     world->broken.clear();
@@ -358,15 +356,14 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
     world->workers.work_until(finish.over);
     world->scene->fetchResults(true);
     world->collect_overlaps();
-    world->collect_motions();
+    world->collect_motions(number, motions);
     std::sort(world->touches.begin(), world->touches.end(), [world](const physics_touch &a, const physics_touch &b) {
         const uint32_t a0 = world->shapes[a.a].identity, b0 = world->shapes[b.a].identity;
         return a0 != b0 ? a0 < b0 : world->shapes[a.b].identity < world->shapes[b.b].identity;
     });
     for (const int32_t joint : world->broken) world->drop_joint(joint);
-    *result = {
-        world->motions.data(),          world->touches.data(),          world->contacts.data(),          world->broken.data(),
-        int32_t(world->motions.size()), int32_t(world->touches.size()), int32_t(world->contacts.size()), int32_t(world->broken.size())};
+    *result = {world->touches.data(),          world->contacts.data(),          world->broken.data(),
+               int32_t(world->touches.size()), int32_t(world->contacts.size()), int32_t(world->broken.size())};
     return 1;
 }
 

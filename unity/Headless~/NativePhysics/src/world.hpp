@@ -127,7 +127,6 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     // Touching pairs whose boxes came apart, or that wait to be found again by a new filtering; by identities.
     std::map<uint64_t, std::pair<int32_t, int32_t>> lost_overlaps;
 
-    std::vector<physics_motion> motions;
     std::vector<physics_touch> touches;
     std::vector<physics_contact> contacts;
     std::vector<int32_t> broken;
@@ -148,8 +147,8 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void apply(const physics_command &command);
     void apply_all(const physics_command *commands, int32_t count);
     bool crowded();
-    void collect_motions();
-    void put_back(physics_motion &motion);
+    void collect_motions(int32_t step, physics_motion *motions);
+    void put_back(int32_t handle, physics_motion &motion);
     void collect_overlaps();
     void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 

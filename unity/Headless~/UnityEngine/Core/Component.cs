@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 
 namespace UnityEngine
 {
@@ -9,6 +10,7 @@ namespace UnityEngine
 
         public GameObject gameObject
         {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
             get
             {
                 ThrowIfDestroyed();

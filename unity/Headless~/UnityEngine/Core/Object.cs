@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace UnityEngine
 {
@@ -49,11 +50,14 @@ namespace UnityEngine
 
         internal virtual string NameImpl { get => ownName; set => ownName = value; }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         internal void ThrowIfDestroyed()
         {
-            if (destroyed)
-                throw new MissingReferenceException($"The object of type '{GetType().Name}' has been destroyed but you are still trying to access it.");
+            if (destroyed) ThrowDestroyed();
         }
+
+        void ThrowDestroyed() =>
+            throw new MissingReferenceException($"The object of type '{GetType().Name}' has been destroyed but you are still trying to access it.");
 
         public override int GetHashCode() => id;
         public override bool Equals(object other) => other is null ? this == null : other is Object o && this == o;
@@ -61,6 +65,7 @@ namespace UnityEngine
 
         public static implicit operator bool(Object exists) => !(exists is null) && !exists.destroyed;
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static bool operator ==(Object x, Object y)
         {
             bool xIsNull = x is null || x.destroyed, yIsNull = y is null || y.destroyed;

@@ -1,6 +1,7 @@
 using System;
 using System.Collections;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 using UnityEngine.SceneManagement;
 
 namespace UnityEngine
@@ -20,18 +21,79 @@ namespace UnityEngine
         /// Already in the list of transforms that physics has not seen at their new place.
         internal bool awaitsSync;
 
-        Vector3 ownPosition = Vector3.zero;
-        Quaternion ownRotation = Quaternion.identity;
+        Vector3 placed = Vector3.zero;
+        Quaternion turned = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
+        bool changed = true;
+        // PhysX's handle of its active body, if any, and the body's step that the pose is of.
+        int body = Physx.None;
+        int bodyStep;
 
         protected internal Transform() { }
 
-        public bool hasChanged { get; set; } = true;
+        Vector3 ownPosition
+        {
+            get => !IsBehind ? placed : parentOrNull is null ? Motion.Pose.Position : Followed().placed;
+            set
+            {
+                Follow();
+                placed = value;
+            }
+        }
+
+        Quaternion ownRotation
+        {
+            get => !IsBehind ? turned : parentOrNull is null ? Motion.Pose.Rotation : Followed().turned;
+            set
+            {
+                Follow();
+                turned = value;
+            }
+        }
+
+        public bool hasChanged
+        {
+            get => IsBehind || changed;
+            set
+            {
+                Follow();
+                changed = value;
+            }
+        }
+
+        unsafe ref Physx.Motion Motion => ref PhysicsWorld.Motions[body];
+
+        /// A step has moved the body since.
+        bool IsBehind
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => body != Physx.None && Motion.Step != bodyStep;
+        }
+
+        /// Takes the pose of the body over, if a step has moved it.
+        internal void Follow()
+        {
+            if (IsBehind) Place(Motion.Pose.Position, Motion.Pose.Rotation);
+        }
+
+        Transform Followed()
+        {
+            Follow();
+            return this;
+        }
+
+        /// Follows another body from now on, or none.
+        internal void Follow(int actor)
+        {
+            Follow();
+            body = actor;
+            bodyStep = body == Physx.None ? 0 : Motion.Step;
+        }
 
         void Changed()
         {
             ThrowIfDestroyed();
-            hasChanged = true;
+            changed = true;
             PhysicsWorld.TransformChanged(this);
         }
 
@@ -119,15 +181,16 @@ namespace UnityEngine
         /// Sets the pose without telling physics: for the results of its own step. The rotation has length 1.
         internal void Place(in Vector3 position, in Quaternion rotation)
         {
-            hasChanged = true;
+            changed = true;
+            if (body != Physx.None) bodyStep = Motion.Step;
             if (parentOrNull is null)
             {
-                ownPosition = position;
-                ownRotation = rotation;
+                placed = position;
+                turned = rotation;
                 return;
             }
-            ownPosition = parentOrNull.InverseTransformPoint(position);
-            ownRotation = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
+            placed = parentOrNull.InverseTransformPoint(position);
+            turned = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
         /// The scale along the own axes, sheared parts left out.

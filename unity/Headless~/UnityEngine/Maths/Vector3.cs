@@ -1,6 +1,5 @@
 using System;
 using System.Globalization;
-using System.Runtime.CompilerServices;
 
 namespace UnityEngine
 {
@@ -13,7 +12,6 @@ namespace UnityEngine
         public float y;
         public float z;
 
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3(float x, float y, float z)
         {
             this.x = x;
@@ -62,18 +60,8 @@ namespace UnityEngine
             z = newZ;
         }
 
-        public readonly float sqrMagnitude
-        {
-            [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            get => x * x + y * y + z * z;
-        }
-
-        public readonly float magnitude
-        {
-            [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            get => (float)Math.Sqrt(x * x + y * y + z * z);
-        }
-
+        public readonly float sqrMagnitude => x * x + y * y + z * z;
+        public readonly float magnitude => (float)Math.Sqrt(x * x + y * y + z * z);
         public readonly Vector3 normalized => Normalize(this);
         public void Normalize() => this = Normalize(this);
 
@@ -85,9 +73,7 @@ namespace UnityEngine
 
         public static float Magnitude(Vector3 vector) => vector.magnitude;
         public static float SqrMagnitude(Vector3 vector) => vector.sqrMagnitude;
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static float Distance(Vector3 a, Vector3 b) => (a - b).magnitude;
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static float Dot(Vector3 lhs, Vector3 rhs) => lhs.x * rhs.x + lhs.y * rhs.y + lhs.z * rhs.z;
 
         public static Vector3 Cross(Vector3 lhs, Vector3 rhs) => new Vector3(
@@ -134,21 +120,15 @@ namespace UnityEngine
         public static float SignedAngle(Vector3 from, Vector3 to, Vector3 axis) =>
             Angle(from, to) * (Dot(axis, Cross(from, to)) >= 0f ? 1f : -1f);
 
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3 operator +(Vector3 a, Vector3 b) => new Vector3(a.x + b.x, a.y + b.y, a.z + b.z);
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3 operator -(Vector3 a, Vector3 b) => new Vector3(a.x - b.x, a.y - b.y, a.z - b.z);
         public static Vector3 operator -(Vector3 a) => new Vector3(-a.x, -a.y, -a.z);
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3 operator *(Vector3 a, float d) => new Vector3(a.x * d, a.y * d, a.z * d);
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3 operator *(float d, Vector3 a) => new Vector3(a.x * d, a.y * d, a.z * d);
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3 operator /(Vector3 a, float d) => new Vector3(a.x / d, a.y / d, a.z / d);
         public static bool operator ==(Vector3 lhs, Vector3 rhs) => (lhs - rhs).sqrMagnitude < kEpsilon * kEpsilon;
         public static bool operator !=(Vector3 lhs, Vector3 rhs) => !(lhs == rhs);
 
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool Equals(Vector3 other) => x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z);
         public override readonly bool Equals(object other) => other is Vector3 vector && Equals(vector);
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2);

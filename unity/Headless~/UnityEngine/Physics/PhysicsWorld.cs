@@ -14,13 +14,17 @@ namespace UnityEngine
         static readonly List<Rigidbody> Unpublished = new List<Rigidbody>();
         static readonly Touches Touching = new Touches();
 
-        static Rigidbody[] bodies = new Rigidbody[64]; // by PhysX's handle of the actor
+        static readonly List<Rigidbody> Nested = new List<Rigidbody>(); // their transforms have parents
         static Collider[] colliders = new Collider[64]; // by PhysX's handle of the shape
         static Physx.Command* commands; // native: read by PhysX, kept until the process ends
         static int commandCount, commandCapacity;
+        static int motionCapacity;
         static IntPtr world;
         static bool stepping;
         static int materialChanges;
+
+        /// By PhysX's handle of the body: written by PhysX in a step, and by scripts between steps. Native, kept until the process ends.
+        public static Physx.Motion* Motions { get; private set; }
 
         /// Steps of this world so far.
         public static int StepCount { get; private set; }
@@ -61,6 +65,7 @@ namespace UnityEngine
             OverlapBatch.Finish();
             Moved.Clear();
             Unpublished.Clear();
+            Nested.Clear();
             Touching.Clear();
             Ignored.Clear();
             commandCount = 0;
@@ -73,10 +78,10 @@ namespace UnityEngine
 
         // ---- Members --------------------------------------------------------------------------------------------------
 
+        /// Its motion has a place from now on.
         public static void Add(Rigidbody body)
         {
-            if (body.Handle >= bodies.Length) Array.Resize(ref bodies, 2 * body.Handle);
-            bodies[body.Handle] = body;
+            if (body.Handle >= motionCapacity) Motions = Longer(Motions, motionCapacity = Math.Max(1024, 2 * body.Handle));
         }
 
         public static void Add(Joint joint) => Joints.Add(joint);
@@ -98,8 +103,8 @@ namespace UnityEngine
 
         public static void Remove(Rigidbody body)
         {
-            bodies[body.Handle] = null;
             Unpublished.Remove(body);
+            SetNested(body, false);
         }
 
         public static void Add(Collider collider)
@@ -111,6 +116,22 @@ namespace UnityEngine
         public static void Remove(Collider collider) => colliders[collider.Handle] = null;
 
         public static Collider ColliderOf(int shape) => shape == Physx.None ? null : colliders[shape];
+
+        /// Its transform has got a parent or lost it.
+        public static void SetNested(Rigidbody body, bool nested)
+        {
+            if (nested == body.PlaceInNested >= 0) return;
+            if (nested)
+            {
+                body.PlaceInNested = Nested.Count;
+                Nested.Add(body);
+                return;
+            }
+            var last = Nested[Nested.Count - 1];
+            Nested[last.PlaceInNested = body.PlaceInNested] = last;
+            Nested.RemoveAt(Nested.Count - 1);
+            body.PlaceInNested = -1;
+        }
 
         /// Its transform follows with the next step, even if PhysX does not move it.
         public static void PublishAfterStep(Rigidbody body) => Unpublished.Add(body);
@@ -140,16 +161,17 @@ namespace UnityEngine
         static Physx.Command* NextCommand(int actor, Physx.Order order)
         {
             if (commandCount == commandCapacity)
-            {
-                var capacity = Math.Max(1024, 2 * commandCapacity);
-                var size = (IntPtr)((long)capacity * sizeof(Physx.Command));
-                commands = (Physx.Command*)(commands == null ? Marshal.AllocHGlobal(size) : Marshal.ReAllocHGlobal((IntPtr)commands, size));
-                commandCapacity = capacity;
-            }
+                commands = Longer(commands, commandCapacity = Math.Max(1024, 2 * commandCapacity));
             var command = commands + commandCount++;
             command->Actor = actor;
             command->Order = order;
             return command;
+        }
+
+        static T* Longer<T>(T* memory, int length) where T : unmanaged
+        {
+            var size = (IntPtr)((long)length * sizeof(T));
+            return (T*)(memory == null ? Marshal.AllocHGlobal(size) : Marshal.ReAllocHGlobal((IntPtr)memory, size));
         }
 
         /// Brings PhysX up to what scripts asked for, before it is asked something.
@@ -175,7 +197,10 @@ namespace UnityEngine
             var parts = transform.owner.physicsParts;
             if (parts != null)
                 for (var index = 0; index < parts.Count; index++)
+                {
                     if (parts[index] is Collider collider) collider.Attach();
+                    else SetNested((Rigidbody)parts[index], !(transform.parentOrNull is null));
+                }
             foreach (var child in transform.children) HierarchyChanged(child);
         }
 
@@ -218,11 +243,12 @@ namespace UnityEngine
                 Physx.Result result;
                 var count = commandCount;
                 commandCount = 0;
-                var done = Physx.physics_step(Handle, commands, count, step, &gravity, &result);
+                var done = Physx.physics_step(Handle, commands, count, step, &gravity, StepCount + 1, Motions, &result);
                 StepCount++;
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
-                for (var index = 0; index < result.MotionCount; index++)
-                    bodies[result.Motions[index].Actor].TakeMotion(result.Motions + index);
+                // Other transforms follow their bodies when somebody looks: between the steps of a tick, nobody does. These must follow before
+                // their parents are moved.
+                foreach (var body in Nested) body.Lead();
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
                 TellErrors();

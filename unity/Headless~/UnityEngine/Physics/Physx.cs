@@ -6,7 +6,7 @@ namespace UnityEngine
     /// The C interface of collektive_physics, as its header tells (NativePhysics/include/collektive_physics.h).
     static unsafe class Physx
     {
-        public const int Version = 3;
+        public const int Version = 4;
         public const int None = -1;
 
         const string Library = "collektive_physics";
@@ -134,7 +134,7 @@ namespace UnityEngine
 #pragma warning disable 0649 // the library writes them
         public struct Motion
         {
-            public int Actor;
+            public int Step;
             public int Asleep;
             public Pose Pose;
             public Vector3 Velocity, Spin;
@@ -157,11 +157,10 @@ namespace UnityEngine
 
         public struct Result
         {
-            public Motion* Motions;
             public Touch* Touches;
             public Contact* Contacts;
             public int* Broken;
-            public int MotionCount, TouchCount, ContactCount, BrokenCount;
+            public int TouchCount, ContactCount, BrokenCount;
         }
 
         public struct Hit
@@ -215,7 +214,9 @@ namespace UnityEngine
         [DllImport(Library)] public static extern void physics_joint_destroy(IntPtr world, int joint);
 
         [DllImport(Library)] public static extern void physics_apply(IntPtr world, Command* commands, int count);
-        [DllImport(Library)] public static extern int physics_step(IntPtr world, Command* commands, int count, float seconds, Vector3* gravity, Result* result);
+        [DllImport(Library)]
+        public static extern int physics_step(IntPtr world, Command* commands, int count, float seconds, Vector3* gravity, int number, Motion* motions,
+            Result* result);
 
         [DllImport(Library)] public static extern void physics_raycast(IntPtr world, RayLine* rays, Filter* filters, int count, Hit* hits);
         [DllImport(Library)] public static extern int physics_raycast_all(IntPtr world, RayLine* ray, Filter* filter, Hit* hits, int capacity);

@@ -52,12 +52,12 @@ namespace UnityEngine
         internal readonly List<Collider> Colliders = new List<Collider>();
         /// PhysX's handle, or none: not active.
         internal int Handle = Physx.None;
+        internal int PlaceInNested = -1;
 
         Transform place; // while it is active
-        Vector3 posePosition;
-        Quaternion poseRotation = Quaternion.identity;
+        Physx.Motion ownMotion; // while it is not
         float ownMass = 1f;
-        bool kinematic, gravity = true, asleep;
+        bool kinematic, gravity = true;
         RigidbodyConstraints ownConstraints;
         CollisionDetectionMode detection;
         float ownLinearDamping, ownAngularDamping = 0.05f, ownMaxLinear = 1e16f, ownMaxAngular = 7f, ownDepenetration = DefaultDepenetration;
@@ -65,12 +65,13 @@ namespace UnityEngine
         int iterations = DefaultIterations, velocityIterations = DefaultVelocityIterations;
         Vector3? ownCenter, ownInertia;
         Quaternion ownInertiaRotation = Quaternion.identity;
-        Vector3 velocity, spin;
         Vector3 targetPosition;
         Quaternion targetRotation;
         int targetStep = -1; // the step that the target was set for
 
         internal bool Registered => Handle != Physx.None;
+
+        unsafe ref Physx.Motion Motion => ref Handle != Physx.None ? ref PhysicsWorld.Motions[Handle] : ref ownMotion;
 
         // ---- Properties -----------------------------------------------------------------------------------------------
 
@@ -196,8 +197,8 @@ namespace UnityEngine
             {
                 if (kinematic == value) return;
                 kinematic = value;
-                velocity = spin = Vector3.zero;
-                asleep = false;
+                Motion.Velocity = Motion.Spin = Vector3.zero;
+                Motion.Asleep = 0;
                 // Shapes that only a kinematic body may have go before it changes and come after it.
                 if (!value) RefreshColliders();
                 Order(Physx.Order.Kinematic, new Vector3(value ? 1f : 0f, 0f, 0f));
@@ -230,24 +231,26 @@ namespace UnityEngine
 
         public Vector3 linearVelocity
         {
-            get => velocity;
+            get => Motion.Velocity;
             set
             {
                 if (!Finite.Accepts(value, "Rigidbody.linearVelocity", this) || !TakesVelocity("linear")) return;
-                velocity = value;
-                if (!value.Equals(Vector3.zero)) asleep = false;
+                ref var motion = ref Motion;
+                motion.Velocity = value;
+                if (!value.Equals(Vector3.zero)) motion.Asleep = 0;
                 Order(Physx.Order.Velocity, value);
             }
         }
 
         public Vector3 angularVelocity
         {
-            get => spin;
+            get => Motion.Spin;
             set
             {
                 if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this) || !TakesVelocity("angular")) return;
-                spin = value;
-                if (!value.Equals(Vector3.zero)) asleep = false;
+                ref var motion = ref Motion;
+                motion.Spin = value;
+                if (!value.Equals(Vector3.zero)) motion.Asleep = 0;
                 Order(Physx.Order.Spin, value);
             }
         }
@@ -255,13 +258,13 @@ namespace UnityEngine
         /// Where physics has the body; setting it moves the transform with the next step.
         public Vector3 position
         {
-            get => Registered ? posePosition : transform.position;
+            get => Registered ? Motion.Pose.Position : transform.position;
             set => Teleport(value, rotation);
         }
 
         public Quaternion rotation
         {
-            get => Registered ? poseRotation : transform.rotation;
+            get => Registered ? Motion.Pose.Rotation : transform.rotation;
             set => Teleport(position, value.normalized);
         }
 
@@ -379,7 +382,7 @@ namespace UnityEngine
         public void AddForce(Vector3 force, ForceMode mode)
         {
             if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic) return;
-            asleep = false;
+            Motion.Asleep = 0;
             Order(Physx.Order.Force + Number(mode), force);
         }
 
@@ -395,7 +398,7 @@ namespace UnityEngine
         public void AddTorque(Vector3 torque, ForceMode mode)
         {
             if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this) || kinematic) return;
-            asleep = false;
+            Motion.Asleep = 0;
             Order(Physx.Order.Torque + Number(mode), torque);
         }
 
@@ -415,25 +418,25 @@ namespace UnityEngine
             AddTorque(Vector3.Cross(position - worldCenterOfMass, force), mode);
         }
 
-        public Vector3 GetPointVelocity(Vector3 worldPoint) => velocity + Vector3.Cross(spin, worldPoint - worldCenterOfMass);
+        public Vector3 GetPointVelocity(Vector3 worldPoint) => Motion.Velocity + Vector3.Cross(Motion.Spin, worldPoint - worldCenterOfMass);
         public Vector3 GetRelativePointVelocity(Vector3 relativePoint) => GetPointVelocity(position + rotation * relativePoint);
 
         public void Sleep()
         {
             if (kinematic) return;
-            velocity = spin = Vector3.zero;
-            asleep = Registered;
+            Motion.Velocity = Motion.Spin = Vector3.zero;
+            Motion.Asleep = Registered ? 1 : 0;
             Order(Physx.Order.Sleep, Vector3.zero);
         }
 
         public void WakeUp()
         {
             if (kinematic) return;
-            asleep = false;
+            Motion.Asleep = 0;
             Order(Physx.Order.Wake, Vector3.zero);
         }
 
-        public bool IsSleeping() => asleep;
+        public bool IsSleeping() => Motion.Asleep != 0;
 
         // ---- Queries --------------------------------------------------------------------------------------------------
 
@@ -510,12 +513,13 @@ namespace UnityEngine
         internal override unsafe void Activate()
         {
             place = owner.TransformUnchecked;
-            posePosition = place.position;
-            poseRotation = place.rotation;
-            var pose = new Physx.Pose(posePosition, poseRotation);
+            var pose = new Physx.Pose(place.position, place.rotation);
             Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
-            asleep = false;
+            ownMotion.Pose = pose;
+            Motion = ownMotion;
+            place.Follow(Handle);
+            PhysicsWorld.SetNested(this, !(place.parentOrNull is null));
             SendAll();
             owner.AddPhysics(this);
             foreach (var collider in owner.GetComponentsInChildren<Collider>())
@@ -530,12 +534,12 @@ namespace UnityEngine
             PhysicsWorld.Flush();
             PhysicsWorld.Disconnect(this);
             PhysicsWorld.Remove(this);
+            place.Follow(Physx.None);
             var dying = Handle;
             Handle = Physx.None;
             foreach (var collider in Colliders.ToArray()) collider.Attach();
             Physx.physics_actor_destroy(PhysicsWorld.Handle, dying);
-            velocity = spin = Vector3.zero;
-            asleep = false;
+            ownMotion = default;
         }
 
         internal void RefreshColliders()
@@ -549,29 +553,22 @@ namespace UnityEngine
             var transform = owner.TransformUnchecked;
             var position = transform.position;
             var rotation = transform.rotation;
-            if (!position.Equals(posePosition) || !rotation.Equals(poseRotation)) SetPose(position, rotation);
+            ref var pose = ref Motion.Pose;
+            if (!position.Equals(pose.Position) || !rotation.Equals(pose.Rotation)) SetPose(position, rotation);
         }
 
         void SetPose(Vector3 position, Quaternion rotation)
         {
-            posePosition = position;
-            poseRotation = rotation;
-            asleep = false;
+            ref var motion = ref Motion;
+            motion.Pose = new Physx.Pose(position, rotation);
+            motion.Asleep = 0;
             OrderPose(Physx.Order.Pose, position, rotation);
         }
 
-        /// Takes the result of a step over and moves the transform.
-        internal unsafe void TakeMotion(Physx.Motion* motion)
-        {
-            posePosition = motion->Pose.Position;
-            poseRotation = motion->Pose.Rotation;
-            velocity = motion->Velocity;
-            spin = motion->Spin;
-            asleep = motion->Asleep != 0;
-            place.Place(posePosition, poseRotation);
-        }
+        /// Moves the transform, if the last step moved the body.
+        internal void Lead() => place.Follow();
 
-        internal void Publish() => place.Place(posePosition, poseRotation);
+        internal void Publish() => place.Place(Motion.Pose.Position, Motion.Pose.Rotation);
 
         internal override void CopyFrom(Component original)
         {

@@ -83,14 +83,14 @@ namespace Collektive.Unity
             most = new Cell { X = int.MinValue, Y = int.MinValue, Z = int.MinValue };
             EnsureCapacity();
             Array.Clear(starts, 0, mask + 2);
+            all.CopyTo(nodes);
             // Each node is far away in memory. A processor looks further ahead in a short loop.
             for (var i = 0; i < count; i++)
             {
-                var node = all[i];
+                var node = nodes[i];
                 var position = node.Body.position;
                 node.Position = position;
                 node.PlaceInGrid = i;
-                nodes[i] = node;
                 expected[i] = node.SearchRadius;
                 ref var entry = ref unsorted[i];
                 entry.X = position.x;

@@ -22,7 +22,8 @@ namespace Collektive.Unity
         private readonly Roster roster = new Roster();
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
-        private readonly List<Node> present = new List<Node>();
+        private Node[] present = Array.Empty<Node>();
+        private int presentCount;
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
         private bool isTicking;
@@ -276,12 +277,13 @@ namespace Collektive.Unity
 
         private void UpdateRules()
         {
-            present.Clear();
-            present.AddRange(Nodes);
-            Grid.Build(present, Grid.MeanRadius, Settings.threads > 1);
+            presentCount = Nodes.Count;
+            if (presentCount > present.Length) present = new Node[Math.Max(presentCount, 2 * present.Length)];
+            Nodes.CopyTo(present);
+            Grid.Build(Nodes, Grid.MeanRadius, Settings.threads > 1);
             SightLines.Begin();
             Queries.Begin(Now);
-            for (var i = 0; i < present.Count && IsOpen; i++)
+            for (var i = 0; i < presentCount && IsOpen; i++)
             {
                 var node = present[i];
                 if (node.Id >= 0) node.Rules.Run(this, node, -1);
@@ -296,10 +298,10 @@ namespace Collektive.Unity
             due.Clear();
             var request = session.Request;
             request.ClearDue();
-            request.Sensors.EnsureCapacity(present.Count);
+            request.Sensors.EnsureCapacity(presentCount);
             var now = Now;
             Queries.Finish();
-            for (var i = 0; i < present.Count && IsOpen; i++)
+            for (var i = 0; i < presentCount && IsOpen; i++)
             {
                 var node = present[i];
                 if (node.Id < 0) continue;
