@@ -245,6 +245,37 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_transform_stays_where_the_last_step_put_it_until_the_next_step_moves_its_body()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.linearVelocity = new Vector3(1f, 0f, 0f);
+            Run(0.2f);
+            ball.position = new Vector3(5f, 0f, 0f);
+            Assert.That(ball.position.x, Is.EqualTo(5f));
+            Assert.That(ball.transform.position.x, Is.EqualTo(0.2f).Within(1e-4f));
+            Run(0.1f);
+            Assert.That(ball.transform.position.x, Is.EqualTo(5.1f).Within(1e-4f));
+        }
+
+        [Test]
+        public void A_body_that_moved_and_then_gets_a_parent_keeps_its_local_pose_if_that_is_wanted()
+        {
+            var parent = new GameObject("parent").transform;
+            parent.position = new Vector3(0f, 0f, 10f);
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.linearVelocity = new Vector3(1f, 0f, 0f);
+            Run(0.2f);
+            ball.transform.SetParent(parent, false);
+            Assert.That(ball.transform.localPosition.x, Is.EqualTo(0.2f).Within(1e-4f));
+            Assert.That(ball.transform.position.z, Is.EqualTo(10f).Within(1e-4f));
+            Run(0.2f);
+            Assert.That(ball.transform.localPosition.x, Is.EqualTo(0.4f).Within(1e-4f));
+            Assert.That(ball.transform.position.z, Is.EqualTo(10f).Within(1e-4f));
+        }
+
+        [Test]
         public void Layers_and_pairs_can_be_ignored()
         {
             Floor().gameObject.layer = 8;

@@ -304,6 +304,7 @@ namespace UnityEngine
                 Debug.LogError($"'{parent.name}' cannot become the parent of '{name}': it lies below it.", this);
                 return;
             }
+            Follow();
             Vector3 worldPosition = position, worldScale = lossyScale;
             var worldRotation = rotation;
             Detach();

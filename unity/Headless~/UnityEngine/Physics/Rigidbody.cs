@@ -559,6 +559,8 @@ namespace UnityEngine
 
         void SetPose(Vector3 position, Quaternion rotation)
         {
+            // The transform goes to the new pose with the next step, and until then has that of the last one.
+            place.Follow();
             ref var motion = ref Motion;
             motion.Pose = new Physx.Pose(position, rotation);
             motion.Asleep = 0;
