@@ -60,7 +60,7 @@ def all_suites(jdks: list[str]) -> list[Suite]:
         Suite("exits", ["test_exits"], nunit, nunit=True),
         Suite("soak", ["test_soak"], [*nunit, "build_soak"], nunit=True),
         Suite("roundtrip", ["test_roundtrip"], [*built, "setup_python"]),
-        Suite("page", ["test_page"], [*built, "build_replay_page"], quick=True),
+        Suite("page", ["test_page"], [*built, "build_replay_page"]),
         Suite("site", ["test_site"], [*built, "setup_npm", "setup_site"]),
         Suite("acceptance", ["test_acceptance"], [*built, "build_replay_page", "setup_python"]),
         Suite("quick", ["test_acceptance_quick"], [*built, "build_replay_page", "setup_python"], quick=True, label="acceptance-quick"),

@@ -41,7 +41,6 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 """
 
-    @pytest.mark.quick
     def test_its_example_runs(self):
         """The schema, the Kotlin and the C# of the page, in the scene above."""
         schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")

@@ -174,7 +174,6 @@ class AForeignProject(Project):
         self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')
         self.refused("broken.jar")
 
-    @pytest.mark.quick
     def test_a_program_that_throws_fails_the_run_but_not_its_end(self):
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')

@@ -8,7 +8,6 @@ import re
 import subprocess
 import zipfile
 
-import pytest
 from command import Project, collektive
 from places import COLLEKTIVE, ROOT
 
@@ -71,7 +70,6 @@ class Runtimes(Project):
         repack(jar, self.path("project", "programs.jar"), change=change)
         self.change("lamps.json", '"programs": "programs"', '"programs": "programs.jar"')
 
-    @pytest.mark.quick
     def test_both_runtimes_give_the_same_run_and_their_records_are_compared(self):
         first = self.completed("a")
         self.switch()

@@ -3,6 +3,7 @@ package org.collektive.frames.data
 import org.collektive.frames.FrameChecker
 import org.collektive.frames.FramePolicy
 import org.collektive.frames.MalformedFrameException
+import org.junit.jupiter.api.Tag
 import java.util.Random
 import kotlin.test.Test
 import kotlin.test.assertContains
@@ -45,6 +46,7 @@ internal class DataTreesTest {
         assertContains(assertFailsWith<MalformedFrameException> { trees.elements("test.Other") }.message.orEmpty(), "defines no test.Other")
     }
 
+    @Tag("slow")
     @Test
     fun `a damaged schema is refused, or reads what it has checked`() {
         var refused = 0

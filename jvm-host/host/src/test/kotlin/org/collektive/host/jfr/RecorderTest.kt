@@ -9,6 +9,7 @@ import org.collektive.host.TestControl
 import org.collektive.host.TestSession
 import org.collektive.host.TestShim
 import org.junit.jupiter.api.AfterEach
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
@@ -92,6 +93,7 @@ class RecorderTest {
         assertTrue(events.getValue("collektive.SlotGrown").all { it.getLong("after") > it.getLong("before") })
     }
 
+    @Tag("slow")
     @Test
     fun `a dump contains the recording so far, and the recording continues`() {
         val dump = folder.resolve("dump.jfr")

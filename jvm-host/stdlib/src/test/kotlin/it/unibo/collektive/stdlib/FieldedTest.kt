@@ -8,6 +8,7 @@ import it.unibo.collektive.stdlib.ints.FieldedInts.plus
 import it.unibo.collektive.stdlib.iterables.FieldedCollectionsExtensions.filterIsInstance
 import it.unibo.collektive.stdlib.iterables.FieldedCollectionsExtensions.flatMap
 import org.junit.jupiter.api.DynamicTest.dynamicTest
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
 import java.io.File
@@ -24,6 +25,7 @@ import kotlin.test.fail
 
 /** Calls every lifted operator on random fields, and compares each entry with Kotlin's own function. */
 class FieldedTest {
+    @Tag("slow")
     @TestFactory
     fun `every function does for each entry what Kotlin's own does`() = objects().map { name ->
         val lifted = Class.forName(name).kotlin
