@@ -84,7 +84,8 @@ setup_system() {
   missing=$(wanting)
   if [ -n "$missing" ] && may_install; then
     logged "$BUILD/log/package-lists.log" apt-get update
-    mapfile -t install < <(cut -f 1 <<<"$missing")
+    # Before, a fresh system's apt knows no package, and so not which is new enough.
+    mapfile -t install < <(wanting | cut -f 1)
     logged "$BUILD/log/system-packages.log" install_packages "${install[@]}"
     hash -r
     missing=$(wanting)

@@ -21,11 +21,22 @@ class TheTools(unittest.TestCase):
     def wanting(self, tool, told, packages=()):
         """Runs the check of all tools with one that tells `told` as its version, or nothing, where apt has `packages` (lines of name and version)."""
         apt_cache = "".join(f"[ $2 != {name} ] || echo '  Candidate: {version}'\n" for name, version in packages)
-        for name, text in [(tool, told and f"echo '{told}'"), ("apt-cache", apt_cache)]:
-            with open(self.path(name), "w") as file:
-                file.write(f"#!/bin/sh\n{text or 'exit 1'}\n")
-            os.chmod(self.path(name), 0o755)
-        script = 'set -euo pipefail; for part in lib setup; do . "$ROOT/scripts/$part.sh"; done; BUILD=$1\nmay_install() { false; }\nsetup_system'
+        self.fake(tool, told and f"echo '{told}'")
+        self.fake("apt-cache", apt_cache)
+        return self.set_up(may_install=False)
+
+    def fake(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(f"#!/bin/sh\n{text or 'exit 1'}\n")
+        os.chmod(self.path(name), 0o755)
+        # The other command that will do: this system may have it.
+        if name == "cargo":
+            self.fake("cargo-1.85", None)
+
+    def set_up(self, may_install):
+        script = f"""set -euo pipefail; for part in lib setup; do . "$ROOT/scripts/$part.sh"; done; BUILD=$1
+            may_install() {{ {str(may_install).lower()}; }}
+            setup_system"""
         return subprocess.run(["bash", "-c", script, "bash", self.folder], capture_output=True, text=True,
                               env={**os.environ, "ROOT": ROOT, "PATH": f"{self.folder}:{os.environ['PATH']}"})
 
@@ -40,6 +51,19 @@ class TheTools(unittest.TestCase):
                                    ([("cargo", "1.75.0"), ("cargo-1.85", "1.85.1+dfsg0")], "cargo-1.85"), ([], "cargo")]:
             result = self.wanting("cargo", "cargo 1.75.0", packages)
             self.assertTrue(result.stderr.rstrip().endswith(f"apt-get install {expected}"), result.stderr)
+
+    def test_on_a_fresh_system_the_package_is_chosen_when_apt_has_its_lists(self):
+        self.fake("cargo", "echo cargo 1.75.0")
+        self.fake("apt-cache", f"""[ -e {self.path("lists")} ] || exit 0
+            case $2 in cargo) echo '  Candidate: 1.75.0' ;; cargo-1.85) echo '  Candidate: 1.85.1' ;; esac""")
+        self.fake("apt-get", f"""case $1 in
+            update) touch {self.path("lists")} ;;
+            install) echo "$*" >{self.path("installed")}; printf '#!/bin/sh\necho cargo 1.85.1\n' >{self.path("cargo-1.85")} ;;
+            esac""")
+        result = self.set_up(may_install=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("installed")) as file:
+            self.assertTrue(file.read().rstrip().endswith(" cargo-1.85"))
 
     def test_each_way_of_telling_a_version_is_understood(self):
         for tool, told in [("mvn", "\033[1mApache Maven 3.8.7\033[m"), ("javac", "javac 25"), ("node", "v18.20.4"), ("cargo", "cargo 1.100.0 (abc 2027-01-01)"),
