@@ -41,7 +41,7 @@ def test_bash_is_clean_under_shellcheck():
     command = [os.path.join(BUILD, "python/bin/shellcheck"), "--external-sources"]
     # The parts are one program.
     clean(*command, "--check-sourced", "collektive")
-    clean(*command, *sources("scripts/acceptance/*.sh", ".ci/run", "tools/coreclr/coreclr"))
+    clean(*command, *sources("scripts/tests/acceptance/*.sh", ".ci/run", "tools/coreclr/coreclr"))
 
 
 def test_python_is_clean_under_ruff():

@@ -2,7 +2,7 @@
 """Checks the package's assets: `validate.py ROOT FIELDS` prints one line for each thing that is wrong and exits 1.
 
 FIELDS is what Collektive.SerializedFields.exe printed of the package's assemblies. With --update the new GUIDs are added to
-scripts/validator/guids.txt.
+scripts/checks/validator/guids.txt.
 """
 import os
 import sys

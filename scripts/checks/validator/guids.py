@@ -1,6 +1,6 @@
 """GUIDs never change: users' scenes refer to the package's assets by nothing else.
 
-`scripts/validator/guids.txt` holds the GUID of every asset that a scene, a prefab or an assembly definition can refer to.
+`scripts/checks/validator/guids.txt` holds the GUID of every asset that a scene, a prefab or an assembly definition can refer to.
 """
 import os
 
@@ -29,7 +29,7 @@ def problems(assets, classes, ledger=LEDGER):
             yield f"{path}: its GUID {guid} is gone, which breaks users' scenes; give the asset (or what it was renamed to) this GUID again"
     for guid, path in sorted(present.items(), key=lambda entry: entry[1]):
         if listed.get(guid) != path:
-            yield f"{path}: not in {os.path.basename(ledger)} with GUID {guid}; run scripts/validate.py --update"
+            yield f"{path}: not in {os.path.basename(ledger)} with GUID {guid}; run scripts/checks/validate.py --update"
 
 
 def update(assets, classes, ledger=LEDGER):

@@ -27,7 +27,7 @@ sys.path.insert(0, os.path.dirname(HERE))
 import junit  # noqa: E402  (lies in the folder above)
 from places import COLLEKTIVE, ROOT  # noqa: E402
 
-PROJECT = os.path.join(ROOT, "scripts/acceptance/foreign")
+PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
 SECONDS, TICKS = 20, 200
 LIMIT_S = 240
 # How long what a signal ended may take to be gone.
