@@ -1,18 +1,16 @@
-#!/usr/bin/env python3
-"""bare_demo.py FOLDER CODE RESULTS.xml: whether a demo that ended with CODE has written to FOLDER what it promises."""
+"""Checks what a demo has written."""
 import csv
 import json
 import os
-import sys
 from collections.abc import Callable
 
-import junit
+from tests import junit
 
 
 class Demo:
     """Each check returns what is wrong, or None."""
 
-    def __init__(self, folder: str, code: str):
+    def __init__(self, folder: str, code: int) -> None:
         self.folder, self.code = folder, code
 
     def read(self, name: str) -> bytes:
@@ -20,7 +18,7 @@ class Demo:
             return file.read()
 
     def ended(self) -> str | None:
-        return None if self.code == "0" else f"it ended with {self.code}"
+        return None if self.code == 0 else f"it ended with {self.code}"
 
     def manifest(self) -> str | None:
         ran = json.loads(self.read("manifest.json"))
@@ -46,7 +44,8 @@ def case(name: str, check: Callable[[], str | None]) -> junit.Case:
         return junit.Case(name, repr(error))
 
 
-def main(folder: str, code: str, results: str) -> None:
+def check(folder: str, code: int, results: str) -> None:
+    """Writes to RESULTS.xml whether a demo that ended with a code has written to a folder what it promises."""
     demo = Demo(folder, code)
     junit.write(results, "demo", [
         case("it ends with 0", demo.ended),
@@ -55,7 +54,3 @@ def main(folder: str, code: str, results: str) -> None:
         case("it has three pictures", demo.pictures),
         case("it has a replay page", demo.page),
     ])
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

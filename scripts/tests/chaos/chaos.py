@@ -24,9 +24,10 @@ import time
 from dataclasses import dataclass
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.dirname(HERE))
-import junit  # noqa: E402  (lies in the folder above)
-from places import COLLEKTIVE, ROOT  # noqa: E402
+sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
+from build.places import COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
+
+from tests import junit  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
 SECONDS, TICKS = 20, 200
@@ -272,7 +273,7 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     for kind in ("kills", "disks", "signals", "others"):
         parser.add_argument(kind, type=int)
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
     parser.add_argument("--results")
     given = parser.parse_args()
     # Jobs of scripts ignore SIGINT, and hand that down to the runs.

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
 
-exits.py PLACES.json RUNS [KIND]... [--results FILE.xml]; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. Without
-a KIND all of them; FILE gets the results as JUnit XML.
+exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, on every runtime and JVM; FILE gets the results as JUnit XML.
 """
 import argparse
 import collections
@@ -19,8 +18,11 @@ import tempfile
 import threading
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-import junit
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+from build import managed
+
+from tests import junit
+from tests.faults import places as files
 
 # How a run ends, and its exit code.
 KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
@@ -73,7 +75,7 @@ def run(places, kind, index):
     jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
     folder = tempfile.mkdtemp(prefix="collektive-exit-")
     try:
-        environment = dict(os.environ, LD_LIBRARY_PATH=places["shim"])
+        environment = managed.environment(runtime)
         process = subprocess.Popen(command(places, kind, runtime, jdk, folder), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         watchdog = threading.Timer(LIMIT_S, process.kill)
         watchdog.start()
@@ -107,14 +109,12 @@ def run(places, kind, index):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("places")
     parser.add_argument("runs", type=int)
     parser.add_argument("kinds", nargs="*", default=list(KINDS))
     parser.add_argument("--results")
     arguments = parser.parse_args()
     runs, kinds = arguments.runs, arguments.kinds
-    with open(arguments.places) as file:
-        places = json.load(file)
+    places = files.everywhere()
     # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     cases = []

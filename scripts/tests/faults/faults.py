@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes each fault of faults.json happen in a process of its own and prints what comes of it: a table, and "N passed, N failed".
 
-faults.py PLACES.json [WORDS] [--results FILE.xml]; PLACES names the runtimes, the JVMs and the files that scripts/faults.sh has built. With WORDS
-only faults with these words in their name; FILE gets the results as JUnit XML.
+faults.py [--all] [WORDS]... [--results FILE.xml]; --all: on every runtime and JVM, else on Mono and the newest JVM alone. With WORDS only faults with
+these words in their name; FILE gets the results as JUnit XML.
 """
 import argparse
 import concurrent.futures
@@ -18,8 +18,11 @@ import tempfile
 import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.dirname(HERE))
-import junit  # noqa: E402  (lies in the folder above)
+sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
+from build import jdk, managed  # noqa: E402  (lie in a folder above)
+
+from tests import junit  # noqa: E402
+from tests.faults import places as files  # noqa: E402
 
 LIMIT_S = 180
 ORDER = ["next tick", "next session", "next start", "restart"]
@@ -105,7 +108,7 @@ class Trial:
 
     def run(self):
         """Returns what is wrong ("" for nothing), the line that the user reads, and what still works."""
-        environment = dict(os.environ, LD_LIBRARY_PATH=self.places["shim"], **self.fault.get("environment", {}))
+        environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                     preexec_fn=self.limit_files if "file_limit" in self.fault else None, timeout=LIMIT_S)
@@ -146,13 +149,12 @@ def short(text, width):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("places")
-    parser.add_argument("words", nargs="?", default="")
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--all", action="store_true")
     parser.add_argument("--results")
     arguments = parser.parse_args()
-    words = arguments.words
-    with open(arguments.places) as file:
-        places = json.load(file)
+    words = " ".join(arguments.words)
+    places = files.everywhere() if arguments.all else files.places(["mono-sgen"], [jdk.find_jdk()])
     with open(os.path.join(HERE, "faults.json")) as file:
         faults = json.load(file)
     faults = [fault for fault in faults if words in fault["fault"]]
