@@ -1,7 +1,11 @@
-"""Results of tests in JUnit's XML, the form that all suites write."""
+"""Test results in JUnit's XML, which all suites write."""
+import itertools
 import os
-import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable
 from dataclasses import dataclass
+from xml.etree.ElementTree import ParseError
+
+from junitparser import Attr, Failure, JUnitXml, JUnitXmlError, Skipped, TestCase, TestSuite
 
 
 @dataclass(frozen=True)
@@ -12,53 +16,62 @@ class Case:
     seconds: float = 0
 
 
+class _Case(TestCase):
+    status = Attr()
+    """CTest's: `run`, or the way in which a test failed."""
+
+
+class _Suite(TestSuite):
+    testcase = _Case
+
+
+class _Results(JUnitXml):
+    testsuite = _Suite
+
+
 def read(path: str) -> list[Case]:
-    """The tests of a file, without those that were skipped. Raises ValueError when the file holds no results."""
+    """Returns the tests of a file without the skipped ones. Raises ValueError when the file contains no results."""
     try:
-        root = ElementTree.parse(path).getroot()
-    except (OSError, ElementTree.ParseError) as error:
+        results = _Results.fromfile(path)
+        # Node's reporter writes tests without a suite too.
+        tests: Iterable[_Case] = itertools.chain(results.iterchildren(_Case), *results)  # type: ignore[no-untyped-call]
+        return [_case(test) for test in tests if not _skipped(test)]
+    except (OSError, ParseError, JUnitXmlError, ValueError) as error:
         raise ValueError(f"{path} cannot be read: {error}") from error
-    if root.tag not in ("testsuites", "testsuite"):
-        raise ValueError(f"{path} holds no results of tests: its root is <{root.tag}>")
-    return [_case(element) for element in root.iter("testcase") if not _skipped(element)]
 
 
-def _skipped(element: ElementTree.Element) -> bool:
-    """ctest also says "skipped" of a test whose program is missing."""
-    skipped = element.find("skipped")
-    return skipped is not None and not (skipped.get("message") or "").startswith("Unable to find executable")
+def _skipped(test: _Case) -> bool:
+    """CTest also reports a test as skipped when its program is missing."""
+    return any(isinstance(result, Skipped) and not (result.message or "").startswith("Unable to find executable") for result in test.result)
 
 
-def _case(element: ElementTree.Element) -> Case:
-    name = ".".join(part for part in (element.get("classname"), element.get("name")) if part)
-    bad = element.find("failure") if element.find("failure") is not None else element.find("error")
-    # ctest marks a test without a program by its status alone.
-    if bad is None and element.get("status") in (None, "run"):
-        return Case(name, "", _seconds(element))
-    text = "" if bad is None else bad.get("message") or bad.text or ""
-    return Case(name, text.strip() or "failed", _seconds(element))
+def _case(test: _Case) -> Case:
+    name = ".".join(part for part in (test.classname, test.name) if part)
+    failures = [result for result in test.result if not isinstance(result, Skipped)]
+    # CTest marks a test without a program by its status alone.
+    if not failures and test.status in (None, "run"):
+        return Case(name, "", test.time or 0)
+    text = failures[0].message or failures[0].text or "" if failures else ""
+    return Case(name, text.strip() or "failed", test.time or 0)
 
 
-def _seconds(element: ElementTree.Element) -> float:
-    try:
-        return float((element.get("time") or "0").replace(",", ""))
-    except ValueError:
-        return 0
-
-
-def write(path: str, suite: str, cases: list[Case]) -> None:
-    """Writes the results of a suite; the file appears when it is whole."""
-    failures = [case for case in cases if case.failure]
-    root = ElementTree.Element("testsuite", name=suite, tests=str(len(cases)), failures=str(len(failures)), errors="0", skipped="0")
+def write(path: str, name: str, cases: list[Case]) -> None:
+    """Writes the results of a suite atomically."""
+    tests = []
     for case in cases:
-        element = ElementTree.SubElement(root, "testcase", classname=suite, name=case.name, time=f"{case.seconds:.3f}")
+        test = TestCase(case.name, name, case.seconds)
         if case.failure:
-            ElementTree.SubElement(element, "failure", message=_printable(case.failure.splitlines()[0])).text = _printable(case.failure)
+            failure = Failure(_printable(case.failure.splitlines()[0]))
+            failure.text = _printable(case.failure)
+            test.result = failure
+        tests.append(test)
+    suite = TestSuite(name)
+    suite.add_testcases(tests)
     os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
-    ElementTree.ElementTree(root).write(path + ".part", encoding="utf-8", xml_declaration=True)
+    suite.write(path + ".part")
     os.replace(path + ".part", path)
 
 
 def _printable(text: str) -> str:
-    """XML has no place for control characters."""
+    """Replaces control characters, which XML does not allow."""
     return "".join(character if character in "\n\t" or character >= " " else "?" for character in text)

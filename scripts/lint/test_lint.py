@@ -1,4 +1,4 @@
-"""The sources are clean under their linters, and lines are no longer than .editorconfig allows."""
+"""The sources are clean under their linters."""
 import fnmatch
 import os
 import re
@@ -12,8 +12,6 @@ from places import BUILD, ROOT
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
 # Programs as users write them, in their styles.
 GIVEN = ("jvm-host/*/src/test/resources/*",)
-# ktlint sees to Kotlin's columns, and lets long literals and names of tests be.
-TEXT = (".bat", ".c", ".cs", ".css", ".fbs", ".h", ".html", ".java", ".js", ".json", ".mjs", ".mustache", ".py", ".sh", ".toml", ".txt", ".xml")
 
 
 def sources(*patterns: str) -> list[str]:
@@ -32,7 +30,7 @@ def _matches(path: str, patterns: tuple[str, ...]) -> bool:
 
 def clean(*command: str) -> None:
     result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, "npm/node_modules")})
+                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, "npm/node_modules"), "NO_COLOR": "1"})
     if result.returncode != 0:
         pytest.fail(result.stdout[-20000:], pytrace=False)
 
@@ -69,28 +67,7 @@ def test_workflows_are_clean_under_actionlint():
     clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
 
 
-def test_lines_end_within_the_columns_of_editorconfig():
-    limits = column_limits()
-    long = []
-    for path in sources(*("*" + ending for ending in TEXT), "collektive", ".ci/run"):
-        limit = next(limit for pattern, limit in limits if re.fullmatch(pattern, os.path.basename(path)))
-        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            for number, line in enumerate(map(str.rstrip, file), 1):
-                # A word alone, like a path, cannot be broken.
-                if len(line) > limit and " " in line.strip():
-                    long.append(f"{path}:{number}: {len(line)} columns of {limit}")
-    if long:
-        pytest.fail("\n".join(long), pytrace=False)
-
-
-def column_limits() -> list[tuple[str, int]]:
-    """Patterns of file names and their limits, the one that counts first."""
-    limits, section = [], ""
-    with open(os.path.join(ROOT, ".editorconfig")) as file:
-        for line in file:
-            if match := re.match(r"\[(.*)]", line):
-                names = re.sub(r"{(.*)}", lambda words: "(" + words[1].replace(",", "|") + ")", match[1].replace(".", r"\."))
-                section = names.replace("*", ".*")
-            elif match := re.match(r"max_line_length *= *(\d+|off)", line):
-                limits.insert(0, (section, sys.maxsize if match[1] == "off" else int(match[1])))
-    return limits
+def test_texts_are_as_editorconfig_describes():
+    # ktlint checks Kotlin, and allows long literals and names of tests.
+    texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
+    clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)

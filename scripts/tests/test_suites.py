@@ -75,6 +75,12 @@ def test_skipped_tests_do_not_count(tmp_path):
     assert [case.name for case in junit.read(str(path))] == ["two"]
 
 
+def test_tests_without_a_suite_count(tmp_path):
+    path = tmp_path / "results.xml"
+    path.write_text('<testsuites><testcase name="one"/><testsuite><testsuite><testcase name="two"/></testsuite></testsuite></testsuites>')
+    assert [case.name for case in junit.read(str(path))] == ["one", "two"]
+
+
 def test_what_is_written_can_be_read(tmp_path):
     cases = [junit.Case("it's <fine>"), junit.Case("it is not", "because \x1b[31m& more\nlines", 1.5)]
     path = str(tmp_path / "new" / "results.xml")

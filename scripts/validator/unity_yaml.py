@@ -1,126 +1,63 @@
-"""Reads the part of YAML that Unity writes: block mappings and sequences, one-line flow mappings, plain and quoted scalars."""
+"""Reads prefabs, scenes, materials and assets, which Unity writes as YAML with one document per object."""
 import re
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
 
 
 class UnityYamlError(Exception):
-    """What is wrong, with the line."""
+    """The line and what is wrong there."""
 
 
+@dataclass(frozen=True)
 class Document:
-    """One object of a file: its class number, its file id, its type name and its fields."""
-
-    def __init__(self, class_id, file_id, stripped, type_name, fields, line):
-        self.class_id = class_id
-        self.file_id = file_id
-        self.stripped = stripped
-        self.type_name = type_name
-        self.fields = fields
-        self.line = line
+    """One object of a file. All scalars of its fields are strings."""
+    class_id: int
+    file_id: int
+    stripped: bool
+    type_name: str
+    fields: Any
+    line: int
 
 
 HEADER = ["%YAML 1.1", "%TAG !u! tag:unity3d.com,2011:"]
-ANCHOR = re.compile(r"^--- !u!(\d+) &(-?\d+)( stripped)?$")
-KEY = re.compile(r"^([^\s'\"{\[#-][^:]*):(?: (.*)|)$")
+# Not YAML: a word after the anchor.
+OBJECT = re.compile(r"--- !u!(\d+) &(-?\d+)( stripped)?")
 
 
-def read(path):
-    """The documents of a prefab, scene, material or asset file."""
+class _Loader(yaml.CBaseLoader):
+    """Rejects duplicate keys, and flow mappings like {a} whose keys have no values: PyYAML accepts both."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        keys = []
+        for key, value in node.value:
+            if key.value in keys or (node.flow_style and not value.value):
+                problem = "duplicate key" if key.value in keys else "not 'key: value':"
+                raise yaml.MarkedYAMLError(problem=f"{problem} {key.value}", problem_mark=key.start_mark)
+            keys.append(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def read(path: str) -> list[Document]:
+    """Returns the objects of a file. Raises UnityYamlError when it is not as Unity writes it."""
     with open(path, encoding="utf-8") as file:
         lines = file.read().split("\n")
     if lines[:2] != HEADER:
         raise UnityYamlError(f"1: the first two lines must be {HEADER[0]!r} and {HEADER[1]!r}")
-    documents = []
-    starts = [i for i, line in enumerate(lines) if line.startswith("---")]
-    for start, end in zip(starts, starts[1:] + [len(lines)]):
-        match = ANCHOR.match(lines[start])
-        if not match:
-            raise UnityYamlError(f"{start + 1}: not the beginning of an object: {lines[start]}")
-        body = block(lines, start + 1, end)
-        if not isinstance(body, dict) or len(body) != 1:
-            raise UnityYamlError(f"{start + 1}: an object must have one type")
-        (type_name, fields), = body.items()
-        documents.append(Document(int(match[1]), int(match[2]), bool(match[3]), type_name, fields, start + 1))
-    return documents
+    starts = [number for number, line in enumerate(lines) if line.startswith("---")]
+    return [_document(lines[start:end], start + 1) for start, end in zip(starts, starts[1:] + [len(lines)])]
 
 
-def block(lines, start, end):
-    """The value of the lines from start to end."""
-    rows = []
-    for number in range(start, end):
-        text = lines[number].strip()
-        if not text:
-            continue
-        if rows and unbalanced(rows[-1][1]):
-            rows[-1] = (rows[-1][0], rows[-1][1] + " " + text, rows[-1][2])
-        else:
-            rows.append((len(lines[number]) - len(lines[number].lstrip()), text, number + 1))
-    value, rest = parse(rows, 0)
-    if rest != len(rows):
-        raise UnityYamlError(f"{rows[rest][2]}: wrong indentation: {rows[rest][1]}")
-    return value
-
-
-def unbalanced(text):
-    return text.count("{") + text.count("[") > text.count("}") + text.count("]")
-
-
-def parse(rows, at):
-    """A mapping or sequence that begins at row `at`, and the row after it."""
-    indent, text, _ = rows[at]
-    return sequence(rows, at, indent) if text == "-" or text.startswith("- ") else mapping(rows, at, indent)
-
-
-def mapping(rows, at, indent):
-    result = {}
-    while at < len(rows) and rows[at][0] == indent and not rows[at][1].startswith("- "):
-        _, text, number = rows[at]
-        match = KEY.match(text)
-        if not match:
-            raise UnityYamlError(f"{number}: not 'key: value': {text}")
-        if match[1] in result:
-            raise UnityYamlError(f"{number}: the key {match[1]} is given twice")
-        at += 1
-        if match[2]:
-            result[match[1]] = scalar(match[2], number)
-        elif at < len(rows) and (rows[at][0] > indent or (rows[at][0] == indent and rows[at][1].startswith("- "))):
-            result[match[1]], at = parse(rows, at)
-        else:
-            result[match[1]] = ""
-    return result, at
-
-
-def sequence(rows, at, indent):
-    result = []
-    while at < len(rows) and rows[at][0] == indent and rows[at][1].startswith("- "):
-        _, text, number = rows[at]
-        inner = text[2:].lstrip()
-        if KEY.match(inner):
-            # The item is a mapping that begins behind the dash.
-            rows = rows[:at] + [(indent + len(text) - len(inner), inner, number)] + rows[at + 1:]
-            value, at = parse(rows, at)
-            result.append(value)
-        else:
-            result.append(scalar(inner, number))
-            at += 1
-    return result, at
-
-
-def scalar(text, number):
-    """A flow mapping as dict, a flow sequence as list, everything else as text."""
-    if text.startswith("{") and text.endswith("}"):
-        result = {}
-        for part in text[1:-1].split(","):
-            if not part.strip():
-                continue
-            key, colon, value = part.partition(":")
-            if not colon:
-                raise UnityYamlError(f"{number}: not 'key: value': {part.strip()}")
-            result[key.strip()] = value.strip()
-        return result
-    if text.startswith("[") and text.endswith("]"):
-        return [part.strip() for part in text[1:-1].split(",") if part.strip()]
-    if text[0] in "'\"":
-        if len(text) < 2 or text[-1] != text[0]:
-            raise UnityYamlError(f"{number}: the quotation does not end: {text}")
-        return text[1:-1]
-    return text
+def _document(lines: list[str], line: int) -> Document:
+    match = OBJECT.fullmatch(lines[0])
+    if not match:
+        raise UnityYamlError(f"{line}: not the beginning of an object: {lines[0]}")
+    try:
+        body = yaml.load("\n".join(["", *lines[1:]]), _Loader)
+    except yaml.MarkedYAMLError as error:
+        raise UnityYamlError(f"{line + (error.problem_mark.line if error.problem_mark else 0)}: {error.problem}") from error
+    if not isinstance(body, dict) or len(body) != 1:
+        raise UnityYamlError(f"{line}: an object must have one type")
+    (type_name, fields), = body.items()
+    return Document(int(match[1]), int(match[2]), bool(match[3]), type_name, fields, line)
