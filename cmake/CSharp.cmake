@@ -19,7 +19,8 @@ function(assembly NAME)
     list(APPEND options -target:exe)
   endif()
   list(TRANSFORM references PREPEND "-r:" OUTPUT_VARIABLE flags)
-  collektive_step(${NAME} OUTPUT "${CSHARP}/${NAME}" COMMAND ${csc} "${CSHARP}/${NAME}" ${A_SOURCES} -- ${options} ${flags}
+  string(REPLACE "/" "-" target "${NAME}")
+  collektive_step(${target} OUTPUT "${CSHARP}/${NAME}" COMMAND ${csc} "${CSHARP}/${NAME}" ${A_SOURCES} -- ${options} ${flags}
     DEPENDS "${ROSLYN}/roslyn.exe" scripts/build/csharp.py ${references} ${A_DEPENDS} FOLDERS ${A_SOURCES})
 endfunction()
 

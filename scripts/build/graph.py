@@ -2,12 +2,11 @@
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 from build import fetch, jdk, lock, processes
 from build.console import Failure, logged
 from build.places import GRAPH, ROOT
-from build.system import setup_system
+from build.system import NUNIT, setup_system
 
 
 def build(*targets: str) -> None:
@@ -24,18 +23,14 @@ def build(*targets: str) -> None:
     try:
         if not _is_configured():
             _configure()
-        if processes.call(_ninja(*targets), stdout=sys.stderr.fileno()) != 0:
+        if processes.call(["ninja", "-C", GRAPH, *targets], stdout=sys.stderr.fileno()) != 0:
             raise Failure("the build failed; the messages are above")
     finally:
         lock.shared()
 
 
-def _ninja(*words: str) -> list[str | Path]:
-    return [shutil.which("ninja") or "ninja", "-C", GRAPH, "--quiet", *words]
-
-
 def _is_up_to_date(targets: tuple[str, ...]) -> bool:
-    dry = subprocess.run([*_ninja("-n", *targets)[:3], "-n", *targets], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    dry = subprocess.run(["ninja", "-C", GRAPH, "-n", *targets], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return dry.returncode == 0 and "no work to do" in dry.stdout
 
 
@@ -49,6 +44,7 @@ def _arguments() -> list[str]:
         f"-DCOLLEKTIVE_JAVA_HOME={jdk.find_jdk()}",
         f"-DCOLLEKTIVE_TEST_JDKS={';'.join(map(str, jdk.test_jdks()))}",
         f"-DCOLLEKTIVE_PYTHON={sys.executable}",
+        f"-DCOLLEKTIVE_NUNIT={NUNIT if NUNIT.exists() else ''}",
     ]
 
 
