@@ -114,7 +114,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:misfit NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
-suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 24 results=RESULTS/soak.xml)
+suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests setup:kotlinc PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe setup:kotlinc UNLOCKED SCRIPT pages.py page RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED SCRIPT pages.py site RESULTS)

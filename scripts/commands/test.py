@@ -28,6 +28,9 @@ from build.console import Failure, say
 from build.places import BUILD, GRAPH, RESULTS, ROOT, TEST_PYTHON
 
 
+RUNS = frozenset({"quick", "all", "extra"})
+
+
 class LongRun(NamedTuple):
     """An option that runs one script of scripts/tests with its whole output."""
 
@@ -56,10 +59,10 @@ LONG_RUNS = {
 
 
 class Suite(NamedTuple):
-    """A suite as CTest knows it. The first label is its area."""
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area."""
 
     name: str
-    labels: tuple[str, ...]
+    labels: frozenset[str]
     is_disabled: bool = False
 
 
@@ -156,9 +159,9 @@ def declared() -> list[Suite]:
     suites = []
     for test in json.loads(output)["tests"]:
         properties = {entry["name"]: entry["value"] for entry in test["properties"]}
-        labels = properties.get("LABELS", [])
-        if {"quick", "all", "extra"} & set(labels):
-            suites.append(Suite(test["name"], tuple(labels), properties.get("DISABLED", False)))
+        labels = frozenset(properties.get("LABELS", []))
+        if labels & RUNS:
+            suites.append(Suite(test["name"], labels, properties.get("DISABLED", False)))
     return suites
 
 
@@ -172,7 +175,7 @@ def choose(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
         whole = [suite for suite in labelled if word == "quick" or "all" in suite.labels]
         found = [suite for suite in suites if suite.name == word] or whole or labelled
         if not found:
-            areas = dict.fromkeys(suite.labels[0] for suite in suites)
+            areas = dict.fromkeys(area for suite in suites for area in suite.labels - RUNS)
             raise Failure(f"test: unknown suite '{word}'; known: {' '.join(areas)}, and in parts: {' '.join(sorted(names - areas.keys()))}")
         chosen |= set(found)
     disabled = [suite.name for suite in suites if suite in chosen and suite.is_disabled]

@@ -1,184 +1,218 @@
-# ./collektive test bare: the demo and the quick tests in fresh roots of distributions, which debootstrap makes and which are thrown away.
-# What is called in conditions here returns at its first error by itself; texts in single quotes are for programs inside the roots and for apt.
-# shellcheck disable=SC2310,SC2016
+"""The demo and the quick tests in fresh roots of distributions, which debootstrap makes and which are removed again."""
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
 
-# Name, debootstrap's suite.
-BARE_ROOTS="
-debian-12     bookworm
-debian-13     trixie
-ubuntu-24.04  noble"
-# Debian has no package of Ubuntu's keys. This one is taken from Ubuntu's archive, and has to be this file.
-UBUNTU_KEYRING_SHA256=36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8
+from build import system
+from build.console import Failure, logged, say
+from build.places import BUILD, LOGS, ROOT
+from tests import bare_demo
 
-# test_bare [ROOT]...
-test_bare() {
-  local name suite names=
-  while read -r name suite; do names+=" $name"; done <<<"$BARE_ROOTS"
-  for name in "$@"; do [[ "$names " == *" $name "* ]] || fail "test bare: unknown root '$name'; known:$names"; done
-  BARE_PROCESS=
-  BARE_SKIPPED=0
-  BARE_CODE=0
-  BARE_RESULTS="$BUILD/results/bare"
-  rm -rf "$BARE_RESULTS"
-  mkdir -p "$BARE_RESULTS"
-  if ! bare_possible; then
-    BARE_SKIPPED=$(wc -w <<<"${*:-$names}")
-  else
-    [ -z "$(git -C "$ROOT" status --porcelain)" ] || say "the last commit is tested; the changes since then are not in it"
-    mkdir -p "$BUILD/log"
-    BARE_WORK=$(mktemp -d "$BUILD/bare.XXXXXX")
-    trap bare_clean EXIT
-    trap 'exit 130' INT
-    trap 'exit 143' TERM HUP
-    while read -r name suite; do
-      if [ -n "$name" ] && { [ $# = 0 ] || [[ " $* " == *" $name "* ]]; }; then bare_root "$name" "$suite"; fi
-    done <<<"$BARE_ROOTS"
-  fi
-  python3 "$ROOT/scripts/suites.py" sum "$BARE_RESULTS" "$BARE_CODE" "$BARE_SKIPPED"
-}
+# Names, and debootstrap's suites.
+ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble"}
+# Debian has no package of Ubuntu's keys. This file is taken from Ubuntu's archive.
+UBUNTU_KEYRING_SHA256 = "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8"
+# Variables that tell clients how to reach registries.
+CLIENT_VARIABLES = re.compile(r"(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)|"
+                              r"PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*")
+# Settings of the clients in the user's folder.
+CLIENT_FILES = (".m2/settings.xml", ".m2/settings-security.xml", ".cargo/config", ".cargo/config.toml", ".cargo/credentials.toml")
+# Mounts and devices of a root, whose folder is the first argument; then the rest is run inside it.
+ENTER = """
+set -e
+root=$1
+shift
+mount -t proc proc "$root/proc"
+mount -t tmpfs -o mode=755 dev "$root/dev"
+mkdir "$root/dev/shm" "$root/dev/pts"
+mount -t tmpfs shm "$root/dev/shm"
+mount -t devpts -o newinstance,ptmxmode=666 devpts "$root/dev/pts"
+for device in null:1:3 zero:1:5 full:1:7 random:1:8 urandom:1:9 tty:5:0; do
+  mknod -m 666 "$root/dev/${device%%:*}" c $(echo "${device#*:}" | tr : ' ')
+done
+ln -s pts/ptmx "$root/dev/ptmx"
+ln -s /proc/self/fd "$root/dev/fd"
+exec chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "$@"
+"""
+PROGRESS = re.compile(r"\[ *\d+s\] |collektive: |\d+ passed, ")
 
-# Says why not.
-bare_possible() {
-  if ! may_install; then say "skipped: fresh roots need root and apt-get"; return 1; fi
-  if ! unshare --mount --pid --fork true; then say "skipped: this machine allows no mount namespace"; return 1; fi
-  have debootstrap || logged "$BUILD/log/debootstrap.log" install_packages debootstrap debian-archive-keyring
-}
 
-# bare_namespace COMMAND...: runs it where what it mounts and starts ends with it. In the background, since the first process of a
-# namespace and unshare itself ignore Ctrl-C.
-bare_namespace() {
-  local code=0
-  unshare --mount --pid --fork --kill-child "$@" &
-  BARE_PROCESS=$!
-  wait "$BARE_PROCESS" || code=$?
-  BARE_PROCESS=
-  return "$code"
-}
+class CannotMake(Exception):
+    """A root cannot be made, such as without a network."""
 
-# All mounts are in namespaces that have ended: nothing is deleted through one.
-bare_clean() {
-  if [ -n "$BARE_PROCESS" ]; then
-    kill -KILL "$BARE_PROCESS" 2>/dev/null || true
-    wait "$BARE_PROCESS" 2>/dev/null || true
-  fi
-  rm -rf --one-file-system "$BARE_WORK"
-}
 
-# bare_root NAME SUITE: makes the root, runs the demo and the tests in it, removes it.
-bare_root() {
-  local name=$1 suite=$2 root="$BARE_WORK/$1" log="$BUILD/log/bare-$1.log" begin code=0 file
-  begin=$(date +%s)
-  mkdir "$root"
-  say "$name: making the root"
-  if ! bare_make "$suite" "$root" >"$log" 2>&1; then
-    tail -n 3 "$log" >&2
-    say "$name: skipped, its root cannot be made; the whole log is $BUILD/log/bare-$name.log"
-    BARE_SKIPPED=$((BARE_SKIPPED + 1))
-    rm -rf --one-file-system "$root"
-    return 0
-  fi
-  bare_run "$name" "$root" ./collektive demo || code=$?
-  python3 "$ROOT/scripts/bare_demo.py" "$root/root/collektive/out/demo-seed1" "$code" "$BARE_RESULTS/$name-demo.xml"
-  bare_run "$name" "$root" ./collektive test --quick || code=$?
-  while IFS= read -r -d '' file; do
-    cp "$file" "$BARE_RESULTS/$name-$(basename "$(dirname "$file")")-$(basename "$file")"
-  done < <(find "$root/root/collektive/build/results" -name '*.xml' -print0)
-  if [ "$code" != 0 ]; then
-    BARE_CODE=$code
-    tail -n 60 "$log" >&2
-  fi
-  say "$name: done in $(($(date +%s) - begin)) s, $(du -smx "$root" | cut -f 1) MB"
-  rm -rf --one-file-system "$root"
-}
+def test(names: Sequence[str], results: Path) -> tuple[str, int]:
+    """Tests the last commit in roots; returns what failed, or nothing, and how many roots were skipped."""
+    shutil.rmtree(results, ignore_errors=True)
+    results.mkdir(parents=True)
+    if not _is_possible():
+        return "", len(names)
+    if subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], stdout=subprocess.PIPE, check=True).stdout:
+        say("the last commit is tested; the changes since then are not in it")
+    work = Path(tempfile.mkdtemp(prefix="bare.", dir=BUILD))
+    failures, skipped = [], 0
+    try:
+        for name in names:
+            try:
+                if code := _test_root(name, work, results):
+                    failures.append(f"{name} ended with code {code}")
+            except CannotMake as error:
+                say(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
+                skipped += 1
+            finally:
+                _remove(work / name)
+    finally:
+        _remove(work)
+    return ", ".join(failures), skipped
 
-# bare_make SUITE ROOT: a minimal system with a clone of HEAD and the clients' settings of this machine.
-bare_make() {
-  local suite=$1 root=$2 mirror script=
-  if [ "$suite" = noble ]; then
-    mirror=$(bare_mirror Ubuntu)
-    # Debian 12's debootstrap does not know it yet; Ubuntu's suites differ in nothing that matters here.
-    [ -e "/usr/share/debootstrap/scripts/$suite" ] || script=/usr/share/debootstrap/scripts/jammy
-    bare_ubuntu_keyring "$suite" "$mirror" "$script" || return 1
-    bare_debootstrap "$suite" "$root" "$mirror" "$script" --keyring="$BARE_WORK/keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg" || return 1
-    # What each Ubuntu has switched on.
-    sed -i "s/\(.*\) $suite main.*/\1 $suite main universe\n\1 $suite-updates main universe/" "$root/etc/apt/sources.list" || return 1
-  else
-    bare_debootstrap "$suite" "$root" "$(bare_mirror Debian)" "" || return 1
-  fi
-  bare_clients "$root" && git clone --quiet --no-hardlinks --depth 1 "file://$ROOT" "$root/root/collektive"
-}
 
-# bare_mirror LABEL: prints the mirror of this machine's own packages; nothing means debootstrap's.
-bare_mirror() { apt-get indextargets --format '$(LABEL) $(REPO_URI)' | sed -n "s/^$1 //p" | head -n 1; }
+def _is_possible() -> bool:
+    """Reports whether roots can be made here, and prints why not."""
+    if not system.may_install():
+        say("skipped: fresh roots need root and apt-get")
+        return False
+    if subprocess.run(_namespace("true"), stderr=subprocess.DEVNULL).returncode != 0:
+        say("skipped: this machine allows no mount namespace")
+        return False
+    if not shutil.which("debootstrap"):
+        try:
+            system.install(["debootstrap", "debian-archive-keyring"], "debootstrap")
+        except Failure:
+            say("skipped: debootstrap cannot be installed")
+            return False
+    return True
 
-# bare_debootstrap SUITE ROOT MIRROR SCRIPT [OPTIONS...]
-bare_debootstrap() { bare_namespace debootstrap --variant=minbase "${@:5}" "${@:1:4}"; }
 
-# bare_ubuntu_keyring SUITE MIRROR SCRIPT: Ubuntu's keys in $BARE_WORK/keyring.
-bare_ubuntu_keyring() {
-  local packages="$BARE_WORK/keyring-packages" package
-  bare_debootstrap "$1" "$packages" "$2" "$3" --download-only --no-check-gpg || return 1
-  package=$(echo "$packages"/var/cache/apt/archives/ubuntu-keyring_*.deb)
-  echo "$UBUNTU_KEYRING_SHA256  $package" | sha256sum --check || return 1
-  dpkg-deb --extract "$package" "$BARE_WORK/keyring" && rm -rf --one-file-system "$packages"
-}
+def _namespace(*command: str | Path) -> list[str | Path]:
+    """Returns a command line whose mounts and processes end with it."""
+    return ["unshare", "--mount", "--pid", "--fork", "--kill-child", *command]
 
-# The clients in the root reach the registries as those of this machine do: name servers, proxies, certificates, the user's settings.
-bare_clients() {
-  local root=$1 file
-  cp -L /etc/resolv.conf /etc/hosts "$root/etc/" || return 1
-  apt-config dump | grep -E '^Acquire::' >"$root/etc/apt/apt.conf.d/00host" || true
-  mkdir -p "$root/usr/local/share/ca-certificates" "$root/root/.m2" "$root/root/.cargo"
-  cp /usr/local/share/ca-certificates/*.crt "$root/usr/local/share/ca-certificates/" 2>/dev/null || true
-  for file in /etc/pip.conf "$HOME/.config/pip/pip.conf" "$HOME/.pip/pip.conf"; do
-    [ ! -e "$file" ] || cat "$file" >>"$root/etc/pip.conf" || return 1
-  done
-  for file in .m2/settings.xml .m2/settings-security.xml .cargo/config .cargo/config.toml .cargo/credentials.toml; do
-    [ ! -e "$HOME/$file" ] || cp -L "$HOME/$file" "$root/root/$file" || return 1
-  done
-  for file in "$(npm config get globalconfig 2>/dev/null)" "$HOME/.npmrc"; do
-    [ ! -e "$file" ] || cat "$file" >>"$root/root/.npmrc"
-  done
-  # A bundle of certificates elsewhere than Debian's packages put theirs.
-  while IFS= read -r file; do
-    file=${file#*=}
-    if [ -f "$file" ] && [[ $file != /etc/ssl/certs/* ]]; then mkdir -p "$root$(dirname "$file")" && cp -L "$file" "$root$file" || return 1; fi
-  done < <(bare_environment)
-}
 
-# The variables of this machine that tell clients how to reach registries.
-bare_environment() {
-  local names='(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)'
-  names+='|PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*'
-  env | grep -E "^($names)=" || true
-}
+def _remove(folder: Path) -> None:
+    """Removes a folder; all mounts below it were in namespaces that have ended."""
+    subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
 
-# bare_run NAME ROOT COMMAND...: runs a command in the clone inside the root; its output goes to the log, its steps are shown.
-bare_run() {
-  local name=$1 root=$2 log="$BUILD/log/bare-$1.log" variables=() code=0
-  shift 2
-  mapfile -t variables < <(bare_environment)
-  say "$name: $*"
-  bare_namespace bash -c '
-    set -e
-    root=$1
-    shift
-    mount -t proc proc "$root/proc"
-    mount -t tmpfs -o mode=755 dev "$root/dev"
-    mkdir "$root/dev/shm" "$root/dev/pts"
-    mount -t tmpfs shm "$root/dev/shm"
-    mount -t devpts -o newinstance,ptmxmode=666 devpts "$root/dev/pts"
-    for device in null:3 zero:5 full:7 random:8 urandom:9 tty:0; do
-      mknod -m 666 "$root/dev/${device%:*}" c "$([ "$device" = tty:0 ] && echo 5 || echo 1)" "${device#*:}"
-    done
-    ln -s pts/ptmx "$root/dev/ptmx"
-    ln -s /proc/self/fd "$root/dev/fd"
-    exec chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "$@"
-  ' bare "$root" "${variables[@]}" sh -c 'cd /root/collektive && exec "$@"' sh "$@" </dev/null > >(bare_progress "$name" "$log") 2>&1 || code=$?
-  # Until the log has the last lines.
-  sleep 1
-  return "$code"
-}
 
-# bare_progress NAME LOG: keeps its input in the log and shows the steps.
-bare_progress() { tee -a "$2" | { grep --line-buffered -aE '^\[ *[0-9]+s\] |^collektive: |^[0-9]+ passed, ' || true; } | sed -u "s/^/$1 /" >&2; }
+def _log(name: str) -> Path:
+    return LOGS / f"bare-{name}.log"
+
+
+def _test_root(name: str, work: Path, results: Path) -> int:
+    """Makes a root, and runs the demo and the tests in it; returns the exit code of the last that failed."""
+    began, root = time.monotonic(), work / name
+    say(f"{name}: making the root")
+    _log(name).unlink(missing_ok=True)
+    _make(name, work, root)
+    clone = root / "root/collektive"
+    code = demo = _run(name, root, "./collektive", "demo")
+    bare_demo.check(str(clone / "out/demo-seed1"), demo, str(results / f"{name}-demo.xml"))
+    code = _run(name, root, "./collektive", "test", "--quick") or code
+    for file in (clone / "build/results").glob("*/*.xml"):
+        shutil.copy(file, results / f"{name}-{file.parent.name}-{file.name}")
+    if code != 0:
+        print("".join(_log(name).read_text(errors="replace").splitlines(keepends=True)[-60:]), file=sys.stderr)
+    size = subprocess.run(["du", "-smx", root], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
+    say(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
+    return code
+
+
+def _make(name: str, work: Path, root: Path) -> None:
+    """Makes a minimal system with a clone of HEAD and this machine's settings of clients."""
+    suite = ROOTS[name]
+    if suite == "noble":
+        # Debian 12's debootstrap does not know it yet; Ubuntu's suites differ in nothing that matters here.
+        script = [] if Path("/usr/share/debootstrap/scripts", suite).exists() else ["/usr/share/debootstrap/scripts/jammy"]
+        mirror = _mirror("Ubuntu")
+        keyring = _ubuntu_keyring(name, work, suite, mirror, script)
+        _debootstrap(name, root, suite, mirror, script, f"--keyring={keyring}")
+        # Each Ubuntu has these switched on.
+        sources = root / "etc/apt/sources.list"
+        sources.write_text(re.sub(rf"(.*) {suite} main.*", rf"\1 {suite} main universe\n\1 {suite}-updates main universe", sources.read_text()))
+    else:
+        _debootstrap(name, root, suite, _mirror("Debian"), [])
+    _add_clients(root)
+    _logged(name, ["git", "clone", "--quiet", "--no-hardlinks", "--depth", "1", f"file://{ROOT}", root / "root/collektive"])
+
+
+def _mirror(label: str) -> str:
+    """Returns the mirror of this machine's own packages, or nothing, which means debootstrap's."""
+    command = ["apt-get", "indextargets", "--format", "$(LABEL) $(REPO_URI)"]
+    lines = subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    return next((line.removeprefix(f"{label} ") for line in lines if line.startswith(f"{label} ")), "")
+
+
+def _debootstrap(name: str, root: Path, suite: str, mirror: str, script: list[str], *options: str) -> None:
+    _logged(name, _namespace("debootstrap", "--variant=minbase", *options, suite, root, mirror, *script))
+
+
+def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list[str]) -> Path:
+    """Returns the file of Ubuntu's keys."""
+    packages = work / "keyring-packages"
+    _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
+    package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
+    if hashlib.sha256(package.read_bytes()).hexdigest() != UBUNTU_KEYRING_SHA256:
+        raise CannotMake(f"{package.name} has another SHA-256 than expected")
+    _logged(name, ["dpkg-deb", "--extract", package, work / "keyring"])
+    _remove(packages)
+    return work / "keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg"
+
+
+def _logged(name: str, command: Sequence[str | Path]) -> None:
+    with _log(name).open("ab") as file:
+        if subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode != 0:
+            raise CannotMake(" ".join(map(str, command[:6])) + " failed")
+
+
+def _add_clients(root: Path) -> None:
+    """Lets clients in the root reach registries as those of this machine do: name servers, proxies, certificates, the user's settings."""
+    home = Path.home()
+    for file in ("resolv.conf", "hosts"):
+        shutil.copy(Path("/etc", file), root / "etc" / file)
+    settings = subprocess.run(["apt-config", "dump"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    (root / "etc/apt/apt.conf.d/00host").write_text("".join(line for line in settings.splitlines(keepends=True) if line.startswith("Acquire::")))
+    certificates = [*Path("/usr/local/share/ca-certificates").glob("*.crt")]
+    # A bundle of certificates elsewhere than Debian's packages put theirs.
+    bundles = [Path(value) for value in _client_variables().values() if os.path.isfile(value) and not value.startswith("/etc/ssl/certs/")]
+    for source, target in [*((file, root / str(file).lstrip("/")) for file in [*certificates, *bundles]),
+                           *((home / file, root / "root" / file) for file in CLIENT_FILES if (home / file).exists())]:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, target)
+    npm = subprocess.run(["npm", "config", "get", "globalconfig"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+    for target, sources in {"etc/pip.conf": [Path("/etc/pip.conf"), home / ".config/pip/pip.conf", home / ".pip/pip.conf"],
+                            "root/.npmrc": [Path(npm), home / ".npmrc"]}.items():
+        text = "".join(file.read_text() for file in sources if file.is_file())
+        if text:
+            (root / target).write_text(text)
+
+
+def _client_variables() -> dict[str, str]:
+    return {name: value for name, value in os.environ.items() if CLIENT_VARIABLES.fullmatch(name)}
+
+
+def _run(name: str, root: Path, *command: str) -> int:
+    """Runs a command in the clone inside the root; its output goes to the log, and its steps are shown."""
+    say(f"{name}: {' '.join(command)}")
+    variables = [f"{key}={value}" for key, value in _client_variables().items()]
+    inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]
+    process = subprocess.Popen(_namespace("bash", "-c", ENTER, "bare", root, *variables, *inside), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, errors="replace")
+    assert process.stdout is not None
+    try:
+        with _log(name).open("a") as log:
+            for line in process.stdout:
+                log.write(line)
+                if PROGRESS.match(line):
+                    print(f"{name} {line}", end="", file=sys.stderr, flush=True)
+        return process.wait()
+    except BaseException:
+        # The first process of a namespace, and unshare itself, ignore Ctrl-C.
+        process.kill()
+        process.wait()
+        raise
