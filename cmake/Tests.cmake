@@ -1,53 +1,5 @@
 # The suites. Each is a test of CTest and writes JUnit XML into build/results/NAME; `./collektive test` adds up the results.
-set(SCRIPTS "${PROJECT_SOURCE_DIR}/scripts")
-set(RESULTS "${COLLEKTIVE_BUILD}/results")
-set(TEST_PYTHON "${COLLEKTIVE_BUILD}/python/bin/python" -I -B)
-set(COLLEKTIVE "${PROJECT_SOURCE_DIR}/collektive")
-
-# suite(NAME AREA LABELS quick|all|extra... [NEEDS build:TARGET|setup:TOOL...] [TIMEOUT SECONDS] [UNLOCKED] [NUNIT] [ENVIRONMENT NAME=VALUE...]
-#   COMMAND WORD... | SCRIPT FILE WORD... | PYTEST WORD...)
-#
-# `quick` and `all` are the runs that a suite is part of; one of `extra` runs only when its name is given. In words, RESULTS is the suite's folder
-# for results. A SCRIPT lies in scripts/tests and runs in the environment of the tests, like PYTEST. NUNIT: without the framework the suite is
-# skipped. UNLOCKED: the suite starts commands that lock the outputs themselves.
-function(suite NAME AREA)
-  cmake_parse_arguments(PARSE_ARGV 2 S "UNLOCKED;NUNIT" "TIMEOUT" "LABELS;NEEDS;ENVIRONMENT;COMMAND;SCRIPT;PYTEST")
-  if(S_SCRIPT)
-    list(POP_FRONT S_SCRIPT script)
-    set(S_COMMAND ${TEST_PYTHON} "${SCRIPTS}/tests/${script}" ${S_SCRIPT})
-    list(APPEND S_NEEDS setup:python)
-  elseif(S_PYTEST)
-    set(S_COMMAND ${TEST_PYTHON} -m pytest -c "${SCRIPTS}/tests/pytest.ini" --junitxml RESULTS/pytest.xml ${S_PYTEST})
-    list(APPEND S_NEEDS setup:python)
-  endif()
-  set(lock --lock)
-  if(S_UNLOCKED)
-    set(lock)
-  endif()
-  if(NOT S_TIMEOUT)
-    set(S_TIMEOUT 600)
-  endif()
-  list(TRANSFORM S_COMMAND REPLACE "^RESULTS" "${RESULTS}/${NAME}")
-  list(TRANSFORM S_COMMAND REPLACE "=RESULTS" "=${RESULTS}/${NAME}")
-  add_test(NAME ${NAME} COMMAND "${COLLEKTIVE_PYTHON}" -I "${SCRIPTS}/tests/suite.py" "${RESULTS}/${NAME}" ${lock} -- ${S_COMMAND}
-    WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-  list(REMOVE_DUPLICATES S_NEEDS)
-  set(fixtures)
-  foreach(need ${S_NEEDS})
-    string(REPLACE ":" ";" words "${need}")
-    string(REPLACE ":" "-" fixture "${need}")
-    if(NOT TEST ${fixture})
-      add_test(NAME ${fixture} COMMAND "${COLLEKTIVE}" ${words})
-      set_tests_properties(${fixture} PROPERTIES FIXTURES_SETUP ${fixture} RUN_SERIAL TRUE TIMEOUT 3600)
-    endif()
-    list(APPEND fixtures ${fixture})
-  endforeach()
-  set_tests_properties(${NAME} PROPERTIES LABELS "${AREA};${S_LABELS}" FIXTURES_REQUIRED "${fixtures}" RUN_SERIAL TRUE TIMEOUT ${S_TIMEOUT}
-    ENVIRONMENT "COLLEKTIVE_RESULTS=${RESULTS}/${NAME};${S_ENVIRONMENT}")
-  if(S_NUNIT AND NOT COLLEKTIVE_NUNIT)
-    set_tests_properties(${NAME} PROPERTIES DISABLED TRUE)
-  endif()
-endfunction()
+include(Suite)
 
 set(csharp_needs build:runtime)
 if(COLLEKTIVE_NUNIT)
