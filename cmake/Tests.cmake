@@ -7,6 +7,7 @@ if(COLLEKTIVE_NUNIT)
     Collektive.Unity.PublicApi.Tests.dll Collektive.Unity.Editor.Tests.dll Collektive.TwoEditors.exe Collektive.WithoutLibrary.exe
     Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation)
   list(APPEND csharp_needs build:csharp_tests setup:kotlinc)
+  set(runner build:Collektive.TestRunner.exe build:nunit.framework.dll)
 endif()
 # A host jar of another version.
 set(misfit "${CMAKE_BINARY_DIR}/native-shim/test/misfit")
@@ -71,7 +72,7 @@ suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests setup
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe setup:kotlinc UNLOCKED SCRIPT pages.py page RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED SCRIPT pages.py site RESULTS)
 
-set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page setup:kotlinc UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
+set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} setup:kotlinc UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)

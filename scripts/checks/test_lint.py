@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from places import BUILD, ROOT
+from build.places import BUILD, ROOT
 
 # Made by generators, whose lines are their own.
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")

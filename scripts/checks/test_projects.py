@@ -7,11 +7,11 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 from collections import Counter
 
-from places import BUILD, ROOT
+from build.places import BUILD, ROOT
 
 HEADLESS = os.path.join(ROOT, "unity/Headless~")
 FOLDER = os.path.join(HEADLESS, "Projects")
-FOLDERS = {"$(Headless)": HEADLESS + "/", "$(Unity)": os.path.join(ROOT, "unity/"), "$(Build)": BUILD + "/"}
+FOLDERS = {"$(Headless)": HEADLESS + "/", "$(Unity)": os.path.join(ROOT, "unity/"), "$(Build)": f"{BUILD}/"}
 PROJECTS = {os.path.basename(path).removesuffix(".csproj"): ElementTree.parse(path) for path in glob.glob(os.path.join(glob.escape(FOLDER), "*.csproj"))}
 
 

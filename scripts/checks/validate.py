@@ -7,7 +7,8 @@ scripts/checks/validator/guids.txt.
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.dirname(HERE), HERE]
 import metas
 from validator import asmdefs, guids, packing, references, serialized_fields
 from validator.assets import Assets

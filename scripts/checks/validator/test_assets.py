@@ -1,18 +1,18 @@
 """The package's assets are right, and the validator finds each kind of fault."""
+import functools
 import os
 import re
 import shutil
+import subprocess
 import tempfile
 import unittest
 
 import metas
 import validate
-from places import BUILD, ROOT
+from build import managed
+from build.places import CSHARP, ROOT
 
 from validator import serialized_fields
-
-# What Unity would serialise of each component; ./collektive test assets writes it.
-FIELDS = os.path.join(BUILD, "serialized-fields.txt")
 
 PREFAB = "unity/Prefabs/Simulation Manager.prefab"
 NODE = "unity/Prefabs/Node.prefab"
@@ -20,9 +20,12 @@ SCENE = "unity/Samples~/GradientAscent/GradientAscent.unity"
 ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
 
 
+@functools.cache
 def classes():
-    with open(FIELDS) as file:
-        return serialized_fields.parse(file.read())
+    """What Unity would serialise of each component."""
+    command = managed.command("mono-sgen", CSHARP / "Collektive.SerializedFields.exe", CSHARP / "Collektive.Unity.dll", CSHARP / "Collektive.Samples.dll")
+    output = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True, check=True).stdout
+    return serialized_fields.parse(output)
 
 
 class TheAssets(unittest.TestCase):

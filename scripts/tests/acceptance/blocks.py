@@ -5,7 +5,7 @@ import re
 import textwrap
 from dataclasses import dataclass
 
-from places import ROOT
+from build.places import ROOT
 
 FENCE = re.compile(r'(?m)^( *)```(\w*)(?: title="([^"]+)")?\n(.*?)^\1```$', re.S)
 STORIES = ["Documentation~/without-unity.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")))]

@@ -9,8 +9,11 @@ import subprocess
 import tempfile
 import time
 import unittest
+from pathlib import Path
 
-from places import COLLEKTIVE, ROOT
+from build import projects
+from build.jdk import find_jdk
+from build.places import COLLEKTIVE, ROOT
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
@@ -47,7 +50,7 @@ def processes(*words):
 
 def jdk():
     """The JDK that runs simulations."""
-    return subprocess.run([COLLEKTIVE, "step", "find_jdk"], capture_output=True, text=True, check=True).stdout.strip()
+    return str(find_jdk())
 
 
 class Folder(unittest.TestCase):
@@ -89,8 +92,7 @@ class Project(Folder):
 
     def programs_jar(self):
         """The jar that a run has made of the programs as they are now."""
-        command = [COLLEKTIVE, "step", "programs_jar", self.path("project", "light.fbs"), self.path("project", "programs")]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        return str(projects.programs_jar(Path(self.path("project", "light.fbs")), Path(self.path("project", "programs"))))
 
     def change(self, file, old, new):
         path = self.path("project", file)

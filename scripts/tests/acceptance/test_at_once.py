@@ -4,7 +4,7 @@ import os
 import subprocess
 
 from command import Project, jdk
-from places import COLLEKTIVE, ROOT
+from build.places import COLLEKTIVE, ROOT
 
 RUNS = 3
 HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")

@@ -7,7 +7,7 @@ import shlex
 import pytest
 from blocks import PAGES, blocks, of_kind
 from command import collektive
-from places import ROOT
+from build.places import ROOT
 
 # Blocks that no test runs or compiles, and why.
 EXEMPT = {("docs/performance.md", "text"): "a report of measurements; the tutorial on profiling runs the command, and its test looks at the lines"}

@@ -3,7 +3,7 @@ import unittest
 
 import pytest
 from command import Folder, collektive, last_error
-from places import ROOT
+from build.places import ROOT
 
 
 @pytest.mark.quick

@@ -4,7 +4,7 @@ import subprocess
 
 import replay
 from command import Project, collektive, last_error
-from places import COLLEKTIVE
+from build.places import COLLEKTIVE
 
 
 class WholeRuns(Project):

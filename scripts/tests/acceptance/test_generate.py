@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 from command import SAMPLE, Folder, collektive
-from places import BUILD, ROOT
+from build.places import BUILD, ROOT
 
 
 class Generated(Folder):

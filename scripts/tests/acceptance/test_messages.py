@@ -3,7 +3,7 @@ import os
 import subprocess
 
 from command import Project, collektive, last_error
-from places import COLLEKTIVE, ROOT
+from build.places import COLLEKTIVE, ROOT
 
 
 class Messages(Project):

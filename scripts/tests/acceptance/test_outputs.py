@@ -8,7 +8,7 @@ import unittest
 
 import replay
 from command import Project, collektive, last_error, processes
-from places import COLLEKTIVE
+from build.places import COLLEKTIVE
 
 
 class Outputs(Project):

@@ -7,11 +7,13 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+from pathlib import Path
 
+import installed
 import metas
 import pytest
-from command import HERE, collektive, jdk, last_error
-from places import ROOT
+from command import collektive, jdk, last_error
+from build.places import ROOT
 
 
 class InstalledProject:
@@ -22,7 +24,7 @@ class InstalledProject:
         self.package = os.path.join(self.folder, "Packages/org.collektive.unity")
         os.makedirs(self.package)
         subprocess.run(["tar", "-xzf", archive, "-C", self.package, "--strip-components=1"], check=True)
-        subprocess.run(["bash", os.path.join(HERE, "installed.sh"), ROOT, self.folder], check=True, capture_output=True)
+        installed.compile_project(Path(self.folder))
         sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
         scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample,
                     "schema": sample + "/gradient_ascent.fbs", "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar",

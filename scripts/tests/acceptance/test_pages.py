@@ -6,7 +6,7 @@ import re
 import pytest
 from blocks import of_kind
 from command import Folder, collektive
-from places import ROOT
+from build.places import ROOT
 
 
 class GettingStarted(Folder):

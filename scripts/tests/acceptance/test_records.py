@@ -5,7 +5,7 @@ import zlib
 
 import pytest
 from command import Project, collektive, last_error
-from places import ROOT
+from build.places import ROOT
 
 
 def with_another_jar(record):

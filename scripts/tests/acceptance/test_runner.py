@@ -3,14 +3,16 @@ import os
 import subprocess
 import textwrap
 import unittest
+from pathlib import Path
 
-from command import Folder, collektive
-from places import BUILD
+from command import Folder
+from build import csharp
+from build.places import BUILD
 
 RUNNER = os.path.join(BUILD, "csharp/Collektive.TestRunner.exe")
 
 
-@unittest.skipUnless(os.path.exists(RUNNER), "the suite csharp has not built it")
+@unittest.skipUnless(os.path.exists(RUNNER), "this system has no package of NUnit")
 class TheTestRunner(Folder):
     def run_fixture(self, test, *options):
         """Runs a fixture with this test: exit code and output."""
@@ -28,8 +30,7 @@ class TheTestRunner(Folder):
         with open(self.path("Fixture.cs"), "w") as file:
             file.write(textwrap.dedent(source).replace("TEST", test))
         nunit = os.path.join(BUILD, "csharp/nunit.framework.dll")
-        compiled = collektive("step", "csc", self.path("Fixture.dll"), "-r:" + nunit, self.path("Fixture.cs"))
-        self.assertEqual(compiled.returncode, 0, compiled.stdout + compiled.stderr)
+        csharp.compile_assembly(Path(self.path("Fixture.dll")), [Path(self.path("Fixture.cs"))], ["-r:" + nunit])
         result = subprocess.run(["mono-sgen", RUNNER, *options, self.path("Fixture.dll")], capture_output=True, text=True,
                                 env={"PATH": os.environ["PATH"], "MONO_PATH": os.path.dirname(RUNNER)})
         return result.returncode, result.stdout.splitlines()[-1], result.stdout

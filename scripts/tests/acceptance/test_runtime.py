@@ -5,11 +5,12 @@ The package's own library, DSL and standard library apart, stands in for Collekt
 import glob
 import os
 import re
-import subprocess
 import zipfile
+from pathlib import Path
 
 from command import Project, collektive
-from places import COLLEKTIVE, ROOT
+from build import projects
+from build.places import ROOT
 
 LIBRARY = os.path.join(ROOT, "jvm-host/host/target/collektive-library.jar")
 PLUGIN = glob.glob(os.path.join(ROOT, "jvm-host/compiler-plugin/target/compiler-plugin-*[0-9].jar"))
@@ -62,9 +63,8 @@ class Runtimes(Project):
 
     def collektive_jar(self):
         """The jar that a run on Collektive has made of the programs as they are now."""
-        command = [COLLEKTIVE, "step", "programs_jar", self.path("project", "light.fbs"), self.path("project", "programs"),
-                   self.path("project", "collektive"), self.path("project", "plugin.jar")]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        names = ("light.fbs", "programs", "collektive", "plugin.jar")
+        return str(projects.programs_jar(*(Path(self.path("project", name)) for name in names)))
 
     def use_jar(self, jar, change=lambda name, data: data):
         repack(jar, self.path("project", "programs.jar"), change=change)

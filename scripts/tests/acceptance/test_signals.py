@@ -5,7 +5,7 @@ import subprocess
 import time
 
 from command import Project, collektive, processes
-from places import COLLEKTIVE
+from build.places import COLLEKTIVE
 
 CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
 

@@ -13,7 +13,7 @@ import pytest
 import replay
 from blocks import STORIES, blocks
 from command import WORK
-from places import ROOT
+from build.places import ROOT
 
 # These say by a code of 1 that two runs differ.
 COMPARE = ("collektive diff ", "collektive replay ")
@@ -40,7 +40,7 @@ def folder():
 def run(commands, folder):
     """What the commands print; each must succeed."""
     printed = ""
-    environment = {**os.environ, "PATH": ROOT + ":" + os.environ["PATH"]}
+    environment = {**os.environ, "PATH": f"{ROOT}:{os.environ['PATH']}"}
     for command in commands.splitlines():
         result = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         assert result.returncode == 0 or (result.returncode == 1 and command.startswith(COMPARE)), f"{command}\n{result.stdout}"

@@ -4,7 +4,7 @@ import os
 import subprocess
 import unittest
 
-from places import ROOT
+from build.places import ROOT
 
 OUT = os.path.join(ROOT, "build/bench/test.json")
 KEYS = ["name", "variant", "program", "topology", "nodes", "threads", "median_us", "p99_us", "min_us", "managed_bytes_per_tick", "jvm_bytes_per_tick"]

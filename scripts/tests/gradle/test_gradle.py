@@ -5,7 +5,8 @@ import subprocess
 import unittest
 import zipfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from build.places import ROOT
+
 # The jars by the module that makes them.
 JARS = {"host": ["host", "library", "adapter"], "generator": ["generator"], "tools": ["tools"], "testing": ["testing"], "programs": ["programs"],
         "bench": ["bench"]}

@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 
 import pytest
-from places import BUILD, COLLEKTIVE, ROOT
+from build.places import BUILD, COLLEKTIVE, ROOT
 
 TOOLS = os.path.join(ROOT, "jvm-host/tools/target/collektive-tools.jar")
 HOST = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")

@@ -5,7 +5,7 @@ import struct
 import subprocess
 
 import pytest
-from places import ROOT
+from build.places import ROOT
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
 # Those that were built.

@@ -6,7 +6,7 @@ import subprocess
 import tarfile
 
 import pytest
-from places import BUILD, COLLEKTIVE
+from build.places import BUILD, COLLEKTIVE
 
 # Those that were built.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()

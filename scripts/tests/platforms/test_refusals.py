@@ -4,7 +4,7 @@ import os
 import subprocess
 
 import pytest
-from places import BUILD
+from build.places import BUILD
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
 # By platform that can be run here: the words that run its java.

@@ -4,7 +4,7 @@ import os
 import re
 
 import pytest
-from places import ROOT
+from build.places import ROOT
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"links"})
 # Explicit API mode: what is public says so. An override has the documentation of what it overrides, a companion that of its class.

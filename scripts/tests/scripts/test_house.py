@@ -3,7 +3,7 @@ import os
 import re
 import unittest
 
-from places import ROOT
+from build.places import ROOT
 
 
 def declaration(path, test):

@@ -4,7 +4,7 @@ import os
 import metas
 import package_json
 import pytest
-from places import ROOT
+from build.places import ROOT
 
 EXPECTED = {
     "win-x64": ("CPU: x86_64", "OS: Windows", "Win64"),

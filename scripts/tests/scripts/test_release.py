@@ -4,7 +4,7 @@ import changelog
 import openupm
 import package_json
 import pytest
-from places import ROOT
+from build.places import ROOT
 
 CHANGES = "# Changelog\n\n## [Unreleased]\n\n## [1.1.0] - 2026-01-02\n\n### Added\n\n- More.\n\n## [1.0.0]\n\n- All.\n"
 

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 import version
-from places import BUILD, ROOT
+from build.places import BUILD, ROOT
 
 POM = "{http://maven.apache.org/POM/4.0.0}"
 
