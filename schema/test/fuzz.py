@@ -46,7 +46,7 @@ HOSTILE_COMMENTS = ["*/ int evil; /*", "\\u002a\\u002f int evil; /*", "/ int evi
 class RandomSchema:
     """One schema file, of which few names and comments are hostile."""
 
-    def __init__(self, source, root):
+    def __init__(self, source, root) -> None:
         self.random = source
         self.root = root
         self.hostile = source.choice([0, 0, 0.02, 0.05, 0.15])
@@ -158,7 +158,7 @@ class RandomSchema:
         return self.pick(["user.fbs", "my_swarm.fbs"], HOSTILE_FILES)
 
 
-def write_batch(folder, seed, count):
+def write_batch(folder, seed, count) -> None:
     """Writes random schemas to `cases`, each in a folder that is named as its namespace."""
     source = random.Random(seed)
     for i in range(count):
@@ -218,7 +218,7 @@ def batch(folder, seed, count):
     return run(folder)
 
 
-def main():
+def main() -> None:
     end, seed = time.time() + float(sys.argv[1]), int(sys.argv[2])
     work, totals, found = os.path.join(ROOT, "build", "fuzz", "schemas"), [0, 0], 0
     while time.time() < end:

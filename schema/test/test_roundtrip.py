@@ -26,7 +26,7 @@ def kotlin(*words):
 
 @pytest.mark.parametrize("writer, reader", [(csharp, kotlin), (kotlin, csharp)], ids=["to Kotlin", "to C#"])
 @pytest.mark.parametrize("schema", SCHEMAS)
-def test_what_one_side_writes_the_other_reads(schema, writer, reader, tmp_path):
+def test_what_one_side_writes_the_other_reads(schema, writer, reader, tmp_path) -> None:
     name, file = f"test.{schema}Schema", str(tmp_path / "data")
     subprocess.run(writer("write", name, file, RECORDS, SEED), check=True)
     read = subprocess.run(reader("read", name, file), check=True, capture_output=True, text=True).stdout

@@ -32,7 +32,7 @@ def references(name: str) -> set[str]:
     return direct.union(*map(references, direct))
 
 
-def test_each_source_belongs_to_one_project():
+def test_each_source_belongs_to_one_project() -> None:
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard", "unity/*.cs"],
                             capture_output=True, text=True, check=True).stdout.split("\0")
     expected = {os.path.join(ROOT, path) for path in listed if path and os.path.exists(os.path.join(ROOT, path))}
@@ -42,14 +42,14 @@ def test_each_source_belongs_to_one_project():
     assert [path for path, count in found.items() if count > 1] == []
 
 
-def test_each_reference_of_a_project_exists():
+def test_each_reference_of_a_project_exists() -> None:
     solution = ElementTree.parse(os.path.join(FOLDER, "Collektive.slnx"))
     assert sorted(project.attrib["Path"] for project in solution.iter("Project")) == sorted(name + ".csproj" for name in PROJECTS)
     for name in PROJECTS:
         assert references(name) <= set(PROJECTS)
 
 
-def test_projects_of_the_package_refer_to_the_same_assemblies_as_in_unity():
+def test_projects_of_the_package_refer_to_the_same_assemblies_as_in_unity() -> None:
     for path in glob.glob(os.path.join(ROOT, "unity/[!S]*/**/*.asmdef"), recursive=True):
         with open(path) as file:
             definition = json.load(file)
@@ -58,6 +58,6 @@ def test_projects_of_the_package_refer_to_the_same_assemblies_as_in_unity():
         assert {*definition["references"], *plugins} - {"UnityEditor.TestRunner"} <= known, definition["name"]
 
 
-def test_projects_have_the_symbols_of_the_bridge():
+def test_projects_have_the_symbols_of_the_bridge() -> None:
     with open(os.path.join(ROOT, "unity/Runtime/Bridge/csc.rsp")) as file, open(os.path.join(FOLDER, "Directory.Build.props")) as properties:
-        assert re.search(r"<DefineConstants>(.*)</DefineConstants>", properties.read())[1] == file.read().strip().removeprefix("-define:")
+        assert re.findall(r"<DefineConstants>(.*)</DefineConstants>", properties.read()) == [file.read().strip().removeprefix("-define:")]

@@ -9,9 +9,10 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.dirname(HERE), HERE]
-import metas
-from validator import asmdefs, guids, packing, references, serialized_fields
-from validator.assets import Assets
+from validator import asmdefs, guids, packing, references, serialized_fields  # noqa: E402
+from validator.assets import Assets  # noqa: E402
+
+import metas  # noqa: E402
 
 
 def problems(root, classes, ledger=guids.LEDGER):
@@ -24,7 +25,7 @@ def problems(root, classes, ledger=guids.LEDGER):
     yield from packing.problems(assets)
 
 
-def main():
+def main() -> None:
     root, fields = sys.argv[1:3]
     with open(fields) as file:
         classes = serialized_fields.parse(file.read())

@@ -27,7 +27,6 @@ from build import fetch, graph, lock, processes, system
 from build.console import Failure, say
 from build.places import BUILD, GRAPH, RESULTS, ROOT, TEST_PYTHON
 
-
 RUNS = frozenset({"quick", "all", "extra"})
 
 
@@ -112,7 +111,8 @@ def run_long(long_run: LongRun, values: Sequence[str]) -> int:
 def bare(roots: Sequence[str]) -> int:
     """Tests the last commit in fresh roots of distributions."""
     setup_environment()
-    from tests import bare as fresh, results
+    from tests import bare as fresh
+    from tests import results
     unknown = [name for name in roots if name not in fresh.ROOTS]
     if unknown:
         raise Failure(f"test bare: unknown root '{unknown[0]}'; known: {' '.join(fresh.ROOTS)}")

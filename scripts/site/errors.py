@@ -3,8 +3,9 @@ import json
 import re
 import subprocess
 
-from places import COLLEKTIVE
 from sources import text
+
+from places import COLLEKTIVE
 
 # By the name of a code in the C header, what to do next. The text of an error names the file, node or setting.
 NEXT = {

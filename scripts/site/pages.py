@@ -11,6 +11,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import reference
+
 from places import ROOT
 
 # Titles of sections, and pages in their order: Documentation~ lies at the top of the site, docs/ in `repository`. Pages that are named nowhere, as

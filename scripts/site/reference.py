@@ -6,8 +6,9 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 from errors import errors
-from places import COLLEKTIVE, ROOT
 from sources import text
+
+from places import COLLEKTIVE, ROOT
 
 
 def command_line(_):

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from build import system
-from build.console import Failure, logged, say
+from build.console import Failure, say
 from build.places import BUILD, LOGS, ROOT
 from tests import bare_demo
 
@@ -44,7 +44,7 @@ exec chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/s
 PROGRESS = re.compile(r"\[ *\d+s\] |collektive: |\d+ passed, ")
 
 
-class CannotMake(Exception):
+class CannotMakeError(Exception):
     """A root cannot be made, such as without a network."""
 
 
@@ -63,7 +63,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
             try:
                 if code := _test_root(name, work, results):
                     failures.append(f"{name} ended with code {code}")
-            except CannotMake as error:
+            except CannotMakeError as error:
                 say(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
                 skipped += 1
             finally:
@@ -158,7 +158,7 @@ def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list
     _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
     package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
     if hashlib.sha256(package.read_bytes()).hexdigest() != UBUNTU_KEYRING_SHA256:
-        raise CannotMake(f"{package.name} has another SHA-256 than expected")
+        raise CannotMakeError(f"{package.name} has another SHA-256 than expected")
     _logged(name, ["dpkg-deb", "--extract", package, work / "keyring"])
     _remove(packages)
     return work / "keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg"
@@ -167,7 +167,7 @@ def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list
 def _logged(name: str, command: Sequence[str | Path]) -> None:
     with _log(name).open("ab") as file:
         if subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode != 0:
-            raise CannotMake(" ".join(map(str, command[:6])) + " failed")
+            raise CannotMakeError(" ".join(map(str, command[:6])) + " failed")
 
 
 def _add_clients(root: Path) -> None:
@@ -185,11 +185,11 @@ def _add_clients(root: Path) -> None:
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source, target)
     npm = subprocess.run(["npm", "config", "get", "globalconfig"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
-    for target, sources in {"etc/pip.conf": [Path("/etc/pip.conf"), home / ".config/pip/pip.conf", home / ".pip/pip.conf"],
+    for name, sources in {"etc/pip.conf": [Path("/etc/pip.conf"), home / ".config/pip/pip.conf", home / ".pip/pip.conf"],
                             "root/.npmrc": [Path(npm), home / ".npmrc"]}.items():
         text = "".join(file.read_text() for file in sources if file.is_file())
         if text:
-            (root / target).write_text(text)
+            (root / name).write_text(text)
 
 
 def _client_variables() -> dict[str, str]:

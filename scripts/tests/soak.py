@@ -6,7 +6,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import jdk, managed, processes, projects
 from build.places import CSHARP, HOST_JAR
-
 from tests.faults.places import PROBE, PROGRAMS
 
 

@@ -10,7 +10,7 @@ BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f00000000000000
 class Assets:
     """All assets below a root, from their metas."""
 
-    def __init__(self, root):
+    def __init__(self, root) -> None:
         self.root = root
         self.paths = list(metas.assets(root))
         self.guids = {}

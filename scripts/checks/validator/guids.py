@@ -32,7 +32,7 @@ def problems(assets, classes, ledger=LEDGER):
             yield f"{path}: not in {os.path.basename(ledger)} with GUID {guid}; run scripts/checks/validate.py --update"
 
 
-def update(assets, classes, ledger=LEDGER):
+def update(assets, classes, ledger=LEDGER) -> None:
     """Enters new and renamed assets. What vanished stays, and with it the problem."""
     listed = {**read(ledger), **lasting(assets, classes)}
     with open(ledger, "w") as file:

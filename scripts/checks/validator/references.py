@@ -36,7 +36,7 @@ def problems(assets, classes):
 
 
 class OneFile:
-    def __init__(self, assets, classes, files, path, documents):
+    def __init__(self, assets, classes, files, path, documents) -> None:
         self.assets = assets
         self.classes = classes
         self.files = files

@@ -4,7 +4,7 @@
 class ScriptClass:
     """One class: its full name, `component` or `asset`, and its fields' kinds by path."""
 
-    def __init__(self, name, kind):
+    def __init__(self, name, kind) -> None:
         self.name = name
         self.kind = kind
         self.fields = {}

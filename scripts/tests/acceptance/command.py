@@ -56,13 +56,13 @@ def jdk():
 class Folder(unittest.TestCase):
     """A test with an empty folder."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         self.folder = os.path.join(WORK, "test")
         os.mkdir(self.folder)
         self.addCleanup(shutil.rmtree, self.folder)
         self.addCleanup(self.end_processes)
 
-    def end_processes(self):
+    def end_processes(self) -> None:
         """What a failed test left running would go on beside the others."""
         for pid in processes(self.folder + "/"):
             with contextlib.suppress(ProcessLookupError):
@@ -71,7 +71,7 @@ class Folder(unittest.TestCase):
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
 
-    def await_that(self, holds):
+    def await_that(self, holds) -> None:
         """Waits until holds() is true; a minute at the most."""
         end = time.monotonic() + 60
         while not holds():
@@ -86,7 +86,7 @@ class Folder(unittest.TestCase):
 class Project(Folder):
     """A project outside the clone: own schema, Kotlin, C# and scenario."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
 
@@ -94,7 +94,7 @@ class Project(Folder):
         """The jar that a run has made of the programs as they are now."""
         return str(projects.programs_jar(Path(self.path("project", "light.fbs")), Path(self.path("project", "programs"))))
 
-    def change(self, file, old, new):
+    def change(self, file, old, new) -> None:
         path = self.path("project", file)
         with open(path) as opened:
             text = opened.read()

@@ -27,7 +27,7 @@ def _unpack(text):
 
 
 class _Segment:
-    def __init__(self, data, header):
+    def __init__(self, data, header) -> None:
         self.data, self.at = data, 0
         self.ranges = [self.range() if field["kind"] == "number" else None for field in header["fields"]]
         self.ids, self.step = header["ids"], header["positionStep"]

@@ -4,6 +4,7 @@ import os
 import subprocess
 
 from command import Project, jdk
+
 from build.places import COLLEKTIVE, ROOT
 
 RUNS = 3
@@ -11,7 +12,7 @@ HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
 
 
 class AtOnce(Project):
-    def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self):
+    def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self) -> None:
         with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
             file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")
         home = self.path("home")

@@ -7,6 +7,7 @@ import shlex
 import pytest
 from blocks import PAGES, blocks, of_kind
 from command import collektive
+
 from build.places import ROOT
 
 # Blocks that no test runs or compiles, and why.
@@ -21,14 +22,14 @@ def text(path):
         return file.read()
 
 
-def test_each_block_has_a_test():
+def test_each_block_has_a_test() -> None:
     untested = [block for page in PAGES for block in blocks(page) if not block.kind]
     assert {(block.page, block.language) for block in untested} == EXEMPT.keys(), [block.place for block in untested]
     assert len(untested) == len(EXEMPT)
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_no_block_is_written_so_that_tests_overlook_it(page):
+def test_no_block_is_written_so_that_tests_overlook_it(page) -> None:
     assert len(re.findall(r"(?m)^ *(?:```|~~~)", text(page))) == 2 * len(blocks(page))
 
 
@@ -45,7 +46,7 @@ def commands():
 
 
 @pytest.mark.parametrize("place, words", commands())
-def test_a_command_that_is_not_run_has_options_that_exist(place, words):
+def test_a_command_that_is_not_run_has_options_that_exist(place, words) -> None:
     command = os.path.basename(words[0])
     if command == "collektive":
         told = collektive(words[1], "--help")
@@ -67,7 +68,7 @@ def player_options():
     return {prefix + name for kind, name in fields if not kind.startswith("List")}
 
 
-def test_options_of_players_are_known():
+def test_options_of_players_are_known() -> None:
     assert {"-collektive-seed", "-collektive-schedule"} <= player_options()
     assert "-collektive-jars" not in player_options()
 
@@ -79,14 +80,14 @@ def declarations(code):
     return [part for part in found if part and part not in ("get", "set", "null")]
 
 
-def test_the_boundarys_csharp_is_that_of_the_sources():
+def test_the_boundarys_csharp_is_that_of_the_sources() -> None:
     sources = " ".join(" ".join(text(path).split()) for path in glob.glob(os.path.join(ROOT, "unity/Runtime/Bridge/Schema/*.cs")))
     told = [part for block in of_kind("contract") if block.language == "csharp" for part in declarations(block.text)]
     assert len(told) > 20
     assert [part for part in told if part not in sources] == []
 
 
-def test_the_boundarys_java_is_what_the_native_library_binds():
+def test_the_boundarys_java_is_what_the_native_library_binds() -> None:
     shim = text("native-shim/src/host.c")
     shim = shim.replace("CALL_TYPE", re.search(r'#define CALL_TYPE (".*")', shim)[1])
     # From the natives of the class Shim to the entries of Host.

@@ -15,7 +15,7 @@ class TheDemo(Folder):
     """One whole demo, looked at from all sides: it takes a while."""
 
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.out = tempfile.mkdtemp(prefix="collektive-demo-")
         cls.addClassCleanup(shutil.rmtree, cls.out)
         cls.result = collektive("demo", "--out", cls.out)
@@ -24,7 +24,7 @@ class TheDemo(Folder):
         with open(os.path.join(cls.out, "manifest.json")) as file:
             cls.whole = json.load(file)
 
-    def test_the_manifest_tells_what_was_run(self):
+    def test_the_manifest_tells_what_was_run(self) -> None:
         self.assertEqual(self.whole["nodes"], 500)
         self.assertEqual(self.whole["scenario"]["seconds"], 60)
         self.assertEqual(self.whole["scenario"]["seed"], 1)
@@ -37,10 +37,10 @@ class TheDemo(Folder):
         self.assertRegex(self.whole["digest"], "^[0-9a-f]{16}$")
         self.assertIn("jvm", self.whole["versions"])
 
-    def test_there_is_one_call_a_tick(self):
+    def test_there_is_one_call_a_tick(self) -> None:
         self.assertEqual(self.whole["shim_calls"], self.whole["ticks"])
 
-    def test_the_swarm_reaches_the_source(self):
+    def test_the_swarm_reaches_the_source(self) -> None:
         with open(os.path.join(self.out, "metrics.csv")) as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(
@@ -50,7 +50,7 @@ class TheDemo(Folder):
         self.assertEqual([int(row["second"]) for row in rows], list(range(61)))
         self.assertLess(float(rows[-1]["mean_distance"]), 0.3 * float(rows[0]["mean_distance"]))
 
-    def test_the_phases_of_a_tick_add_up_to_it(self):
+    def test_the_phases_of_a_tick_add_up_to_it(self) -> None:
         with open(os.path.join(self.out, "metrics.csv")) as file:
             rows = list(csv.DictReader(file))
         for row in rows[1:]:
@@ -62,7 +62,7 @@ class TheDemo(Folder):
         self.assertLess(0.8 * self.whole["wall_seconds"], seconds)
         self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
 
-    def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self):
+    def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self) -> None:
         metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
         boxes = [shape for shape in metadata["shapes"] if shape["size"] == [1, 3, 5]]
         self.assertEqual(len(boxes), 4)
@@ -70,7 +70,7 @@ class TheDemo(Folder):
         behind = sum(any(crosses((x, z), (source[0], source[2]), box) for box in boxes) for x, _, z, _ in frames[0][1].values())
         self.assertGreaterEqual(behind, 50)
 
-    def test_no_node_ends_inside_an_obstacle_or_off_the_floor(self):
+    def test_no_node_ends_inside_an_obstacle_or_off_the_floor(self) -> None:
         metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
         self.assertEqual(len(frames), 601)
         for node, (x, y, z, _) in frames[-1][1].items():
@@ -81,16 +81,16 @@ class TheDemo(Folder):
                 self.assertFalse(inside, f"node {node} is inside an obstacle")
         self.assertEqual(len(frames[-1][1]), 500)
 
-    def test_it_is_fast_enough(self):
+    def test_it_is_fast_enough(self) -> None:
         # The targets are 2 and 33 ms on a machine of two cores that does nothing else; a busy one may take twice as long.
         self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
         self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
 
-    def test_the_replay_page_costs_a_tenth_of_the_run_at_most(self):
+    def test_the_replay_page_costs_a_tenth_of_the_run_at_most(self) -> None:
         self.assertLessEqual(self.whole["replay_ms"], 0.1 * 1000 * self.whole["wall_seconds"])
         self.assertLess(os.path.getsize(os.path.join(self.out, "replay.html")), 3e6, "bytes")
 
-    def test_pictures_are_there_and_named_in_the_output(self):
+    def test_pictures_are_there_and_named_in_the_output(self) -> None:
         for name in ["start.png", "middle.png", "end.png", "replay.html", "metrics.csv", "manifest.json"]:
             self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 200)
             self.assertIn(name, self.result.stdout)
@@ -111,7 +111,7 @@ def crosses(start, end, box):
 
 
 class Repeatability(Folder):
-    def test_one_seed_has_one_digest_and_another_seed_another(self):
+    def test_one_seed_has_one_digest_and_another_seed_another(self) -> None:
         digests = []
         for seed, out in [("7", "a"), ("7", "b"), ("8", "c")]:
             result = collektive("demo", "--nodes", "80", "--seconds", "4", "--seed", seed, "--out", self.path(out))
@@ -120,7 +120,7 @@ class Repeatability(Folder):
         self.assertEqual(digests[0], digests[1])
         self.assertNotEqual(digests[0], digests[2])
 
-    def test_threads_and_processes_change_nothing(self):
+    def test_threads_and_processes_change_nothing(self) -> None:
         """Bodies that crowd around the source, where each pushes many others."""
         with open(os.path.join(SAMPLE, "scenario.json")) as file:
             scenario = json.load(file)
@@ -139,7 +139,7 @@ class Repeatability(Folder):
         self.assertGreater(results[0][1]["contacts"], 300)
         self.assertEqual(results, [results[0]] * 4)
 
-    def test_runs_of_one_seed_are_equal_but_for_the_clock_of_the_machine(self):
+    def test_runs_of_one_seed_are_equal_but_for_the_clock_of_the_machine(self) -> None:
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
         for out in ["a", "b"]:
             result = collektive("run", self.path("project", "lamps.json"), "--seed", "5", "--out", self.path(out))

@@ -4,6 +4,7 @@ import subprocess
 
 import replay
 from command import Project, collektive, last_error
+
 from build.places import COLLEKTIVE
 
 
@@ -27,13 +28,13 @@ class WholeRuns(Project):
         self.change("scene/Lamps.cs", "\n        protected override void Build(", self.SCRIPT % code)
         return self.run_it()
 
-    def test_a_user_without_a_home_runs_without_the_class_archive(self):
+    def test_a_user_without_a_home_runs_without_the_class_archive(self) -> None:
         result = self.run_it(HOME="/proc")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("without its class archive", result.stdout + result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
 
-    def test_runs_that_cannot_be_are_refused(self):
+    def test_runs_that_cannot_be_are_refused(self) -> None:
         for old, new, words in [
             ('"seconds": 1', '"seconds": 3e8', ["seconds", "3E+09 ticks", "100 million"]),
             ('"seconds": 1', '"seconds": NaN', ["greater than 0"]),
@@ -55,7 +56,7 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("100 million", last_error(result))
 
-    def test_a_replay_ends_where_the_run_ends(self):
+    def test_a_replay_ends_where_the_run_ends(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')
         result = self.run_it("--seconds", "0.3")
@@ -63,7 +64,7 @@ class WholeRuns(Project):
         _, frames = replay.read(self.path("out", "replay.html"))
         self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
 
-    def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self):
+    def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
         digests = set()
         for seed in [2**63 - 1, 2**63, 2**64 - 1]:
@@ -85,7 +86,7 @@ class WholeRuns(Project):
                 self.assertIn("2^64 - 1", last_error(result))
             self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
 
-    def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self):
+    def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self) -> None:
         for code in ["manager.Paused = true;", "manager.enabled = false;"]:
             with self.subTest(code):
                 result = self.at_tick_4(code)
@@ -94,7 +95,7 @@ class WholeRuns(Project):
                 self.assertIn("4 of 10 ticks were done", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
-    def test_a_stop_condition_and_quit_end_a_run_in_order(self):
+    def test_a_stop_condition_and_quit_end_a_run_in_order(self) -> None:
         for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:
             with self.subTest(code):
                 result = self.at_tick_4(code)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from blocks import of_kind
 from command import Folder
+
 from build import projects
 from build.places import ROOT
 
@@ -72,20 +73,20 @@ class Fragments(Folder):
             file.write(SCHEMA)
         return self.path(kind)
 
-    def test_csharp_compiles(self):
+    def test_csharp_compiles(self) -> None:
         projects.scripts_dll(Path(self.path("swarm.fbs")), Path(self.written("csharp", csharp)))
 
-    def test_kotlin_compiles(self):
+    def test_kotlin_compiles(self) -> None:
         projects.programs_jar(Path(self.path("swarm.fbs")), Path(self.written("kotlin", kotlin)))
 
-    def test_json_is_json(self):
+    def test_json_is_json(self) -> None:
         for place, code in fragments("json"):
             with self.subTest(place):
                 json.loads(code if code.startswith("{") else f"{{{code}}}")
 
 
 class Quotations(unittest.TestCase):
-    def test_tests_of_programs_are_quoted_from_tests_that_run(self):
+    def test_tests_of_programs_are_quoted_from_tests_that_run(self) -> None:
         sources = ""
         for path in glob.glob(os.path.join(ROOT, "jvm-host/testing/src/test/kotlin/**/*.kt"), recursive=True):
             with open(path) as file:

@@ -5,12 +5,13 @@ import subprocess
 
 import pytest
 from command import SAMPLE, Folder, collektive
+
 from build.places import BUILD, ROOT
 
 
 class Generated(Folder):
     @pytest.mark.quick
-    def test_the_command_makes_what_the_build_makes(self):
+    def test_the_command_makes_what_the_build_makes(self) -> None:
         for schema in glob.glob(os.path.join(os.path.dirname(SAMPLE), "*/*.fbs")):
             made = self.path(os.path.basename(schema))
             self.assertEqual(collektive("generate", schema, "--csharp", made).returncode, 0)
@@ -20,7 +21,7 @@ class Generated(Folder):
         subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
         self.same(self.path("core"), os.path.join(BUILD, "generated/bridge"))
 
-    def same(self, made, built):
+    def same(self, made, built) -> None:
         self.assertEqual(self.files(made), self.files(built))
 
     @staticmethod
@@ -33,7 +34,7 @@ class Generated(Folder):
                     found[os.path.relpath(path, folder)] = file.read()
         return found
 
-    def test_schemas_that_cannot_be_used_are_refused(self):
+    def test_schemas_that_cannot_be_used_are_refused(self) -> None:
         bad = {
             "namespace": ("table SensorData { a: int; } table ActuatorData { a: int; }", "namespace"),
             "sensor": ("namespace a; table ActuatorData { a: int; }", "SensorData"),

@@ -3,6 +3,7 @@ import os
 import subprocess
 
 from command import Project, collektive, last_error
+
 from build.places import COLLEKTIVE, ROOT
 
 
@@ -11,10 +12,10 @@ class Messages(Project):
         return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(out), "--overwrite", *arguments],
                               capture_output=True, text=True, timeout=200, **options)
 
-    def in_program(self, line):
+    def in_program(self, line) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness()\n    {line}")
 
-    def test_an_error_in_kotlin_comes_first_and_alone(self):
+    def test_an_error_in_kotlin_comes_first_and_alone(self) -> None:
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         result = self.run_it(cwd=self.folder)
         lines = [line for line in result.stderr.splitlines() if not line.startswith("[")]
@@ -23,22 +24,22 @@ class Messages(Project):
         log = last_error(result).rsplit(" ", 1)[1]
         self.assertTrue(os.path.isfile(log), log)
 
-    def test_a_run_without_nodes_is_a_failure(self):
+    def test_a_run_without_nodes_is_a_failure(self) -> None:
         result = self.run_it("--set", "lamps=0")
         self.assertEqual(result.returncode, 1)
         self.assertIn("there was no node in any tick: the scene builder must make GameObjects with the component Node", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "there was no node in any tick")
 
-    def test_programs_without_a_mark_are_told_how_to_mark_them(self):
+    def test_programs_without_a_mark_are_told_how_to_mark_them(self) -> None:
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
         self.assertIn('they have no program at all: mark its function with @Program("brightest")', last_error(self.run_it()))
 
-    def test_an_error_in_a_schema_has_its_place_at_the_front(self):
+    def test_an_error_in_a_schema_has_its_place_at_the_front(self) -> None:
         self.change("light.fbs", "brightness: float;", "brightness: flaot;")
         place = self.path("project", "light.fbs")
         self.assertRegex(self.run_it().stderr, rf"(?m)^{place}:7: error: type referenced but not defined .*flaot")
 
-    def test_a_tick_of_which_every_round_fails_ends_the_run_unless_it_may_go_on(self):
+    def test_a_tick_of_which_every_round_fails_ends_the_run_unless_it_may_go_on(self) -> None:
         self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }\n"
                         '    check(mine < 0) { "always" }')
         result = self.run_it()
@@ -53,7 +54,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 1)
         self.assertEqual((self.manifest(self.path("out"))["ticks"], self.manifest(self.path("out"))["errors"]), (10, 100))
 
-    def test_settings_are_names_and_lists_are_lists(self):
+    def test_settings_are_names_and_lists_are_lists(self) -> None:
         for value in ["0", "Lockstep,Sequential", "2", ""]:
             with self.subTest(value):
                 self.change("lamps.json", '"threads": 2', f'"threads": 2, "schedule": "{value}"')
@@ -62,7 +63,7 @@ class Messages(Project):
         self.change("lamps.json", '["-Xss2m"]', '"-Xss2m"')
         self.assertIn("it must be of type list of strings", last_error(self.run_it()))
 
-    def test_pipes_and_whole_disks_are_refused_at_once(self):
+    def test_pipes_and_whole_disks_are_refused_at_once(self) -> None:
         os.mkfifo(self.path("pipe"))
         result = subprocess.run([COLLEKTIVE, "run", self.path("pipe")], capture_output=True, text=True, timeout=60)
         self.assertIn("there is no file", last_error(result))
@@ -72,7 +73,7 @@ class Messages(Project):
         self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
         self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
 
-    def test_a_folder_may_have_any_name_in_any_locale(self):
+    def test_a_folder_may_have_any_name_in_any_locale(self) -> None:
         odd = self.path("ünïcödé 雪 \"quo'te")
         os.rename(self.path("project"), odd)
         os.symlink(odd, self.path("project"))
@@ -81,7 +82,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out 雪"))["folder"], odd)
 
-    def test_what_the_shell_does_not_give_is_said_or_done_without(self):
+    def test_what_the_shell_does_not_give_is_said_or_done_without(self) -> None:
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
         self.assertIn("the stack of processes is limited to 64 KB, and the tools need 1024: ulimit -s 8192", small.stderr)
@@ -91,7 +92,7 @@ class Messages(Project):
         self.assertEqual(closed.returncode, 0)
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "complete")
 
-    def test_a_folder_of_kotlin_is_replayed_on_a_record(self):
+    def test_a_folder_of_kotlin_is_replayed_on_a_record(self) -> None:
         self.change("lamps.json", '"metrics": true', '"record": true')
         self.assertEqual(self.run_it().returncode, 0)
         record, programs, schema = self.path("out", "run.clkrec"), self.path("project", "programs"), self.path("project", "light.fbs")

@@ -8,6 +8,7 @@ import unittest
 
 import replay
 from command import Project, collektive, last_error, processes
+
 from build.places import COLLEKTIVE
 
 
@@ -25,7 +26,7 @@ class Outputs(Project):
     def outcome(self):
         return self.manifest(self.path("out"))["outcome"]
 
-    def test_a_scene_without_shades_shows_what_its_nodes_answer(self):
+    def test_a_scene_without_shades_shows_what_its_nodes_answer(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         _, frames = replay.read(self.path("out", "replay.html"))
@@ -33,7 +34,7 @@ class Outputs(Project):
         brightest = {round(value, 3) for *_, value in nodes.values()}
         self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
 
-    def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self):
+    def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
@@ -48,7 +49,7 @@ class Outputs(Project):
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
 
-    def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self):
+    def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
@@ -68,13 +69,13 @@ class Outputs(Project):
         with open(self.path("out", "metrics.csv")) as file:
             return file.readlines()
 
-    def test_a_run_that_fails_says_why_in_its_manifest(self):
+    def test_a_run_that_fails_says_why_in_its_manifest(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick < 4 ? Brightness : float.NaN;")
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
         self.assertRegex(self.outcome(), "^failed: stopped at tick 5: .*not finite")
 
-    def test_two_runs_into_one_folder_do_not_meet(self):
+    def test_two_runs_into_one_folder_do_not_meet(self) -> None:
         command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
         first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.await_that(lambda: os.path.exists(self.path("out", "manifest.json")))
@@ -85,7 +86,7 @@ class Outputs(Project):
         first.wait()
         self.assertEqual(self.outcome(), "interrupted")
 
-    def test_folders_that_cannot_be_written_to_are_one_sentence(self):
+    def test_folders_that_cannot_be_written_to_are_one_sentence(self) -> None:
         with open(self.path("file"), "w"):
             pass
         os.symlink(self.path("nowhere", "deep"), self.path("dangling"))
@@ -97,7 +98,7 @@ class Outputs(Project):
         self.assertEqual(read_only.returncode, 1)
         self.assertRegex(last_error(read_only), "^collektive: the outputs ")
 
-    def test_the_default_folder_is_named_by_the_seed_that_is_used(self):
+    def test_the_default_folder_is_named_by_the_seed_that_is_used(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "seed": 77')
         for arguments, name in [((), "lamps-seed77"), (("--seed", "5"), "lamps-seed5")]:
             result = collektive("run", self.path("project", "lamps.json"), *arguments, cwd=self.folder)
@@ -107,7 +108,7 @@ class Outputs(Project):
 
 @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small file system")
 class FullDisks(Project):
-    def test_a_home_on_a_full_disk_is_done_without_the_class_archive(self):
+    def test_a_home_on_a_full_disk_is_done_without_the_class_archive(self) -> None:
         os.makedirs(self.path("home"))
         script = 'mount -t tmpfs -o size=1m none "$HOME" && "$@"'
         result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", COLLEKTIVE, "run", self.path("project", "lamps.json"),
@@ -117,7 +118,7 @@ class FullDisks(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("the JVM writes no archive of its classes", result.stdout + result.stderr)
 
-    def test_a_full_disk_is_one_sentence_and_nothing_looks_complete(self):
+    def test_a_full_disk_is_one_sentence_and_nothing_looks_complete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"seconds": 1', '"seconds": 20')
         reached = set()

@@ -6,6 +6,7 @@ import re
 import pytest
 from blocks import of_kind
 from command import Folder, collektive
+
 from build.places import ROOT
 
 
@@ -41,7 +42,7 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 """
 
-    def test_its_example_runs(self):
+    def test_its_example_runs(self) -> None:
         """The schema, the Kotlin and the C# of the page, in the scene above."""
         schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
         os.makedirs(self.path("programs"))
@@ -58,7 +59,7 @@ import org.collektive.api.Program
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
 
     @pytest.mark.quick
-    def test_its_picture_and_links_exist(self):
+    def test_its_picture_and_links_exist(self) -> None:
         with open(os.path.join(ROOT, "README.md")) as file:
             text = file.read()
         for path in re.findall(r"\]\((?!https:)([^)#]+)", text) + re.findall(r"`((?:docs|unity)/[^`]*\.md)`", text):

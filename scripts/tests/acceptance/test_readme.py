@@ -51,12 +51,12 @@ def project():
 
 @pytest.mark.quick
 class TheReadmesProject(Folder):
-    def test_it_has_at_most_25_lines_of_its_authors(self):
+    def test_it_has_at_most_25_lines_of_its_authors(self) -> None:
         # All lines but empty ones: imports and braces count.
         lines = [line for block in project() for line in block.splitlines() if line.strip()]
         self.assertLessEqual(len(lines), 25, "\n".join(lines))
 
-    def test_it_runs_as_it_is(self):
+    def test_it_runs_as_it_is(self) -> None:
         schema, program, sensor, actuator = project()
         files = {
             "swarm.fbs": schema, "programs/Hops.kt": program, "scripts/LightSensor.cs": sensor, "scripts/HopsColour.cs": actuator,

@@ -5,6 +5,7 @@ import zlib
 
 import pytest
 from command import Project, collektive, last_error
+
 from build.places import ROOT
 
 
@@ -26,7 +27,7 @@ def with_another_jar(record):
 class Records(Project):
     """Recorded runs of the foreign project."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
         self.a = self.record("a")
@@ -37,14 +38,14 @@ class Records(Project):
         return self.path(name, "run.clkrec")
 
     @pytest.mark.quick
-    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self):
+    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self) -> None:
         result = collektive("replay", self.a)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("10 ticks replayed, every digest is that of the record", result.stdout)
         self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
         self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
 
-    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self):
+    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", "val mine = if (sensors.brightness() == 5f) 9f else sensors.brightness()")
         self.record("b")
         jar = self.programs_jar()
@@ -52,13 +53,13 @@ class Records(Project):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout, r"tick \d+ is the first that differs.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
 
-    def test_two_runs_are_compared(self):
+    def test_two_runs_are_compared(self) -> None:
         self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
         result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("tick 1: input of node 9, nodesAdded: present in A, absent in B", result.stdout)
 
-    def test_programs_that_never_ran_here_are_replayed_only_with_trust(self):
+    def test_programs_that_never_ran_here_are_replayed_only_with_trust(self) -> None:
         elsewhere = self.path("elsewhere.clkrec")
         with open(self.a, "rb") as file:
             data = file.read()
@@ -76,7 +77,7 @@ class Records(Project):
         result = collektive("replay", elsewhere, "--programs", self.programs_jar())
         self.assertEqual(result.returncode, 0, result.stderr)
 
-    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self):
+    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self) -> None:
         with open(self.a, "rb") as file:
             data = file.read()
         with open(self.a, "wb") as file:
@@ -86,7 +87,7 @@ class Records(Project):
         self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
         self.assertIn("9 ticks replayed, every digest is that of the record", result.stdout)
 
-    def test_what_is_no_record_is_refused(self):
+    def test_what_is_no_record_is_refused(self) -> None:
         for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
             result = collektive(*arguments)
             self.assertEqual(result.returncode, 2, arguments)

@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 from command import Folder
+
 from build import csharp
 from build.places import BUILD
 
@@ -35,16 +36,16 @@ class TheTestRunner(Folder):
                                 env={"PATH": os.environ["PATH"], "MONO_PATH": os.path.dirname(RUNNER)})
         return result.returncode, result.stdout.splitlines()[-1], result.stdout
 
-    def test_a_failing_test_fails_the_run(self):
+    def test_a_failing_test_fails_the_run(self) -> None:
         code, verdict, _ = self.run_fixture('[Test] public void Fails() => Assert.Fail("no");')
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
 
-    def test_an_attribute_that_it_does_not_run_is_a_failure(self):
+    def test_an_attribute_that_it_does_not_run_is_a_failure(self) -> None:
         code, verdict, output = self.run_fixture('[Theory] public void Fails() => Assert.Fail("no");')
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
         self.assertIn("Fixture.Fails: this runner does not know [TheoryAttribute]", output)
 
-    def test_a_category_can_be_left_out(self):
+    def test_a_category_can_be_left_out(self) -> None:
         test = '[Test, Category("Slow")] public void Fails() => Assert.Fail("no");'
         code, verdict, output = self.run_fixture(test, "--without", "Other", "--without", "Slow")
         self.assertEqual((code, verdict), (0, "1 passed, 0 failed"))

@@ -9,6 +9,7 @@ import zipfile
 from pathlib import Path
 
 from command import Project, collektive
+
 from build import projects
 from build.places import ROOT
 
@@ -18,7 +19,7 @@ STDLIB = "it/unibo/collektive/stdlib/"
 SETTINGS = '"runtime": "collektive", "runtimeJars": "collektive", "runtimePlugin": "plugin.jar"'
 
 
-def repack(source, target, wanted=lambda name: True, change=lambda name, data: data):
+def repack(source, target, wanted=lambda name: True, change=lambda name, data: data) -> None:
     with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
         for name in old.namelist():
             if wanted(name) and not name.endswith("/"):
@@ -26,7 +27,7 @@ def repack(source, target, wanted=lambda name: True, change=lambda name, data: d
 
 
 class Runtimes(Project):
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         os.mkdir(self.path("project", "collektive"))
         repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB))
@@ -44,7 +45,7 @@ class Runtimes(Project):
     def jar(self, name):
         return self.path("project", "collektive", name + ".jar")
 
-    def switch(self):
+    def switch(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, ' + SETTINGS)
 
     def run_it(self, out="out"):
@@ -55,7 +56,7 @@ class Runtimes(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 
-    def refused(self, *words):
+    def refused(self, *words) -> None:
         result = self.run_it()
         self.assertNotEqual(result.returncode, 0)
         for word in words:
@@ -66,11 +67,11 @@ class Runtimes(Project):
         names = ("light.fbs", "programs", "collektive", "plugin.jar")
         return str(projects.programs_jar(*(Path(self.path("project", name)) for name in names)))
 
-    def use_jar(self, jar, change=lambda name, data: data):
+    def use_jar(self, jar, change=lambda name, data: data) -> None:
         repack(jar, self.path("project", "programs.jar"), change=change)
         self.change("lamps.json", '"programs": "programs"', '"programs": "programs.jar"')
 
-    def test_both_runtimes_give_the_same_run_and_their_records_are_compared(self):
+    def test_both_runtimes_give_the_same_run_and_their_records_are_compared(self) -> None:
         first = self.completed("a")
         self.switch()
         second = self.completed("b")
@@ -87,7 +88,7 @@ class Runtimes(Project):
         repeated = collektive("repeat", self.path("b", "manifest.json"))
         self.assertEqual(repeated.returncode, 0, repeated.stderr)
 
-    def test_a_record_is_replayed_on_the_other_runtime(self):
+    def test_a_record_is_replayed_on_the_other_runtime(self) -> None:
         self.completed("a")
         record = self.path("a", "run.clkrec")
         other = ["--runtime", "collektive", "--runtime-jars", self.path("project", "collektive")]
@@ -109,25 +110,25 @@ class Runtimes(Project):
         self.assertEqual(stranger.returncode, 2, stranger.stdout)
         self.assertIn("names the jars of its runtime", stranger.stderr)
 
-    def test_an_error_of_a_round_names_node_and_place(self):
+    def test_an_error_of_a_round_names_node_and_place(self) -> None:
         self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')
         self.switch()
         self.refused("three is too dark [node 3 at ", "Brightest.kt:")
 
-    def test_programs_for_the_other_runtime_are_refused(self):
+    def test_programs_for_the_other_runtime_are_refused(self) -> None:
         self.use_jar(self.programs_jar())
         self.switch()
         self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
                      "Build the programs again")
 
-    def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self):
+    def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self) -> None:
         self.switch()
         self.completed()
         self.use_jar(self.collektive_jar())
         self.change("lamps.json", ", " + SETTINGS, "")
         self.refused("programs.jar was compiled for the Collektive runtime, and this session runs on the built-in runtime")
 
-    def test_jars_that_are_missing_or_of_another_version_are_named(self):
+    def test_jars_that_are_missing_or_of_another_version_are_named(self) -> None:
         self.switch()
         self.completed()
         marked = self.collektive_jar()
@@ -151,7 +152,7 @@ class Runtimes(Project):
         os.remove(self.jar("stdlib"))
         self.refused("there is no jar in " + self.path("project", "collektive"), "dsl and stdlib")
 
-    def test_a_plugin_that_is_none_or_does_not_fit_the_compiler_is_named(self):
+    def test_a_plugin_that_is_none_or_does_not_fit_the_compiler_is_named(self) -> None:
         self.switch()
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
@@ -160,7 +161,7 @@ class Runtimes(Project):
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be made for another version of it")
 
-    def test_settings_without_jars_or_plugin_are_refused_with_their_line(self):
+    def test_settings_without_jars_or_plugin_are_refused_with_their_line(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')
         self.refused("the key 'runtimeJars' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "collektive", "runtimeJars": "nowhere"')

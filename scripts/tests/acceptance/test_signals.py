@@ -5,6 +5,7 @@ import subprocess
 import time
 
 from command import Project, collektive, processes
+
 from build.places import COLLEKTIVE
 
 CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
@@ -25,17 +26,17 @@ class Signals(Project):
         self.assertEqual(processes(self.folder), {})
         return output
 
-    def await_line(self, process, words):
+    def await_line(self, process, words) -> None:
         for line in process.stderr:
             if words in line:
                 return
         self.fail(f"the command ended before it wrote '{words}'")
 
-    def await_metrics(self):
+    def await_metrics(self) -> None:
         self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")))
         time.sleep(0.5)
 
-    def test_a_run_ends_after_its_tick_with_its_outputs(self):
+    def test_a_run_ends_after_its_tick_with_its_outputs(self) -> None:
         for number in CODES:
             with self.subTest(number):
                 process = self.start()
@@ -44,7 +45,7 @@ class Signals(Project):
                 self.assertGreater(self.manifest(self.path("out"))["ticks"], 0)
                 os.remove(self.path("out", "metrics.csv"))
 
-    def test_a_scene_that_is_being_built_is_given_up(self):
+    def test_a_scene_that_is_being_built_is_given_up(self) -> None:
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
                     "            System.Threading.Thread.Sleep(60000);")
         for number in CODES:
@@ -55,7 +56,7 @@ class Signals(Project):
                 self.assertIn("interrupted before the first tick", self.assert_ends(process, number))
                 self.assertFalse(os.path.exists(self.path("out", "manifest.json")))
 
-    def test_a_second_signal_ends_a_tick_that_does_not_end(self):
+    def test_a_second_signal_ends_a_tick_that_does_not_end(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;",
                     "if (SimulationManager.Current.Tick == 0) System.Threading.Thread.Sleep(60000);\n            data.Brightness = Brightness;")
         process = self.start()
@@ -64,7 +65,7 @@ class Signals(Project):
         time.sleep(0.5)
         self.assertIn("interrupted twice", self.assert_ends(process, signal.SIGINT))
 
-    def test_compilers_end_too_and_the_next_run_compiles_again(self):
+    def test_compilers_end_too_and_the_next_run_compiles_again(self) -> None:
         with open(self.path("project", "programs", "Brightest.kt"), "a") as file:
             file.write(f"\n// {time.time_ns()}\n")
         for number in CODES:

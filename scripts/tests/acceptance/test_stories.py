@@ -13,6 +13,7 @@ import pytest
 import replay
 from blocks import STORIES, blocks
 from command import WORK
+
 from build.places import ROOT
 
 # These say by a code of 1 that two runs differ.
@@ -49,7 +50,7 @@ def run(commands, folder):
 
 
 @pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
-def test_a_tutorial_does_what_it_tells(page, folder):
+def test_a_tutorial_does_what_it_tells(page, folder) -> None:
     told, printed = blocks(page), ""
     assert any(block.language == "sh" for block in told)
     for block in told:
@@ -67,13 +68,13 @@ def test_a_tutorial_does_what_it_tells(page, folder):
         see_neighbours(os.path.join(folder, "out", "replay.html"))
 
 
-def see_neighbours(page):
+def see_neighbours(page) -> None:
     """The replay of nodes that answer no numbers is coloured by how many neighbours they have."""
     _, nodes, links = replay.read(page)[1][-1]
     for node, (*_, value) in nodes.items():
         assert value == pytest.approx(sum(node in link for link in links), abs=0.01)
 
 
-def test_a_line_that_is_not_printed_is_found():
+def test_a_line_that_is_not_printed_is_found() -> None:
     assert missing("one\n...\nthr... 3", "one\ntwo\nthree is 3\n") is None
     assert missing("two\none", "one\ntwo\n") == "one"

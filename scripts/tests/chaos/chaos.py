@@ -26,7 +26,6 @@ from dataclasses import dataclass
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
 from build.places import COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
-
 from tests import junit  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
@@ -48,7 +47,7 @@ class Outcome:
 class Trial:
     """One disturbed run, in a folder of its own."""
 
-    def __init__(self, kind: str, number: int, seed: int, reference: dict, took: float):
+    def __init__(self, kind: str, number: int, seed: int, reference: dict, took: float) -> None:
         self.kind, self.reference, self.took = kind, reference, took
         self.mark = f"{os.getpid()}-{kind}-{number}"
         self.random = random.Random(f"{seed} {kind} {number}")

@@ -20,7 +20,6 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 from build import managed
-
 from tests import junit
 from tests.faults import places as files
 
@@ -107,7 +106,7 @@ def run(places, kind, index):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("runs", type=int)
     parser.add_argument("kinds", nargs="*", default=list(KINDS))

@@ -19,8 +19,7 @@ import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
-from build import jdk, managed  # noqa: E402  (lie in a folder above)
-
+from build import managed  # noqa: E402  (lie in a folder above)
 from tests import junit  # noqa: E402
 from tests.faults import places as files  # noqa: E402
 
@@ -31,7 +30,7 @@ ORDER = ["next tick", "next session", "next start", "restart"]
 class Trial:
     """The files of one fault in a folder of its own."""
 
-    def __init__(self, fault, places, runtime, jdk, folder):
+    def __init__(self, fault, places, runtime, jdk, folder) -> None:
         self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
 
     def path(self, *parts):
@@ -103,7 +102,7 @@ class Trial:
         words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
         return words + ["option=" + option for option in fault.get("options", [])]
 
-    def limit_files(self):
+    def limit_files(self) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
     def run(self):
@@ -147,14 +146,14 @@ def short(text, width):
     return text if len(text) <= width else text[:width - 3] + "..."
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("words", nargs="*")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--results")
     arguments = parser.parse_args()
     words = " ".join(arguments.words)
-    places = files.everywhere() if arguments.all else files.places(["mono-sgen"], [jdk.find_jdk()])
+    places = files.everywhere() if arguments.all else files.newest()
     with open(os.path.join(HERE, "faults.json")) as file:
         faults = json.load(file)
     faults = [fault for fault in faults if words in fault["fault"]]

@@ -28,19 +28,19 @@ def entries(*path):
 
 class Gradle(unittest.TestCase):
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         # The second run finds all done, and the build's own model in the configuration cache.
         cls.first, cls.second = (gradle("build", "kotlinSourcesJar") for _ in range(2))
         print(cls.first.stdout, cls.second.stdout, sep="\n")
 
-    def test_all_modules_are_built_and_tested(self):
+    def test_all_modules_are_built_and_tested(self) -> None:
         self.assertEqual(0, self.first.returncode, self.first.stdout[-4000:])
 
-    def test_a_second_run_reads_the_configuration_cache_and_does_nothing(self):
+    def test_a_second_run_reads_the_configuration_cache_and_does_nothing(self) -> None:
         self.assertIn("Configuration cache entry reused.", self.second.stdout)
         self.assertRegex(self.second.stdout, r"(?m)^(\d+) actionable tasks: \1 up-to-date$")
 
-    def test_the_jars_hold_what_mavens_hold(self):
+    def test_the_jars_hold_what_mavens_hold(self) -> None:
         different = []
         for module, name in ((module, name) for module, names in JARS.items() for name in names):
             jar = f"collektive-{name}.jar"

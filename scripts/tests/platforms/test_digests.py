@@ -5,6 +5,7 @@ import subprocess
 import tempfile
 
 import pytest
+
 from build.places import BUILD, COLLEKTIVE, ROOT
 
 TOOLS = os.path.join(ROOT, "jvm-host/tools/target/collektive-tools.jar")
@@ -29,7 +30,7 @@ def record():
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_replayed_there_each_tick_has_the_digest_of_the_record(platform, record):
+def test_replayed_there_each_tick_has_the_digest_of_the_record(platform, record) -> None:
     separator = ";" if platform.startswith("win") else ":"
     command = [*JAVA[platform], "-cp", TOOLS + separator + HOST, "org.collektive.tools.record.RecordsKt", "replay", record, "--trust"]
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all"}

@@ -5,6 +5,7 @@ import struct
 import subprocess
 
 import pytest
+
 from build.places import ROOT
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
@@ -32,7 +33,7 @@ def output(*command):
 class MachO:
     """A 64-bit Mach-O file: its processor and load commands."""
 
-    def __init__(self, path):
+    def __init__(self, path) -> None:
         with open(path, "rb") as file:
             self.bytes = file.read()
         magic, self.processor, _, _, count = struct.unpack_from("<5I", self.bytes)
@@ -68,7 +69,7 @@ class MachO:
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-def test_the_library_of_macos_says_what_it_is(platform):
+def test_the_library_of_macos_says_what_it_is(platform) -> None:
     file = MachO(library(platform))
     processor, system = MAC[platform]
     assert file.processor == processor
@@ -81,12 +82,12 @@ def test_the_library_of_macos_says_what_it_is(platform):
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-def test_the_tests_of_macos_are_compiled(platform):
+def test_the_tests_of_macos_are_compiled(platform) -> None:
     assert MachO(os.path.join(CROSS, platform, "test/shim_test")).processor == MAC[platform][0]
 
 
 @pytest.mark.parametrize("platform", [platform for platform in LINUX if platform in PLATFORMS])
-def test_the_library_of_linux_runs_with_glibc_2_17(platform):
+def test_the_library_of_linux_runs_with_glibc_2_17(platform) -> None:
     assert LINUX[platform] in output("readelf", "-h", library(platform))
     versions = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([\d.]+)", output("readelf", "-V", library(platform)))}
     assert versions and max(versions) <= (2, 17)
@@ -95,7 +96,7 @@ def test_the_library_of_linux_runs_with_glibc_2_17(platform):
 
 
 @pytest.mark.skipif("win-x64" not in PLATFORMS, reason="only ./collektive test platforms builds it")
-def test_the_library_of_windows_needs_only_windows():
+def test_the_library_of_windows_needs_only_windows() -> None:
     dump = output("objdump", "-p", library("win-x64"))
     assert set(re.findall(r"\b(clk_\w+)$", dump, re.M)) == functions()
     needed = {name.lower() for name in re.findall(r"DLL Name: (\S+)", dump)}

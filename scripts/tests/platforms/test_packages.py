@@ -6,6 +6,7 @@ import subprocess
 import tarfile
 
 import pytest
+
 from build.places import BUILD, COLLEKTIVE
 
 # Those that were built.
@@ -35,11 +36,11 @@ def core(tmp_path_factory):
     return pack("pack_core", str(tmp_path_factory.mktemp("core")), "", "yes")
 
 
-def test_the_package_of_all_platforms_has_less_than_15_mb(core):
+def test_the_package_of_all_platforms_has_less_than_15_mb(core) -> None:
     assert os.path.getsize(core) < 15 * MEGABYTE
 
 
-def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core):
+def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core) -> None:
     with tarfile.open(core) as archive:
         names = {name.removeprefix("package/unity/") for name in archive.getnames()}
     for platform in PLATFORMS:
@@ -48,11 +49,11 @@ def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core):
     assert {"Tools~/linux-x64/flatc", "Tools~/win-x64/flatc.exe", "Tools~/mac-arm64/flatc"} <= names
 
 
-def test_the_same_sources_give_the_same_bytes(core, tmp_path):
+def test_the_same_sources_give_the_same_bytes(core, tmp_path) -> None:
     assert digest(pack("pack_core", str(tmp_path), "", "yes")) == digest(core)
 
 
-def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path):
+def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path) -> None:
     jdk = subprocess.run([COLLEKTIVE, "step", "find_jdk"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
     if subprocess.run([COLLEKTIVE, "step", "jdk_version", jdk], stdout=subprocess.PIPE, text=True, check=True).stdout.strip() != "25":
         pytest.skip("only a JDK 25 links JVMs of version 25")

@@ -4,6 +4,7 @@ import os
 import subprocess
 
 import pytest
+
 from build.places import BUILD
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
@@ -46,7 +47,7 @@ def others(platform):
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform, tmp_path):
+def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform, tmp_path) -> None:
     for number, home in enumerate(others(platform)):
         folder = tmp_path / str(number)
         folder.mkdir()
@@ -59,7 +60,7 @@ def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(p
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform == "win-x64"])
-def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, tmp_path):
+def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, tmp_path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     code, text = start(platform, str(home))
@@ -69,7 +70,7 @@ def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, t
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform != "win-x64"])
-def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform, tmp_path):
+def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform, tmp_path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     assert start(platform, str(home), LC_ALL="C.UTF-8")[0] == 0

@@ -4,6 +4,7 @@ import os
 import re
 
 import pytest
+
 from build.places import ROOT
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"links"})
@@ -46,7 +47,7 @@ def undocumented_c(text):
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_every_public_member_of_a_module_has_kdoc(module):
+def test_every_public_member_of_a_module_has_kdoc(module) -> None:
     found = []
     for path in sorted(glob.glob(os.path.join(ROOT, "jvm-host", module, "src/main/kotlin/**/*.kt"), recursive=True)):
         with open(path) as file:
@@ -54,12 +55,12 @@ def test_every_public_member_of_a_module_has_kdoc(module):
     assert found == []
 
 
-def test_every_declaration_of_the_c_header_has_a_comment():
+def test_every_declaration_of_the_c_header_has_a_comment() -> None:
     with open(os.path.join(ROOT, HEADER)) as file:
         assert [line for line in undocumented_c(file.read()) if "CLK_X" not in line and "CLK_ERRORS" not in line] == []
 
 
-def test_the_editor_part_has_no_public_type():
+def test_the_editor_part_has_no_public_type() -> None:
     """So it has no public members, which the build would not count: it does not compile that part with documentation."""
     types = []
     for path in sorted(glob.glob(os.path.join(ROOT, "unity/Editor/**/*.cs"), recursive=True)):
@@ -69,7 +70,7 @@ def test_the_editor_part_has_no_public_type():
     assert [declared for declared in types if not declared.startswith("internal ")] == []
 
 
-def test_what_lacks_documentation_is_found():
+def test_what_lacks_documentation_is_found() -> None:
     bare = "/** A thing. */\npublic class A(\n    public val a: Int,\n)\n\npublic fun b() = 1"
     assert list(undocumented_kotlin(bare)) == ["3: public val a: Int,", "6: public fun b() = 1"]
     assert list(undocumented_kotlin("/**\n * A.\n *\n * @property a its a.\n */\n@Serializable\npublic class A(\n    public val a: Int,\n)")) == []

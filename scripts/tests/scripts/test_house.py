@@ -18,7 +18,7 @@ def declaration(path, test):
 
 
 class TheHouse(unittest.TestCase):
-    def test_the_core_knows_no_case_study(self):
+    def test_the_core_knows_no_case_study(self) -> None:
         core = ["schema", "native-shim", "unity/Runtime", "unity/Headless~/UnityEngine", "unity/Headless~/Player"]
         core += [os.path.join("jvm-host", module) for module in os.listdir(os.path.join(ROOT, "jvm-host")) if module not in ("programs", "bench")]
         words = re.compile(r"gradient.?ascent|leader.?lamp|walker", re.I)
@@ -31,7 +31,7 @@ class TheHouse(unittest.TestCase):
                         match = words.search(file.read())
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
 
-    def test_the_documentations_links_lead_somewhere(self):
+    def test_the_documentations_links_lead_somewhere(self) -> None:
         folder = os.path.join(ROOT, "Documentation~")
         for name in sorted(os.listdir(folder)):
             if not name.endswith(".md"):
@@ -40,7 +40,7 @@ class TheHouse(unittest.TestCase):
                 for link in re.findall(r"\]\((?!https:)([^)#]+)", file.read()):
                     self.assertTrue(os.path.exists(os.path.join(folder, link)), f"{name}: {link}")
 
-    def test_each_setting_of_the_jvm_is_documented(self):
+    def test_each_setting_of_the_jvm_is_documented(self) -> None:
         with open(os.path.join(ROOT, "unity/Runtime/Bridge/Jvm/JvmSetting.cs")) as file:
             keys = re.findall(r"new JvmSetting\(\s*nameof\(JvmSettings\.(\w+)\)", file.read())
         self.assertGreater(len(keys), 10)
@@ -49,7 +49,7 @@ class TheHouse(unittest.TestCase):
         for key in keys:
             self.assertIn(f"`{key}`", page)
 
-    def test_each_key_of_a_scenario_is_documented(self):
+    def test_each_key_of_a_scenario_is_documented(self) -> None:
         with open(os.path.join(ROOT, "unity/Headless~/Player/Scenario.cs")) as file:
             player = file.read()
         with open(os.path.join(ROOT, "unity/Runtime/Unity/Manager/SimulationSettings.cs")) as file:
@@ -64,7 +64,7 @@ class TheHouse(unittest.TestCase):
         for key in [*keys, *(f"outputs.{name}" for name in outputs[1:])]:
             self.assertRegex(page, rf"`{re.escape(key)}[`.]", key)
 
-    def test_troubleshooting_quotes_messages_that_there_are(self):
+    def test_troubleshooting_quotes_messages_that_there_are(self) -> None:
         sources = ""
         modules = [os.path.join("jvm-host", module, "src/main") for module in os.listdir(os.path.join(ROOT, "jvm-host"))]
         for folder in ["unity/Runtime", "unity/Editor", "native-shim/src", *modules]:
@@ -81,7 +81,7 @@ class TheHouse(unittest.TestCase):
         for message in messages:
             self.assertTrue(message in sources, f"no source has the message '{message}'")
 
-    def test_each_requirement_is_mapped_to_tests_that_exist(self):
+    def test_each_requirement_is_mapped_to_tests_that_exist(self) -> None:
         with open(os.path.join(ROOT, "docs/requirements.md")) as file:
             text = file.read()
         numbers = {"B": 6, "D": 10, "C": 4, "U": 7, "S": 2, "Q": 2}

@@ -1,4 +1,6 @@
 """The lock on the outputs of a checkout: commands that change them wait for all others, and report that."""
+import subprocess
+
 from checkout import Checkout
 
 WAITING = "waiting for another collektive command"
@@ -6,7 +8,7 @@ USE = "lock.shared(); wait_at_gate()"
 CHANGE = "lock.exclusive(); wait_at_gate(); print('done')"
 
 
-def read_error(process) -> str:
+def read_error(process: subprocess.Popen[str]) -> str:
     assert process.stderr is not None
     return str(process.stderr.readline())
 

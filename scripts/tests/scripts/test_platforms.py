@@ -1,9 +1,10 @@
 """What the package says of the files of each platform."""
 import os
 
+import pytest
+
 import metas
 import package_json
-import pytest
 from build.places import ROOT
 
 EXPECTED = {
@@ -19,7 +20,7 @@ def importer(platform, name):
 
 
 @pytest.mark.parametrize("platform", EXPECTED)
-def test_a_native_library_is_for_its_own_editor_and_player_only(platform):
+def test_a_native_library_is_for_its_own_editor_and_player_only(platform) -> None:
     processor, system, player = EXPECTED[platform]
     text = importer(platform, "libcollektive_shim.x")
     assert "Any: \n    second:\n      enabled: 0" in text
@@ -27,20 +28,20 @@ def test_a_native_library_is_for_its_own_editor_and_player_only(platform):
     assert f"Standalone: {player}\n    second:\n      enabled: 1\n      settings:\n        {processor}\n" in text
 
 
-def test_there_is_no_editor_for_linux_on_arm():
+def test_there_is_no_editor_for_linux_on_arm() -> None:
     text = importer("linux-arm64", "libcollektive_shim.so")
     assert "Editor: Editor\n    second:\n      enabled: 0" in text
     assert "Standalone: Linux64\n    second:\n      enabled: 1\n      settings:\n        CPU: ARM64" in text
 
 
-def test_guids_of_native_libraries_stay_and_differ():
+def test_guids_of_native_libraries_stay_and_differ() -> None:
     guids = {metas.guid_in(importer(platform, "libcollektive_shim.so")) for platform in metas.NATIVE}
     assert len(guids) == 5
     assert metas.guid_in(importer("linux-x64", "libcollektive_shim.so")) == "7db39c4f0a517853fde8acd0f946d656"
 
 
 @pytest.mark.parametrize("platform", metas.NATIVE)
-def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform, tmp_path):
+def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform, tmp_path) -> None:
     package_json.write_jvm(ROOT, platform, str(tmp_path))
     assert sorted(os.listdir(tmp_path)) == ["package.json", "package.json.meta"]
     manifest = package_json.for_jvm(ROOT, platform)

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from checkout import Checkout
+
 from build.console import Failure
 from build.places import COLLEKTIVE, ROOT
-from checkout import Checkout
 from commands import test as command
 from commands.test import Suite
-
 from tests import junit, results
 
 GOOD = '<testsuite><testcase classname="a" name="one"/><testcase classname="a" name="two"/></testsuite>'

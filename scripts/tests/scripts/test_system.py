@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+
 from build import fetch, system
 from build.console import Failure
 from build.places import ROOT

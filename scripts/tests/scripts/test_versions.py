@@ -7,7 +7,9 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+
 import version
+from build import fetch
 from build.places import BUILD, ROOT
 
 POM = "{http://maven.apache.org/POM/4.0.0}"
@@ -23,18 +25,18 @@ def pom(path):
 
 
 @pytest.mark.parametrize("pattern", version.NAMED)
-def test_each_file_that_names_the_products_version_has_it(pattern):
+def test_each_file_that_names_the_products_version_has_it(pattern) -> None:
     files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
     assert files
     for path in files:
         assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/version.py {version.product()}"
 
 
-def test_the_shim_has_the_products_version():
+def test_the_shim_has_the_products_version() -> None:
     assert f"#define CLK_VERSION {version.packed(version.product())}\n" in text(version.SHIM)
 
 
-def test_no_other_file_names_it():
+def test_no_other_file_names_it() -> None:
     listed = subprocess.run(["git", "-C", ROOT, "grep", "-lF", version.product()], capture_output=True, text=True).stdout.split("\n")
     known = {path for path, _ in version.files()}
     # The changelog names all versions, and other software may have the same one.
@@ -42,7 +44,7 @@ def test_no_other_file_names_it():
     assert [path for path in listed if path not in known and not others.fullmatch(path)] == []
 
 
-def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with():
+def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with() -> None:
     with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
         assert f'"flatbuffers", "{json.load(file)["version"]}"' in text("unity/Headless~/Player/Manifest.cs")
 
@@ -53,7 +55,7 @@ def third_party(name):
     return row and row[1]
 
 
-def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
+def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None:
     with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
         flatbuffers = json.load(file)["version"]
     crate = re.search(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))[1]
@@ -69,5 +71,5 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", *experiments]:
         for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
             assert third_party(name) == wanted, name
-    assert third_party("actionlint") == re.search(r"(?m)^ACTIONLINT=(\S+)$", text("scripts/test.sh"))[1]
+    assert third_party("actionlint") == fetch.ACTIONLINT
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")
