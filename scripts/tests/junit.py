@@ -1,6 +1,7 @@
 """Test results in JUnit's XML, which all suites write."""
 import itertools
 import os
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from xml.etree.ElementTree import ParseError
@@ -38,6 +39,16 @@ def read(path: str) -> list[Case]:
         return [_case(test) for test in tests if not _skipped(test)]
     except (OSError, ParseError, JUnitXmlError, ValueError) as error:
         raise ValueError(f"{path} cannot be read: {error}") from error
+
+
+def read_skipped(path: str) -> dict[str, str]:
+    """Returns the tests of CTest that were skipped, each with the reason that its output gives."""
+    reasons = {}
+    for test in itertools.chain(*_Results.fromfile(path)):  # type: ignore[no-untyped-call]
+        if _skipped(test):
+            reason = re.search(r"SKIPPED: (.*)", test.system_out or "")
+            reasons[str(test.name)] = reason[1] if reason else "it gave no reason"
+    return reasons
 
 
 def _skipped(test: _Case) -> bool:

@@ -1,13 +1,13 @@
 """What ./collektive package --all publishes: its size, and that it can be made again. Needs the native libraries of all platforms."""
 import hashlib
 import os
-import shutil
-import subprocess
 import tarfile
 
 import pytest
 
-from build.places import BUILD, COLLEKTIVE
+from build import package
+from build.jdk import feature_version, find_jdk
+from build.places import BUILD
 
 # Those that were built.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
@@ -16,13 +16,9 @@ MEGABYTE = 1_000_000
 pytestmark = pytest.mark.skipif(len(PLATFORMS) < 5, reason="only ./collektive test platforms builds all")
 
 
-def pack(step, folder, *options):
-    """Makes a package anew: the path of its archive."""
-    work = os.path.join(folder, "work")
-    os.makedirs(work)
-    result = subprocess.run([COLLEKTIVE, "step", step, work, folder, *options], stdout=subprocess.PIPE, text=True, check=True)
-    shutil.rmtree(work)
-    return result.stdout.strip()
+def pack_core(folder):
+    """Makes the package of all platforms anew: the path of its archive."""
+    return package.core(folder / "work", folder, all_platforms=True)
 
 
 def digest(path):
@@ -32,8 +28,8 @@ def digest(path):
 
 @pytest.fixture(scope="module")
 def core(tmp_path_factory):
-    subprocess.run([COLLEKTIVE, "step", "build_all_platforms"], check=True)
-    return pack("pack_core", str(tmp_path_factory.mktemp("core")), "", "yes")
+    package.build_parts(all_platforms=True)
+    return pack_core(tmp_path_factory.mktemp("core"))
 
 
 def test_the_package_of_all_platforms_has_less_than_15_mb(core) -> None:
@@ -50,17 +46,14 @@ def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core) -> 
 
 
 def test_the_same_sources_give_the_same_bytes(core, tmp_path) -> None:
-    assert digest(pack("pack_core", str(tmp_path), "", "yes")) == digest(core)
+    assert digest(pack_core(tmp_path)) == digest(core)
 
 
 def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path) -> None:
-    jdk = subprocess.run([COLLEKTIVE, "step", "find_jdk"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    if subprocess.run([COLLEKTIVE, "step", "jdk_version", jdk], stdout=subprocess.PIPE, text=True, check=True).stdout.strip() != "25":
+    if feature_version(find_jdk()) != 25:
         pytest.skip("only a JDK 25 links JVMs of version 25")
     archives = []
     for time in "first", "second":
-        stamp = os.path.join(BUILD, "stamp/cut-linux-arm64")
-        if os.path.exists(stamp):
-            os.remove(stamp)
-        archives.append(digest(pack("pack_jvm", str(tmp_path / time), "linux-arm64")))
+        (BUILD / "stamp/cut-linux-arm64").unlink(missing_ok=True)
+        archives.append(digest(package.jvm(tmp_path / time / "work", tmp_path / time, "linux-arm64")))
     assert archives[0] == archives[1]
