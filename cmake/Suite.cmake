@@ -28,7 +28,7 @@ function(suite NAME AREA)
   endif()
   list(TRANSFORM S_COMMAND REPLACE "^RESULTS" "${RESULTS}/${NAME}")
   list(TRANSFORM S_COMMAND REPLACE "=RESULTS" "=${RESULTS}/${NAME}")
-  add_test(NAME ${NAME} COMMAND "${COLLEKTIVE_PYTHON}" -I "${SCRIPTS}/tests/suite.py" "${RESULTS}/${NAME}" ${lock} -- ${S_COMMAND}
+  add_test(NAME ${NAME} COMMAND "${COLLEKTIVE_PYTHON}" -I -B "${SCRIPTS}/tests/suite.py" "${RESULTS}/${NAME}" ${lock} -- ${S_COMMAND}
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
   list(REMOVE_DUPLICATES S_NEEDS)
   set(fixtures)
