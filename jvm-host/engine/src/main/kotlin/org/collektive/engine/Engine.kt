@@ -14,7 +14,6 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
     private val result = TickResult()
-    private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
     private val clock = Clock()
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
@@ -25,6 +24,9 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
     }
+
+    // Starts threads, so it comes last.
+    private val pool = RoundPool(if (isSequential) 1 else settings.threads)
 
     /** The last tick whose changes were applied; 0 before the first. */
     public val lastTick: Long get() = clock.tick

@@ -1,7 +1,6 @@
 package org.collektive.host.session
 
 import org.collektive.engine.Engine
-import org.collektive.engine.EngineSettings
 import org.collektive.engine.RoundsNotFinished
 import org.collektive.engine.TickRefused
 import org.collektive.engine.TickResult
@@ -18,7 +17,6 @@ import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
-import org.collektive.spi.DeviceRuntimes
 import java.io.IOException
 import java.nio.ByteBuffer
 
@@ -30,14 +28,13 @@ import java.nio.ByteBuffer
 public class Session internal constructor(
     public val schema: DataSchema,
     private val programs: Programs,
-    settings: EngineSettings,
-    runtimes: DeviceRuntimes,
+    threads: Int,
+    private val engine: Engine,
     private val shim: ShimCalls,
     private val record: RecordWriter?,
 ) : AutoCloseable {
     private val request = StepRequestReader(programs)
-    private val data = UserData(schema, settings.threads)
-    private val engine = Engine(settings, runtimes)
+    private val data = UserData(schema, threads)
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val response = StepResponseWriter(data, buffer)
     private val events = TickEvents()
@@ -112,12 +109,11 @@ public class Session internal constructor(
     override fun close() {
         engine.close()
         events.close(engine.lastTick, failure)
-        record?.use {
-            try {
-                it.end()
-            } catch (e: IOException) {
-                shim.log(LogLevel.ERROR, it.failure(e))
-            }
+        if (record == null) return
+        try {
+            record.use(RecordWriter::end)
+        } catch (e: IOException) {
+            shim.log(LogLevel.ERROR, record.failure(e))
         }
     }
 
@@ -138,6 +134,14 @@ public class Session internal constructor(
         failure = why
         return HostException(HostError.SESSION_FAILED, why, cause)
     }
+}
+
+/** Runs [work] on this resource, and closes it if that fails. */
+internal inline fun <R : AutoCloseable?, T> R.orClose(work: (R) -> T): T = try {
+    work(this)
+} catch (e: Throwable) {
+    this?.close()
+    throw e
 }
 
 /** Runs [read], and converts a [MalformedFrameException] to a [HostException] that names [what]. */

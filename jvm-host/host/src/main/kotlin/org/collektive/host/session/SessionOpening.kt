@@ -1,5 +1,6 @@
 package org.collektive.host.session
 
+import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
 import org.collektive.engine.NetworkModel
 import org.collektive.engine.Schedule
@@ -62,9 +63,13 @@ public object SessionOpening {
         val schemas = SchemaFinder.all(loader, programJars)
         val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
         val programs = Programs(ProgramFinder(programJars, loader, schema, schemas).find(), request.program().orEmpty())
-        val session = Session(schema, programs, settings, library.runtimes(ViewRule), shim, record())
-        event?.let { commit(it, programs, schema, settings) }
-        return session
+        return Engine(settings, library.runtimes(ViewRule)).orClose { engine ->
+            record().orClose { writer ->
+                Session(schema, programs, settings.threads, engine, shim, writer).also {
+                    if (event != null) commit(event, programs, schema, settings)
+                }
+            }
+        }
     }
 
     private fun commit(event: SessionStartEvent, programs: Programs, schema: DataSchema, settings: EngineSettings) {
