@@ -14,7 +14,7 @@ import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
 import org.collektive.host.library.AggregateRuntime
-import org.collektive.host.programs.CompiledFor
+import org.collektive.host.library.CompiledFor
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.programs.ProgramFinder
 import org.collektive.host.programs.ProgramJar
