@@ -115,7 +115,7 @@ public object Host {
         return left.none(Thread::isAlive)
     }
 
-    private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading({ "the frame" }) { frameIn(slot, offset, length) }
+    private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading { frameIn(slot, offset, length) }
 
     private fun indexOf(id: Long): Int {
         for (index in sessions.indices) if (sessions[index].id == id) return index

@@ -34,7 +34,7 @@ public object SessionOpening {
 
     /** Opens the session of the `OpenRequest` between position and limit of [frame], with its record if it names one. */
     internal fun open(frame: ByteBuffer, shim: ShimCalls): Session {
-        val request = reading({ "the frame" }) { openRequest(frame) }
+        val request = reading { openRequest(frame) }
         val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
         val path = request.record().orEmpty()
         return open(request, jars, shim) { if (path.isEmpty()) null else RecordWriter.create(path, frame, jars) }
