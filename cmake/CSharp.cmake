@@ -31,9 +31,7 @@ function(library FILE)
 endfunction()
 
 # What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
-file(STRINGS unity/Runtime/Bridge/csc.rsp symbols)
-list(APPEND symbols -unsafe+)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS unity/Runtime/Bridge/csc.rsp)
+set(symbols --symbols)
 set(UNITY "${PROJECT_SOURCE_DIR}/unity")
 set(HEADLESS "${UNITY}/Headless~")
 set(GENERATED "${COLLEKTIVE_BUILD}/generated")

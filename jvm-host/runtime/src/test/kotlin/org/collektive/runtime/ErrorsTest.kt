@@ -1,6 +1,6 @@
 @file:OptIn(DelicateCollektiveApi::class)
 
-package org.collektive.runtime.routes
+package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.AlignmentClashException
 import it.unibo.collektive.aggregate.Field
@@ -9,9 +9,11 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import kotlinx.serialization.SerializationException
+import kotlinx.serialization.json.Json
 import org.collektive.alignment.noteFailure
 import org.collektive.alignment.popToken
 import org.collektive.alignment.pushToken
+import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -35,49 +37,29 @@ class ErrorsTest {
     }
 
     /** The error of [program] inside `helper` on node 1 of three in a row. All rounds before and after succeed. */
-    private fun failure(route: Route, program: Aggregate<Int>.() -> Any?): Throwable {
-        val graph = Graph()
-        for (id in 0..2) {
-            graph.add(id)
-            route.add(id)
-        }
-        for ((from, to) in listOf(0 to 1, 1 to 0, 1 to 2, 2 to 1)) graph.link(from, to)
-        fun round(fails: Boolean): Map<Int, Result<Any?>> {
-            graph.now += 2
-            val results = route.round(graph, listOf(0, 1, 2)) {
-                val count = call("count", 1) { evolve(0) { it + 1 } }
-                if (fails && localId == 1) {
-                    call("helper", 7) { program() }
-                } else {
-                    count to call("near", 2) { neighboring(count).neighbors.list.size }
-                }
+    private fun failure(route: String, program: Aggregate<Int>.() -> Any?): Throwable {
+        val network = Network(routes.getValue(route)(), 0, 1, 2, isParallel = true).line(0, 1, 2)
+        fun outcomes(fails: Boolean) = network.outcomes {
+            val count = call("count", 1) { evolve(0) { it + 1 } }
+            if (fails && localId == 1) {
+                call("helper", 7) { program() }
+            } else {
+                count to call("near", 2) { neighboring(count).neighbors.list.size }
             }
-            graph.sent(results.filterValues { it.isSuccess }.keys)
-            return results
         }
-        round(fails = false)
-        round(fails = false)
-        val failed = round(fails = true)
-        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the others, on ${route.name}")
-        assertEquals(
-            listOf<Any?>(4 to 1, 3 to 2, 4 to 1),
-            round(fails = false).values.map {
-                it.getOrThrow()
-            },
-            "afterwards, on ${route.name}",
-        )
-        return failed.getValue(1).exceptionOrNull() ?: error("nothing failed on ${route.name}")
-    }
-
-    private fun onAll(check: (Route) -> Unit) = FastRoute(2).use { fast ->
-        for (route in listOf(fast, MailboxRoute(inMemory = true), MailboxRoute(inMemory = false))) check(route)
+        repeat(2) { outcomes(fails = false) }
+        val failed = outcomes(fails = true)
+        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the others, $route")
+        val afterwards = outcomes(fails = false).values.map { it.getOrThrow() }
+        assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), afterwards, "afterwards, $route")
+        return failed.getValue(1).exceptionOrNull() ?: error("nothing failed, $route")
     }
 
     private inline fun <reified E : Throwable> assertMessage(what: String, place: String, noinline program: Aggregate<Int>.() -> Any?) =
-        onAll { route ->
-            val error = assertIs<E>(failure(route, program), route.name)
-            assertContains(error.message.orEmpty(), what, message = route.name)
-            assertTrue(error.message.orEmpty().endsWith(" [$place]"), "${route.name}: ${error.message}")
+        routes.keys.forEach { route ->
+            val error = assertIs<E>(failure(route, program), route)
+            assertContains(error.message.orEmpty(), what, message = route)
+            assertTrue(error.message.orEmpty().endsWith(" [$place]"), "$route: ${error.message}")
         }
 
     @Test
@@ -129,7 +111,7 @@ class ErrorsTest {
     @Test
     fun `a pivot without a toString of its own, where messages are serialised`() {
         class Key
-        val error = failure(MailboxRoute(inMemory = false)) { alignedOn(Key()) { evolve(0) { it } } }
+        val error = failure(JSON) { alignedOn(Key()) { evolve(0) { it } } }
         assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: it has no toString of its own")
         assertContains(error.message.orEmpty(), "[node 1 at helper > ")
     }
@@ -137,13 +119,12 @@ class ErrorsTest {
     @Test
     fun `a value that cannot be serialised`() {
         class Plain
-        val json = MailboxRoute(inMemory = false)
-        val type = assertIs<SerializationException>(failure(json) { call("share", 9) { share(Plain()) { it.local.value } } })
+        val type = assertIs<SerializationException>(failure(JSON) { call("share", 9) { share(Plain()) { it.local.value } } })
         assertContains(type.message.orEmpty(), "Plain cannot be sent: there is no serializer; mark the class with @Serializable")
         assertTrue(type.message.orEmpty().endsWith("[node 1 at helper > share (Swarm.kt:9)]"), type.message)
-        // This route serialises messages when they are read.
+        // These devices serialise messages when they are read.
         val value = assertFailsWith<SerializationException> {
-            failure(MailboxRoute(inMemory = false)) { call("neighboring", 8) { neighboring(Double.NaN) }.local.value }
+            failure(JSON) { call("neighboring", 8) { neighboring(Double.NaN) }.local.value }
         }
         assertContains(value.message.orEmpty(), "NaN cannot be sent: ")
         assertTrue(value.message.orEmpty().endsWith("[node 1 at helper > neighboring (Swarm.kt:8)]"), value.message)
@@ -152,13 +133,23 @@ class ErrorsTest {
     @Test
     fun `recursion without end`() {
         fun Aggregate<Int>.deeper(): Int = call("deeper", 3) { alignedOn("key") { deeper() } } + 1
-        for (inMemory in listOf(true, false)) {
-            val error = assertIs<StackOverflowError>(failure(MailboxRoute(inMemory)) { deeper() })
+        for (route in routes.keys - "in place") {
+            val error = assertIs<StackOverflowError>(failure(route) { deeper() })
             val expected =
                 Regex(
                     "the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]",
                 )
             assertTrue(expected.matches(error.message.orEmpty()), error.message)
         }
+    }
+
+    private companion object {
+        const val JSON = "mailboxes with JSON"
+
+        val routes = mapOf(
+            "in place" to { AggregateRuntimes() },
+            "mailboxes" to { mailboxes(null) },
+            JSON to { mailboxes(Json) },
+        )
     }
 }

@@ -1,8 +1,6 @@
-package org.collektive.host.programs
+package org.collektive.host.library
 
-import org.collektive.host.library.AggregateLibrary
-import org.collektive.host.library.AggregateRuntime
-import org.collektive.host.library.ClassLinks
+import org.collektive.host.programs.ProgramJar
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import java.io.ByteArrayInputStream

@@ -1,4 +1,4 @@
-package org.collektive.runtime.routes
+package org.collektive.testkit
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchanging
@@ -12,13 +12,14 @@ import org.collektive.alignment.project
 import kotlin.random.Random
 
 /** A part of a program; returns a number or `null`. */
-internal typealias Piece = Aggregate<Int>.() -> Int?
+public typealias Piece = Aggregate<Int>.() -> Int?
 
 /** Random programs of all primitives: nested in each other, in branches, in recursion and below data. */
-internal class RandomPrograms(private val random: Random) {
+public class RandomPrograms(private val random: Random) {
     private var places = 0
 
-    fun next(): Piece = piece(4)
+    /** The next program. */
+    public fun next(): Piece = piece(4)
 
     private fun piece(depth: Int): Piece {
         if (depth == 0) return leaf()
