@@ -31,18 +31,18 @@ function(library FILE)
 endfunction()
 
 # What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
-file(STRINGS unity/Runtime/Bridge/csc.rsp symbols)
-list(APPEND symbols -unsafe+)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS unity/Runtime/Bridge/csc.rsp)
+set(symbols --symbols)
 set(UNITY "${PROJECT_SOURCE_DIR}/unity")
 set(HEADLESS "${UNITY}/Headless~")
 set(GENERATED "${COLLEKTIVE_BUILD}/generated")
+set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
+  --include "${PROJECT_SOURCE_DIR}/schema")
 
 # The code of the frames that cross the boundary, and of the value types.
 collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   COMMAND "${CMAKE_COMMAND}" -E rm -rf "${GENERATED}/bridge"
-  COMMAND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
-  COMMAND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
+  AND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
+  AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
   DEPENDS flatc schema/types.fbs schema/frame.fbs)
 
 library("${ROSLYN}/Newtonsoft.Json.dll" "${ROSLYN}/roslyn.exe")
@@ -66,10 +66,10 @@ function(generated_code TARGET FOLDER)
     if(schema MATCHES "/Samples~/([^/]*)/")
       set(name "${CMAKE_MATCH_1}")
     endif()
-    list(APPEND commands COMMAND ${generator} --schema "${schema}" --csharp "${FOLDER}/${name}")
+    list(APPEND commands AND ${generator} --schema "${schema}" --csharp "${FOLDER}/${name}")
   endforeach()
   collektive_step(${TARGET} OUTPUT "${FOLDER}.stamp" COMMAND "${CMAKE_COMMAND}" -E rm -rf "${FOLDER}" ${commands}
-    COMMAND "${CMAKE_COMMAND}" -E touch "${FOLDER}.stamp" DEPENDS flatc "${GENERATOR_JAR}" ${ARGN} FOLDERS "${PROJECT_SOURCE_DIR}/schema")
+    AND "${CMAKE_COMMAND}" -E touch "${FOLDER}.stamp" DEPENDS flatc "${GENERATOR_JAR}" ${ARGN} FOLDERS "${PROJECT_SOURCE_DIR}/schema")
 endfunction()
 
 file(GLOB samples "${UNITY}/Samples~/*/*.fbs")
@@ -86,9 +86,9 @@ set(documentation "${COLLEKTIVE_BUILD}/documentation")
 collektive_step(documentation OUTPUT "${documentation}/stamp"
   COMMAND ${csc} --documentation "${documentation}/Bridge.xml" "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" -- ${symbols}
     "-r:${CSHARP}/Collektive.FlatBuffers.dll"
-  COMMAND ${csc} --documentation "${documentation}/Unity.xml" "${UNITY}/Runtime/Unity" --
+  AND ${csc} --documentation "${documentation}/Unity.xml" "${UNITY}/Runtime/Unity" --
     "-r:${CSHARP}/Collektive.FlatBuffers.dll" "-r:${CSHARP}/Collektive.Bridge.dll" "-r:${CSHARP}/UnityEngine.dll"
-  COMMAND "${CMAKE_COMMAND}" -E touch "${documentation}/stamp"
+  AND "${CMAKE_COMMAND}" -E touch "${documentation}/stamp"
   DEPENDS scripts/build/csharp.py "${CSHARP}/Collektive.Unity.dll")
 assembly(stubs/Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} -define:UNITY_5_3_OR_NEWER
   REFERENCES Collektive.FlatBuffers.dll DEPENDS "${GENERATED}/bridge.stamp")
@@ -102,7 +102,7 @@ if(COLLEKTIVE_NUNIT)
   set(swapped "${GENERATED}/swapped.fbs")
   collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swap" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
       "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs"
-    COMMAND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
+    AND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
   generated_code(test_code "${GENERATED}/tests" "${probe}/probe.fbs" ${schemas} "${swapped}")
   set(framework UnityEngine.TestRunner.dll ${nunit})
   set(editor UnityEditor.dll Collektive.Unity.Editor.dll)

@@ -7,17 +7,18 @@ file(GLOB mains "${JVM}/*/src/main")
 file(GLOB schemas "${PROJECT_SOURCE_DIR}/unity/Samples~/*/*.fbs")
 collektive_python(maven build/maven.py)
 
-# jvm_step(TARGET INPUT... -- WORD...): what Maven packages.
+# jvm_step(TARGET COMMENT [WORDS WORD...] [FOLDERS DIR...] [BYPRODUCTS FILE...]): one call of scripts/build/maven.py.
 function(jvm_step TARGET COMMENT)
-  cmake_parse_arguments(PARSE_ARGV 2 J "" "" "WORDS;FOLDERS")
+  cmake_parse_arguments(PARSE_ARGV 2 J "" "" "WORDS;FOLDERS;BYPRODUCTS")
   set(stamp "${COLLEKTIVE_BUILD}/stamp/${TARGET}")
   collektive_step(${TARGET} OUTPUT "${stamp}" COMMAND ${maven} "${stamp}" ${J_WORDS} COMMENT "${COMMENT}" TERMINAL
+    BYPRODUCTS ${J_BYPRODUCTS}
     DEPENDS flatc "${COLLEKTIVE_BUILD}/stamp/flatbuffers" scripts/build/maven.py "${JVM}/pom.xml" ${poms}
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 
 # What runs and generates; the rest; the tests of all modules.
-jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin)
+jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin BYPRODUCTS "${GENERATOR_JAR}")
 jvm_step(jvm_modules "all modules of the JVM side")
 add_dependencies(jvm_modules jvm)
 file(GLOB tests "${JVM}/*/src")

@@ -9,10 +9,9 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-if sys.version_info < (3, 11):
+if sys.version_info < (3, 11):  # noqa: UP036 - the syntax of this file is older
     sys.exit(f"collektive: Python 3.11 or newer is needed, and {sys.executable} has version {sys.version.split()[0]}")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.pycache_prefix = str(Path(__file__).resolve().parents[1] / "build/pycache")
 
 from build.console import Failure
 
@@ -54,7 +53,7 @@ def parser_for(name: str | None) -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", dest="command", title="commands")
     for command, summary in COMMANDS.items():
         module = importlib.import_module(f"commands.{command}") if command == name else None
-        sub = commands.add_parser(command, help=summary, allow_abbrev=False, description=module and module.__doc__,
+        sub = commands.add_parser(command, help=summary, allow_abbrev=False, description=module.__doc__ if module else None,
                                   formatter_class=argparse.RawDescriptionHelpFormatter)
         if module:
             module.add_arguments(sub)

@@ -5,33 +5,32 @@ import subprocess
 
 import pytest
 from command import SAMPLE, Folder, collektive
-from places import ROOT
+from places import BUILD, ROOT
 
 
 class Generated(Folder):
     @pytest.mark.quick
-    def test_committed_code_is_what_the_generator_makes(self):
+    def test_the_command_makes_what_the_build_makes(self):
         for schema in glob.glob(os.path.join(os.path.dirname(SAMPLE), "*/*.fbs")):
             made = self.path(os.path.basename(schema))
             self.assertEqual(collektive("generate", schema, "--csharp", made).returncode, 0)
-            self.same(made, os.path.join(os.path.dirname(schema), "Generated"))
-        flatc = os.path.join(ROOT, "build/flatc")
+            self.same(made, os.path.join(BUILD, "generated/samples", os.path.basename(os.path.dirname(schema))))
+        flatc = os.path.join(BUILD, "flatc")
         schemas = [os.path.join(ROOT, "schema", name) for name in ["frame.fbs", "types.fbs"]]
         subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
-        self.same(self.path("core"), os.path.join(ROOT, "unity/Runtime/Bridge/Generated"))
+        self.same(self.path("core"), os.path.join(BUILD, "generated/bridge"))
 
-    def same(self, made, committed):
-        self.assertEqual(self.files(made), self.files(committed))
+    def same(self, made, built):
+        self.assertEqual(self.files(made), self.files(built))
 
     @staticmethod
     def files(folder):
         found = {}
         for where, _, names in os.walk(folder):
             for name in names:
-                if not name.endswith(".meta"):
-                    path = os.path.join(where, name)
-                    with open(path) as file:
-                        found[os.path.relpath(path, folder)] = file.read()
+                path = os.path.join(where, name)
+                with open(path) as file:
+                    found[os.path.relpath(path, folder)] = file.read()
         return found
 
     def test_schemas_that_cannot_be_used_are_refused(self):

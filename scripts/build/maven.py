@@ -96,14 +96,14 @@ def read_modules() -> dict[str, Module]:
     return modules
 
 
-def closure(names: list[str], modules: dict[str, Module], tests: bool) -> list[Module]:
-    """Returns the named modules and all that they depend on, or all modules if none is named."""
+def closure(names: list[str], modules: dict[str, Module]) -> list[Module]:
+    """Returns the named modules and all that they and their tests depend on, which Maven wants to see, or all modules if none is named."""
     found: dict[str, Module] = {}
 
     def add(module: Module) -> None:
         if module.name not in found:
             found[module.name] = module
-            for upstream in module.upstream(False) + (module.upstream(True) if tests else []):
+            for upstream in module.upstream(tests=False) + module.upstream(tests=True):
                 add(upstream)
 
     for name in names or modules:
@@ -113,7 +113,7 @@ def closure(names: list[str], modules: dict[str, Module], tests: bool) -> list[M
 
 def package(names: list[str], tests: bool) -> int:
     """Builds modules and returns Maven's exit code."""
-    chosen = closure(names, read_modules(), tests)
+    chosen = closure(names, read_modules())
     if STARTED.exists():
         # An interrupted build may have left half of an output.
         for module in chosen:
@@ -124,7 +124,7 @@ def package(names: list[str], tests: bool) -> int:
     code = 0
     if changed:
         options = ["-DskipTests" if tests else "-Dmaven.test.skip=true", "-pl", ",".join(module.name for module in chosen)]
-        code = subprocess.run(["mvn", "-B", "-ntp", "-q", "-T", "2", "-f", PARENT, "package", *options]).returncode
+        code = subprocess.run(["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "package", *options]).returncode
     if code == 0:
         for module in changed:
             module.record(tests)

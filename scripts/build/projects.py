@@ -11,9 +11,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import csharp, fetch
-from build.console import LOGS, Failure, say
+from build.console import Failure, say
 from build.jdk import feature_version, find_jdk
-from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, ROOT, compiler_plugin
+from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, LOGS, ROOT, compiler_plugin
 
 # A file for each jar that was run here, named by its SHA-256.
 OWN_PROGRAMS = BUILD / "own-programs"

@@ -21,7 +21,6 @@ NAMED = {
     "gradle.properties": rf"(?m)^version={NUMBER}$",
     "jvm-host/compiler-plugin/README.md": rf"compiler-plugin-{NUMBER}\.jar",
     "jvm-host/generator/src/main/kotlin/org/collektive/generator/Version.kt": rf'VERSION: String = "{NUMBER}"',
-    "unity/Samples~/*/Generated/*/*Schema.cs": rf'GeneratorVersion => "{NUMBER}"',
     "unity/Runtime/*/AssemblyInfo.cs": rf'AssemblyVersion\("{NUMBER}\.0"\)',
     "unity/Editor/AssemblyInfo.cs": rf'AssemblyVersion\("{NUMBER}\.0"\)',
     "unity/Headless~/Tests/Editor/ProjectFixture.cs": rf"compiler-plugin-{NUMBER}\.jar",
