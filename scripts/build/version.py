@@ -18,7 +18,6 @@ NAMED = {
     "unity/package.json": rf'"version": "{NUMBER}"',
     "jvm-host/pom.xml": rf"<artifactId>collektive-parent</artifactId>\s*<version>{NUMBER}<",
     "jvm-host/*/pom.xml": rf"<artifactId>collektive-parent</artifactId>\s*<version>{NUMBER}<",
-    "gradle.properties": rf"(?m)^version={NUMBER}$",
     "jvm-host/compiler-plugin/README.md": rf"compiler-plugin-{NUMBER}\.jar",
     "jvm-host/generator/src/main/kotlin/org/collektive/generator/Version.kt": rf'VERSION: String = "{NUMBER}"',
     "unity/Runtime/*/AssemblyInfo.cs": rf'AssemblyVersion\("{NUMBER}\.0"\)',
