@@ -46,7 +46,7 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         raise Failure(f"{self.prog.removeprefix('./collektive ')}: {message} (see {self.prog} --help)", self.get_default("error_code") or 1)
 
-    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def, override]
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """Reports unknown arguments as those of the command that they belong to."""
         arguments, unknown = super().parse_known_args(args, namespace)
         if unknown:

@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import metas
+from build import metas
 from validator import asmdefs, guids, packing, references, serialized_fields
 from validator.assets import Assets
 

@@ -8,9 +8,10 @@ import subprocess
 import tempfile
 import unittest
 
-import metas
 import pytest
 from command import HERE, collektive, jdk, last_error
+
+from build import metas
 from places import ROOT
 
 

@@ -57,7 +57,7 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
 
 
 def micros_per_node(row: dict[str, Any]) -> float:
-    return 1e6 / row["ticks_per_second"] / row["nodes"]
+    return float(1e6 / row["ticks_per_second"] / row["nodes"])
 
 
 def table(rows: list[dict[str, Any]]) -> str:

@@ -1,12 +1,14 @@
 """What ./collektive package --all publishes: its size, and that it can be made again. Needs the native libraries of all platforms."""
 import hashlib
 import os
-import shutil
-import subprocess
 import tarfile
+from pathlib import Path
 
 import pytest
-from places import BUILD, COLLEKTIVE
+
+from build import package
+from build.jdk import feature_version, find_jdk
+from build.places import BUILD
 
 # Those that were built.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
@@ -15,31 +17,21 @@ MEGABYTE = 1_000_000
 pytestmark = pytest.mark.skipif(len(PLATFORMS) < 5, reason="only ./collektive test platforms builds all")
 
 
-def pack(step, folder, *options):
-    """Makes a package anew: the path of its archive."""
-    work = os.path.join(folder, "work")
-    os.makedirs(work)
-    result = subprocess.run([COLLEKTIVE, "step", step, work, folder, *options], stdout=subprocess.PIPE, text=True, check=True)
-    shutil.rmtree(work)
-    return result.stdout.strip()
-
-
-def digest(path):
-    with open(path, "rb") as file:
-        return hashlib.sha256(file.read()).hexdigest()
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @pytest.fixture(scope="module")
-def core(tmp_path_factory):
-    subprocess.run([COLLEKTIVE, "step", "build_all_platforms"], check=True)
-    return pack("pack_core", str(tmp_path_factory.mktemp("core")), "", "yes")
+def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    package.build_parts(all_platforms=True)
+    return package.core(tmp_path_factory.mktemp("work"), tmp_path_factory.mktemp("core"), all_platforms=True)
 
 
-def test_the_package_of_all_platforms_has_less_than_15_mb(core):
+def test_the_package_of_all_platforms_has_less_than_15_mb(core: Path) -> None:
     assert os.path.getsize(core) < 15 * MEGABYTE
 
 
-def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core):
+def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core: Path) -> None:
     with tarfile.open(core) as archive:
         names = {name.removeprefix("package/unity/") for name in archive.getnames()}
     for platform in PLATFORMS:
@@ -48,18 +40,14 @@ def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core):
     assert {"Tools~/linux-x64/flatc", "Tools~/win-x64/flatc.exe", "Tools~/mac-arm64/flatc"} <= names
 
 
-def test_the_same_sources_give_the_same_bytes(core, tmp_path):
-    assert digest(pack("pack_core", str(tmp_path), "", "yes")) == digest(core)
+def test_the_same_sources_give_the_same_bytes(core: Path, tmp_path: Path) -> None:
+    assert digest(package.core(tmp_path / "work", tmp_path, all_platforms=True)) == digest(core)
 
 
-def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path):
-    jdk = subprocess.run([COLLEKTIVE, "step", "find_jdk"], stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-    if subprocess.run([COLLEKTIVE, "step", "jdk_version", jdk], stdout=subprocess.PIPE, text=True, check=True).stdout.strip() != "25":
-        pytest.skip("only a JDK 25 links JVMs of version 25")
+@pytest.mark.skipif(feature_version(find_jdk()) != 25, reason="only a JDK 25 links JVMs of version 25")
+def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path: Path) -> None:
     archives = []
     for time in "first", "second":
-        stamp = os.path.join(BUILD, "stamp/cut-linux-arm64")
-        if os.path.exists(stamp):
-            os.remove(stamp)
-        archives.append(digest(pack("pack_jvm", str(tmp_path / time), "linux-arm64")))
+        (BUILD / "stamp/cut-linux-arm64").unlink(missing_ok=True)
+        archives.append(digest(package.jvm(tmp_path / time, tmp_path / time, "linux-arm64")))
     assert archives[0] == archives[1]

@@ -7,8 +7,9 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-import version
-from places import BUILD, ROOT
+
+from build import fetch, version
+from build.places import BUILD, ROOT
 
 POM = "{http://maven.apache.org/POM/4.0.0}"
 
@@ -27,7 +28,7 @@ def test_each_file_that_names_the_products_version_has_it(pattern):
     files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
     assert files
     for path in files:
-        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/version.py {version.product()}"
+        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/build/version.py {version.product()}"
 
 
 def test_the_shim_has_the_products_version():
@@ -69,5 +70,5 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched():
     for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", *experiments]:
         for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
             assert third_party(name) == wanted, name
-    assert third_party("actionlint") == re.search(r"(?m)^ACTIONLINT=(\S+)$", text("scripts/test.sh"))[1]
+    assert third_party("actionlint") == fetch.ACTIONLINT
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")

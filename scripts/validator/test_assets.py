@@ -5,10 +5,9 @@ import shutil
 import tempfile
 import unittest
 
-import metas
 import validate
+from build import metas
 from places import BUILD, ROOT
-
 from validator import serialized_fields
 
 # What Unity would serialise of each component; ./collektive test assets writes it.
