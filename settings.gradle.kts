@@ -19,6 +19,7 @@ val modules = listOf(
     "flatbuffers",
     "spi",
     "dsl",
+    "testkit",
     "runtime",
     "mailbox",
     "compiler-plugin",

@@ -93,17 +93,19 @@ collektive_step(documentation OUTPUT "${documentation}/stamp"
 assembly(stubs/Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} -define:UNITY_5_3_OR_NEWER
   REFERENCES Collektive.FlatBuffers.dll DEPENDS "${GENERATED}/bridge.stamp")
 
+# The code of the test schemas, and of one with sensor and actuator data swapped.
+set(probe "${HEADLESS}/Tests/Simulation/Probe")
+file(GLOB schemas "${PROJECT_SOURCE_DIR}/schema/test/*.fbs")
+collektive_python(swap build/swap_data.py)
+set(swapped "${GENERATED}/swapped.fbs")
+collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swap" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
+    "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs"
+  AND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
+generated_code(test_code "${GENERATED}/tests" "${probe}/probe.fbs" ${schemas} "${swapped}")
+
 if(COLLEKTIVE_NUNIT)
   library("${COLLEKTIVE_NUNIT}")
   set(nunit "${COLLEKTIVE_NUNIT}")
-  set(probe "${HEADLESS}/Tests/Simulation/Probe")
-  file(GLOB schemas "${PROJECT_SOURCE_DIR}/schema/test/*.fbs")
-  collektive_python(swap build/swap_data.py)
-  set(swapped "${GENERATED}/swapped.fbs")
-  collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swap" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
-      "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs"
-    AND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
-  generated_code(test_code "${GENERATED}/tests" "${probe}/probe.fbs" ${schemas} "${swapped}")
   set(framework UnityEngine.TestRunner.dll ${nunit})
   set(editor UnityEditor.dll Collektive.Unity.Editor.dll)
   assembly(UnityEditor.dll SOURCES "${HEADLESS}/UnityEditor" REFERENCES UnityEngine.dll)

@@ -17,8 +17,8 @@ function(jvm_step TARGET COMMENT)
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 
-# What runs and generates; the rest; the tests of all modules.
-jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin BYPRODUCTS "${GENERATOR_JAR}")
+# What runs scenes, with the samples; all modules; the tests of all modules.
+jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
 jvm_step(jvm_modules "all modules of the JVM side")
 add_dependencies(jvm_modules jvm)
 file(GLOB tests "${JVM}/*/src")

@@ -10,7 +10,7 @@ dependencies {
     testImplementation(project(":stdlib"))
     testImplementation(project(":runtime"))
     testImplementation(project(":api"))
-    testImplementation(libs.serialization.json)
+    testImplementation(project(":testkit"))
 }
 
 tasks.test {

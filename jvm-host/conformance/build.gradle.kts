@@ -7,6 +7,7 @@ dependencies {
     testImplementation(project(":stdlib"))
     testImplementation(project(":links"))
     testImplementation(project(":mailbox"))
-    testImplementation(project(":engine"))
+    testImplementation(project(":testing"))
+    testImplementation(project(":testkit"))
     testImplementation(libs.kotlin.metadata)
 }

@@ -7,4 +7,5 @@ dependencies {
     api(project(":spi"))
     testImplementation(project(":runtime"))
     testImplementation(project(":mailbox"))
+    testImplementation(project(":testkit"))
 }

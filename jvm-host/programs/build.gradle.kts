@@ -15,6 +15,7 @@ dependencies {
     kotlinCompilerPluginClasspathMain(project(":compiler-plugin"))
     testImplementation(project(":host"))
     testImplementation(project(":testing"))
+    testImplementation(project(":testkit"))
 }
 
 val schemaCode = tasks.register<GeneratorJava>("schemaCode") {

@@ -5,5 +5,5 @@ plugins {
 dependencies {
     api(project(":dsl"))
     api(project(":spi"))
-    testImplementation(libs.serialization.json)
+    testImplementation(project(":testkit"))
 }

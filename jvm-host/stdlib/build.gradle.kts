@@ -10,7 +10,7 @@ dependencies {
     testImplementation(project(":runtime"))
     // The tests compare the lifted operators with Kotlin's own functions.
     testImplementation(libs.kotlin.reflect)
-    testImplementation(libs.serialization.json)
+    testImplementation(project(":testkit"))
 }
 
 tasks.test {

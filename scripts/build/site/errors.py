@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from build.site.sources import commands, help_of, text
 
+
 # By the name of a code in the C header, what to do next. The text of an error names the file, node or setting.
 NEXT = {
     "ARGUMENT": "Correct the setting or argument that the text names.",
@@ -72,7 +73,7 @@ def errors() -> str:
             page += f"| {f'`{command}`' if command else 'all others'} | {code} | {words} |\n"
     page += ("\n## Faults that were tried\n\nEach is caused by the tests in a process of its own, on each runtime of C# and each JVM: what the user reads, "
              "as a regular expression, and what works afterwards.\n\n| Fault | Message | Afterwards works |\n|---|---|---|\n")
-    for fault in json.loads(text("scripts/faults/faults.json")):
+    for fault in json.loads(text("scripts/tests/faults/faults.json")):
         message = f"`{fault['reads']}`".replace("|", "\\|") if "reads" in fault else "none"
         page += f"| {fault['fault']} | {message} | {fault['works']} |\n"
     return page

@@ -11,6 +11,7 @@ DOCUMENTATION = BUILD / "documentation"
 Documented = Mapping[str | None, ElementTree.Element]
 
 
+
 def command_line() -> str:
     page = "# Command line\n\nThe help texts of `./collektive`, which runs on Linux from a clone of the repository.\n"
     page += f"\n```text\n{help_of()}```\n"

@@ -1,0 +1,9 @@
+plugins {
+    id("org.collektive.kotlin-module")
+}
+
+dependencies {
+    api(project(":dsl"))
+    api(project(":spi"))
+    api(libs.serialization.json)
+}
