@@ -1,4 +1,4 @@
-// Looks at the site in headless Chromium: node [TEST OPTIONS] test.mjs SITE PICTURES
+// Looks at the site in headless Chromium: node [TEST OPTIONS] site.mjs SITE PICTURES
 // Every page at three widths, some of them in the dark too. Pictures of a few go to PICTURES.
 import assert from 'node:assert/strict';
 import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
