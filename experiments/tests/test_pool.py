@@ -4,6 +4,7 @@ import threading
 from typing import Any, cast
 
 import pytest
+
 from collektive_experiments import sweep
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store

@@ -9,7 +9,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from build import jdk, lock, platforms, processes
 from build.console import Failure
 from build.places import ROOT
-
 from tests import junit
 
 # Tests that wait, or that repeat others: an emulated JVM takes seconds to start.
