@@ -1,12 +1,15 @@
 """The Gradle build makes what Maven's makes, and does nothing twice."""
 import os
 import re
+import shutil
 import subprocess
 import unittest
 import zipfile
+from pathlib import Path
 
 from build.places import ROOT
 
+GRADLE = os.environ.get("COLLEKTIVE_GRADLE", "gradle")
 # The jars by the module that makes them.
 JARS = {"host": ["host", "library", "adapter"], "generator": ["generator"], "tools": ["tools"], "testing": ["testing"], "programs": ["programs"],
         "bench": ["bench"]}
@@ -15,7 +18,7 @@ OWN = re.compile(r"META-INF/(MANIFEST\.MF|maven/.*)$")
 
 
 def gradle(*tasks):
-    return subprocess.run([os.environ.get("COLLEKTIVE_GRADLE", "gradle"), "--no-daemon", "--console=plain", *tasks],
+    return subprocess.run([GRADLE, "--no-daemon", "--console=plain", *tasks],
                           cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -29,6 +32,10 @@ def entries(*path):
 class Gradle(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
+        if shutil.which(GRADLE) is None:
+            reason = "there is no Gradle on the PATH, nor one that COLLEKTIVE_GRADLE names"
+            Path(os.environ["COLLEKTIVE_RESULTS"], "notes").write_text(f"gradle: skipped, {reason}\n")
+            raise unittest.SkipTest(reason)
         # The second run finds all done, and the build's own model in the configuration cache.
         cls.first, cls.second = (gradle("build", "kotlinSourcesJar") for _ in range(2))
         print(cls.first.stdout, cls.second.stdout, sep="\n")
