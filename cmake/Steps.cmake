@@ -1,4 +1,5 @@
-# collektive_step(TARGET OUTPUT FILE COMMAND WORD... [AND WORD...]... [DEPENDS FILE-OR-TARGET...] [FOLDERS DIR...] [BYPRODUCTS FILE...] [COMMENT TEXT] [TERMINAL])
+# collektive_step(TARGET OUTPUT FILE COMMAND WORD... [AND WORD...]... [DEPENDS FILE-OR-TARGET...] [FOLDERS DIR...]
+#   [BYPRODUCTS FILE...] [COMMENT TEXT] [TERMINAL])
 #
 # Adds a target whose command makes one file. It runs again if an input is newer: a file, another target's output, or anything below a folder.
 # A command that makes many files makes a stamp last; those that other steps depend on are its byproducts.
@@ -18,7 +19,8 @@ function(collektive_step TARGET)
   if(NOT STEP_COMMENT)
     cmake_path(GET STEP_OUTPUT FILENAME STEP_COMMENT)
   endif()
-  add_custom_command(OUTPUT "${STEP_OUTPUT}" BYPRODUCTS ${STEP_BYPRODUCTS} COMMAND ${STEP_COMMAND} ${depfile} DEPENDS ${STEP_DEPENDS} COMMENT "${STEP_COMMENT}" ${terminal} VERBATIM)
+  add_custom_command(OUTPUT "${STEP_OUTPUT}" BYPRODUCTS ${STEP_BYPRODUCTS} COMMAND ${STEP_COMMAND} ${depfile} DEPENDS ${STEP_DEPENDS}
+    COMMENT "${STEP_COMMENT}" ${terminal} VERBATIM)
   add_custom_target(${TARGET} DEPENDS "${STEP_OUTPUT}")
 endfunction()
 

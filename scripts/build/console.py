@@ -10,6 +10,7 @@ from build.places import LOGS
 
 # Commands that other commands start continue the first one's clock.
 STARTED = float(os.environ.setdefault("COLLEKTIVE_STARTED", str(time.time())))
+_step = ""
 
 
 class Failure(Exception):
@@ -26,14 +27,18 @@ def say(text: str) -> None:
 
 
 def logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
-    """Runs a command with its output in a log file, which is shown if it fails.
+    """Runs a command with its output in a log file, which is shown if it fails. Successive commands of one name share a log.
 
     Raises `Failure` if the command exits with another code than 0.
     """
-    say(f"{name} ...")
+    global _step
     path = log or LOGS / f"{name}.log"
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("a", encoding="utf-8") as file:
+    mode = "a" if name == _step else "w"
+    if name != _step:
+        say(f"{name} ...")
+    _step = name
+    with path.open(mode, encoding="utf-8") as file:
         code = subprocess.run(command, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode
     if code == 0:
         return

@@ -14,7 +14,7 @@ def run(results: Path, options: list[str]) -> int:
     lock.exclusive()
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         report.unlink()
-    code = processes.call(["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "test", "-Dmaven.test.failure.ignore=true", *options])
+    code = processes.call(["mvn", "-B", "-ntp", "-q", "-T", "2", "-f", JVM / "pom.xml", "test", "-Dmaven.test.failure.ignore=true", *options])
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         shutil.copy(report, results / f"{report.parts[-4]}-{report.name}")
     return code
