@@ -41,10 +41,17 @@ STACK_KB = 1024
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line, like those of the commands."""
+    """A parser whose errors are one line, like those of the commands. A command may choose their code with the default `error_code`."""
 
     def error(self, message: str) -> NoReturn:
-        raise Failure(f"{self.prog.removeprefix('./collektive ')}: {message} (see {self.prog} --help)")
+        raise Failure(f"{self.prog.removeprefix('./collektive ')}: {message} (see {self.prog} --help)", self.get_default("error_code") or 1)
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        """Reports unknown arguments as those of the command that they belong to."""
+        arguments, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unknown argument {unknown[0]}")
+        return arguments, unknown
 
 
 def parser_for(name: str | None) -> Parser:

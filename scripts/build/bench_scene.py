@@ -1,5 +1,4 @@
-#!/usr/bin/env python3
-"""bench_scene.py OUT [--quick] [--nodes N,N...]: the case study at several sizes, each in a process of its own; see ./collektive bench --help."""
+"""The case study at several sizes, each in a process of its own: what whole ticks cost."""
 import csv
 import json
 import math
@@ -7,13 +6,16 @@ import os
 import platform
 import re
 import subprocess
-import sys
 import tempfile
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
-from places import ROOT
+from build import graph, lock, projects
+from build.console import Failure
+from build.places import COLLEKTIVE, ROOT
 
-SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
+SAMPLE = ROOT / "unity/Samples~/GradientAscent"
 PHASES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
 # Of which so many nodes have the field of the sample as it is.
@@ -25,8 +27,7 @@ QUICK_SECONDS, QUICK_SETTLED = 4, 2
 
 def scenario(nodes: int, seconds: int) -> dict[str, Any]:
     """The sample's scenario with so many nodes, as far apart as its 500, and with tables only."""
-    with open(os.path.join(SAMPLE, "scenario.json")) as file:
-        whole = json.load(file)
+    whole: dict[str, Any] = json.loads((SAMPLE / "scenario.json").read_text())
     for key in ("scripts", "schema", "programs"):
         whole[key] = os.path.normpath(os.path.join(SAMPLE, whole[key]))
     scale = math.sqrt(nodes / NODES_OF_FIELD)
@@ -37,16 +38,15 @@ def scenario(nodes: int, seconds: int) -> dict[str, Any]:
 def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
     """The row of one size: the mean tick of the settled seconds, and its phases."""
     with tempfile.TemporaryDirectory() as folder:
-        path, out = os.path.join(folder, "scene.json"), os.path.join(folder, "out")
+        path, out = Path(folder, "scene.json"), Path(folder, "out")
         what = scenario(nodes, seconds)
-        with open(path, "w") as file:
-            json.dump(what, file)
-        process = subprocess.Popen([os.path.join(ROOT, "collektive"), "run", path, "--out", out], stdout=subprocess.DEVNULL)
+        path.write_text(json.dumps(what))
+        process = subprocess.Popen([COLLEKTIVE, "run", path, "--out", out], stdout=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
-            raise SystemExit(f"collektive: bench scene: the run of {nodes} nodes ended with code {process.returncode}; its messages are above")
-        with open(os.path.join(out, "metrics.csv")) as file:
+            raise Failure(f"bench scene: the run of {nodes} nodes ended with code {process.returncode}; its messages are above")
+        with (out / "metrics.csv").open() as file:
             rows = [row for row in csv.DictReader(file) if int(row["second"]) > settled]
 
     def mean(column: str) -> float:
@@ -57,7 +57,7 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
 
 
 def micros_per_node(row: dict[str, Any]) -> float:
-    return 1e6 / row["ticks_per_second"] / row["nodes"]
+    return float(1e6 / row["ticks_per_second"] / row["nodes"])
 
 
 def table(rows: list[dict[str, Any]]) -> str:
@@ -69,30 +69,24 @@ def table(rows: list[dict[str, Any]]) -> str:
 
 
 def machine() -> str:
-    with open("/proc/cpuinfo") as file:
-        model = re.search(r"model name\s*: (.*)", file.read())
-    return f"{model.group(1) if model else 'unknown processor'}, {os.cpu_count()} processors; {platform.system()} {platform.release()}"
+    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    return f"{model[1] if model else 'unknown processor'}, {os.cpu_count()} processors; {platform.system()} {platform.release()}"
 
 
-def main(out: str, *arguments: str) -> None:
-    quick, sizes, rest = False, list(NODES), list(arguments)
-    while rest:
-        option = rest.pop(0)
-        if option == "--quick":
-            quick = True
-        elif option == "--nodes" and rest and re.fullmatch(r"[1-9][0-9]{0,5}(,[1-9][0-9]{0,5})*", rest[0]):
-            sizes = [int(size) for size in rest.pop(0).split(",")]
-        elif option == "--nodes":
-            raise SystemExit("collektive: bench scene: --nodes needs numbers from 1 to 999999, with commas between them")
-        else:
-            raise SystemExit(f"collektive: bench scene: unknown argument {option} (see ./collektive bench --help)")
+def sizes_of(text: str) -> list[int]:
+    """Reads the numbers of nodes from an option."""
+    if not re.fullmatch(r"[1-9][0-9]{0,5}(,[1-9][0-9]{0,5})*", text):
+        raise Failure("bench scene: --nodes needs numbers from 1 to 999999, with commas between them")
+    return [int(size) for size in text.split(",")]
+
+
+def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
+    """Runs all sizes, writes their rows to a file, and prints the table."""
+    graph.build("runtime")
+    # Before the runs: their memory is measured with that of all processes that they start.
+    projects.scripts_dll(SAMPLE / "gradient_ascent.fbs", SAMPLE)
+    lock.release()
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]
-    os.makedirs(os.path.dirname(os.path.abspath(out)), exist_ok=True)
-    with open(out, "w") as file:
-        json.dump({"machine": machine(), "rows": rows}, file, indent=2)
-        file.write("\n")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=2) + "\n")
     print(table(rows))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

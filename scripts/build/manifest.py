@@ -1,31 +1,34 @@
-#!/usr/bin/env python3
-"""The package's manifests.
+"""The manifests of the packages.
 
-`package_json.py ROOT --sources` lists what of the clone goes into the package: the allow-list `files` of package.json, without what
-the build makes. `package_json.py ROOT --git` writes unity/package.json, for installations by git URL with `?path=/unity`.
-`package_json.py ROOT --jvm PLATFORM FOLDER` writes the manifest of a platform's JVM package into a folder, with its meta.
+`python3 scripts/build/manifest.py` writes unity/package.json, for installations by git URL with `?path=/unity`, from package.json.
 """
 import json
 import os
 import sys
+from pathlib import Path
+from typing import Any
 
-import metas
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import metas
+from build.places import ROOT
 
 SYSTEMS = {"win-x64": "Windows (x64)", "linux-x64": "Linux (x64)", "linux-arm64": "Linux (ARM64)", "mac-x64": "macOS (Intel)",
            "mac-arm64": "macOS (Apple silicon)"}
 
 
-def read(root):
-    with open(os.path.join(root, "package.json")) as file:
-        return json.load(file)
+def read(root: str | Path) -> dict[str, Any]:
+    """Returns the manifest of the package."""
+    manifest: dict[str, Any] = json.loads(Path(root, "package.json").read_text())
+    return manifest
 
 
-def sources(root):
-    """Entries of the allow-list that lie in the clone, and the manifest itself, which npm packs unasked."""
-    return ["package.json"] + [path for path in read(root)["files"] if os.path.exists(os.path.join(root, path))]
+def sources(root: Path) -> list[str]:
+    """Returns the entries of the allow-list `files` that exist in the clone, and the manifest itself, which npm always packs."""
+    return ["package.json"] + [path for path in read(root)["files"] if (root / path).exists()]
 
 
-def for_git(root):
+def for_git(root: str | Path) -> str:
     """The root's manifest as it must be for a package whose root is the folder unity."""
     manifest = read(root)
     del manifest["files"]
@@ -34,7 +37,7 @@ def for_git(root):
     return json.dumps(manifest, indent=2) + "\n"
 
 
-def for_jvm(root, platform):
+def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
     """The manifest of the package that holds a platform's JVM."""
     core = read(root)
     return {
@@ -49,26 +52,11 @@ def for_jvm(root, platform):
     }
 
 
-def write_jvm(root, platform, folder):
-    with open(os.path.join(folder, "package.json"), "w") as file:
-        json.dump(for_jvm(root, platform), file, indent=2)
-        file.write("\n")
-    with open(os.path.join(folder, "package.json.meta"), "w") as file:
-        file.write(metas.meta_of(folder, "package.json", "org.collektive.unity.jvm." + platform))
-
-
-def main():
-    root, command, *rest = sys.argv[1:]
-    if command == "--sources":
-        print("\n".join(sources(root)))
-    elif command == "--git":
-        with open(os.path.join(root, "unity/package.json"), "w") as file:
-            file.write(for_git(root))
-    elif command == "--jvm":
-        write_jvm(root, *rest)
-    else:
-        sys.exit(f"package_json.py: unknown command {command}")
+def write_jvm(root: str | Path, platform: str, folder: Path) -> None:
+    """Writes the manifest of a platform's JVM package into a folder, with its meta."""
+    (folder / "package.json").write_text(json.dumps(for_jvm(root, platform), indent=2) + "\n")
+    (folder / "package.json.meta").write_text(metas.meta_of(folder, "package.json", "org.collektive.unity.jvm." + platform))
 
 
 if __name__ == "__main__":
-    main()
+    (ROOT / "unity/package.json").write_text(for_git(ROOT))

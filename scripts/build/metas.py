@@ -1,13 +1,14 @@
-#!/usr/bin/env python3
-"""Unity .meta files: `metas.py ROOT` makes the missing ones, `metas.py ROOT --check` lists what is wrong and exits 1.
+"""Unity .meta files: `python3 scripts/build/metas.py ROOT` makes the missing ones.
 
 Unity identifies an asset by the GUID in its meta, so a meta is never changed once it exists. A new one gets a GUID from
-the asset's path. Names that end in `~` or begin with `.` are no assets.
+the asset's path. Names that end in `~` or begin with `.` are not assets.
 """
 import hashlib
 import os
 import re
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
 # In a package two kinds of files come from the build. The native libraries are for one platform each, by their folder; the managed one is for all.
 PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
@@ -39,11 +40,11 @@ IMPORTERS = {
 DEFAULT = "DefaultImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 
 
-def is_asset(name):
+def is_asset(name: str) -> bool:
     return not name.endswith("~") and not name.startswith(".") and not name.endswith(".meta")
 
 
-def assets(root):
+def assets(root: str | Path) -> Iterator[str]:
     """Paths, relative to root, of everything that Unity would import from the package."""
     yield from PACKED_ROOT_FILES
     for top in IMPORTED:
@@ -53,18 +54,18 @@ def assets(root):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 
-def guid_for(asset, package="org.collektive.unity"):
+def guid_for(asset: str, package: str = "org.collektive.unity") -> str:
     """The GUID that a new asset gets."""
     return hashlib.md5((package + "/" + asset.replace(os.sep, "/")).encode()).hexdigest()
 
 
-def guid_in(meta):
+def guid_in(meta: str) -> str | None:
     """The GUID in the text of a meta; None when there is none."""
     match = re.search(r"^guid: ([0-9a-f]{32})$", meta, re.M)
-    return match and match.group(1)
+    return match[1] if match else None
 
 
-def native(platform):
+def native(platform: str) -> str:
     """The importer of a platform's native library."""
     editor, player, processor = NATIVE[platform]
     in_editor = "\n        DefaultValueInitialized: true"
@@ -74,7 +75,7 @@ def native(platform):
                      + PLATFORM % ("Standalone: " + player, 1, "\n        CPU: " + processor))
 
 
-def meta_of(root, asset, package="org.collektive.unity"):
+def meta_of(root: str | Path, asset: str, package: str = "org.collektive.unity") -> str:
     path = os.path.join(root, asset)
     head = f"fileFormatVersion: 2\nguid: {guid_for(asset, package)}\n"
     if os.path.isdir(path):
@@ -85,15 +86,15 @@ def meta_of(root, asset, package="org.collektive.unity"):
     return head + IMPORTERS.get(name, IMPORTERS.get(os.path.splitext(name)[1], DEFAULT))
 
 
-def problems(root):
+def problems(root: str | Path) -> Iterator[str]:
     """One line for each missing meta, meta without an asset, broken GUID, and GUID used twice."""
-    known = {}
+    known: dict[str, str] = {}
     wanted = set()
     for asset in assets(root):
         meta = os.path.join(root, asset + ".meta")
         wanted.add(os.path.abspath(meta))
         if not os.path.exists(meta):
-            yield f"{asset}: no .meta (run scripts/metas.py)"
+            yield f"{asset}: no .meta (run scripts/build/metas.py)"
             continue
         with open(meta) as file:
             guid = guid_in(file.read())
@@ -112,19 +113,13 @@ def problems(root):
                     yield f"{os.path.relpath(path, root)}: belongs to no asset"
 
 
-def main():
-    root = sys.argv[1]
-    if "--check" in sys.argv:
-        found = list(problems(root))
-        print("\n".join(found))
-        sys.exit(1 if found else 0)
+def write_missing(root: str | Path) -> None:
+    """Makes the metas that assets below a root lack."""
     for asset in assets(root):
-        meta = os.path.join(root, asset + ".meta")
-        if not os.path.exists(meta):
-            with open(meta, "w") as file:
-                file.write(meta_of(root, asset))
-            print(asset)
+        meta = Path(root, asset + ".meta")
+        if not meta.exists():
+            meta.write_text(meta_of(root, asset))
 
 
 if __name__ == "__main__":
-    main()
+    write_missing(sys.argv[1])

@@ -3,10 +3,9 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from build import graph, jre, manifest, metas, platforms
+from build import graph, jre, manifest, metas, places, platforms
 from build.console import logged, say
-from build.places import (ADAPTER_JAR, BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, JVM, LIBRARY_JAR, LINKS, ROOT, SAMPLES_JAR, SHIM, TESTING_JAR,
-                          compiler_plugin)
+from build.places import BUILD, ROOT
 
 GENERATED = BUILD / "generated"
 
@@ -43,7 +42,7 @@ def _pack(content: Path, out: Path, suffix: str) -> Path:
     archives = content.with_name("archive")
     archives.mkdir(exist_ok=True)
     out.mkdir(parents=True, exist_ok=True)
-    command = ["npm", "pack", content, "--pack-destination", archives, "--ignore-scripts", "--silent"]
+    command: list[str | Path] = ["npm", "pack", content, "--pack-destination", archives, "--ignore-scripts", "--silent"]
     name = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
     target = out / f"{name.removesuffix('.tgz')}{suffix}.tgz"
     shutil.move(archives / name, target)
@@ -56,15 +55,15 @@ def _stage(content: Path, all_platforms: bool) -> None:
         _copy(ROOT / source, content / source)
     unity = content / "unity"
     plugins, jars, tools = unity / "Runtime/Plugins", unity / "Jvm~", unity / "Tools~"
-    _copy(CSHARP / "Collektive.FlatBuffers.dll", plugins / "Collektive.FlatBuffers.dll")
+    _copy(places.CSHARP / "Collektive.FlatBuffers.dll", plugins / "Collektive.FlatBuffers.dll")
     _copy(GENERATED / "bridge", unity / "Runtime/Bridge/Generated")
-    for jar in (HOST_JAR, LIBRARY_JAR, ADAPTER_JAR):
+    for jar in (places.HOST_JAR, places.LIBRARY_JAR, places.ADAPTER_JAR):
         _copy(jar, jars / jar.name)
-    _copy(SAMPLES_JAR, jars / "collektive-samples.jar")
-    for file in (GENERATOR_JAR, TESTING_JAR, ROOT / "schema/types.fbs", LINKS / "org/collektive/links/Links.kt"):
+    _copy(places.SAMPLES_JAR, jars / "collektive-samples.jar")
+    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "org/collektive/links/Links.kt"):
         _copy(file, tools / file.name)
-    _copy(compiler_plugin(), tools / "collektive-compiler-plugin.jar")
-    _strip(FLATC, tools / "linux-x64/flatc")
+    _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
+    _strip(places.FLATC, tools / "linux-x64/flatc")
     if all_platforms:
         for platform in platforms.PLATFORMS:
             library = platforms.shim_of(platform)
@@ -72,12 +71,12 @@ def _stage(content: Path, all_platforms: bool) -> None:
         for platform in platforms.FLATC_PLATFORMS:
             _copy(platforms.fetch_flatc(platform), tools / platform)
     else:
-        _strip(SHIM / "libcollektive_shim.so", plugins / "linux-x64/libcollektive_shim.so")
+        _strip(places.SHIM / "libcollektive_shim.so", plugins / "linux-x64/libcollektive_shim.so")
     for sample in (unity / "Samples~").iterdir():
         if sample.is_dir():
             _copy(GENERATED / "samples" / sample.name, sample / "Generated")
             # A sample's Kotlin lies in the reactor, where it is compiled and tested.
-            for program in (JVM / "programs/src/main/kotlin" / sample.name.lower()).glob("*.kt"):
+            for program in (places.JVM / "programs/src/main/kotlin" / sample.name.lower()).glob("*.kt"):
                 _copy(program, sample / "Programs" / program.name)
     metas.write_missing(content)
 

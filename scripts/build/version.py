@@ -1,15 +1,16 @@
-#!/usr/bin/env python3
 """The product's version: `version.py` prints it; `version.py X.Y.Z` writes it to all files that name it.
 
 package.json is the source. The tests compare the other files with it.
 """
-import glob
 import json
-import os
 import re
 import sys
+from collections.abc import Iterator
+from pathlib import Path
 
-from places import ROOT
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build.places import ROOT
 
 NUMBER = r"(\d+\.\d+\.\d+)"
 # Files, and what stands around the version in them.
@@ -32,44 +33,40 @@ NAMED = {
 SHIM = "native-shim/include/collektive_shim.h"
 
 
-def read(path):
-    with open(os.path.join(ROOT, path)) as file:
-        return file.read()
+def product() -> str:
+    """Returns the version of this checkout."""
+    version: str = json.loads((ROOT / "package.json").read_text())["version"]
+    return version
 
 
-def product():
-    return json.loads(read("package.json"))["version"]
-
-
-def files():
-    """Paths of all files that name the version, with the pattern of each."""
+def files() -> Iterator[tuple[str, str]]:
+    """Yields the paths of all files that name the version, with the pattern of each."""
     for pattern, named in NAMED.items():
-        for path in sorted(glob.glob(os.path.join(ROOT, pattern))):
-            yield os.path.relpath(path, ROOT), named
+        for path in sorted(ROOT.glob(pattern)):
+            yield str(path.relative_to(ROOT)), named
 
 
-def packed(version):
-    """The version as the C header writes it."""
+def packed(version: str) -> str:
+    """Returns the version as the C header writes it."""
     major, minor, patch = map(int, version.split("."))
     return f"0x{major << 16 | minor << 8 | patch:06x}"
 
 
-def write(path, text):
-    with open(os.path.join(ROOT, path), "w") as file:
-        file.write(text)
-
-
-def main():
-    if len(sys.argv) == 1:
-        print(product())
-        return
-    version = sys.argv[1]
-    if not re.fullmatch(NUMBER, version):
-        sys.exit(f"version.py: '{version}' is no version: three numbers are needed, like 1.2.3")
-    for path, named in files():
-        write(path, re.sub(named, lambda match: match[0].replace(match[1], version), read(path)))
-    write(SHIM, re.sub(r"(#define CLK_VERSION) 0x\w+", rf"\1 {packed(version)}", read(SHIM)))
+def write(version: str) -> None:
+    """Writes a version to all files that name it."""
+    for path, named in [*files(), (SHIM, "")]:
+        text = (ROOT / path).read_text()
+        if named:
+            text = re.sub(named, lambda match: match[0].replace(match[1], version), text)
+        else:
+            text = re.sub(r"(#define CLK_VERSION) 0x\w+", rf"\1 {packed(version)}", text)
+        (ROOT / path).write_text(text)
 
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) == 1:
+        print(product())
+    elif re.fullmatch(NUMBER, sys.argv[1]):
+        write(sys.argv[1])
+    else:
+        sys.exit(f"version.py: '{sys.argv[1]}' is not a version: three numbers are needed, like 1.2.3")

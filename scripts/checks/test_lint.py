@@ -50,7 +50,7 @@ def test_python_is_typed() -> None:
 
 
 def test_javascript_is_clean_under_eslint() -> None:
-    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay", "scripts/site")
+    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay", "scripts")
 
 
 def test_c_and_cpp_are_formatted_by_clang_format() -> None:

@@ -12,7 +12,7 @@ sys.path[:0] = [os.path.dirname(HERE), HERE]
 from validator import asmdefs, guids, packing, references, serialized_fields  # noqa: E402
 from validator.assets import Assets  # noqa: E402
 
-import metas  # noqa: E402
+from build import metas  # noqa: E402
 
 
 def problems(root, classes, ledger=guids.LEDGER):

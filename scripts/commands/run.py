@@ -21,17 +21,22 @@ REPLAY_PAGE = BUILD / "replay.html"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", metavar="SCENARIO.json")
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME-seedK below the current folder)")
+    parser.add_argument("--recording", metavar="FILE.jfr", help="make a flight recording of the JVM")
+    parser.add_argument("--folder", metavar="DIR", help=argparse.SUPPRESS)
+    add_run_arguments(parser)
+
+
+def add_run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of all commands that run scenarios."""
     parser.add_argument("--overwrite", action="store_true", help="remove the results of an earlier run in that folder first")
     parser.add_argument("--seed", metavar="K", help="seed instead of the scenario's")
     parser.add_argument("--seconds", metavar="S", help="simulated seconds instead of the scenario's")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="values",
                         help="another value of a key of the scenario: network.loss=0.1, parameters.PROGRAM.NAME=2. Any other name sets a public "
                              "field of the scene builder: nodes=100")
-    parser.add_argument("--recording", metavar="FILE.jfr", help="make a flight recording of the JVM")
     parser.add_argument("--keep-going", action="store_true", help="continue after a tick of which every round failed")
     parser.add_argument("--trust-jvm", action="store_true",
                         help="allow JVM settings that write files, open ports or load code: Documentation~/trust.md")
-    parser.add_argument("--folder", metavar="DIR", help=argparse.SUPPRESS)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -33,7 +33,7 @@ def page(results: Path) -> int:
 def site(results: Path) -> int:
     """Tests the site at three widths, light and dark; the pictures stay in build/site-pictures."""
     subprocess.run([COLLEKTIVE, "site", "--out", BUILD / "site"], check=True)
-    return run_node(ROOT / "scripts/site/test.mjs", results / "site.xml", BUILD / "site", BUILD / "site-pictures")
+    return run_node(ROOT / "scripts/tests/site/test.mjs", results / "site.xml", BUILD / "site", BUILD / "site-pictures")
 
 
 if __name__ == "__main__":

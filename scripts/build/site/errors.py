@@ -1,11 +1,9 @@
 """The site's page of errors: codes of the native library, checks of the compiler plugin, exit codes of ./collektive, faults that the tests cause."""
 import json
 import re
-import subprocess
+from collections.abc import Iterator
 
-from sources import text
-
-from places import COLLEKTIVE
+from build.site.sources import commands, help_of, text
 
 # By the name of a code in the C header, what to do next. The text of an error names the file, node or setting.
 NEXT = {
@@ -28,37 +26,33 @@ NEXT = {
 }
 
 
-def codes():
+def codes() -> list[tuple[str, str, str]]:
     """Name, number and meaning of each error in the C header."""
     return re.findall(r'X\((\w+), (-\d+), "([^"]+)"\)', text("native-shim/include/collektive_shim.h"))
 
 
-def bridge_errors():
+def bridge_errors() -> dict[str, str]:
     """Name by number in C#."""
     return {number: name for name, number in re.findall(r"(?m)^ +(\w+) = (-\d+),$", text("unity/Runtime/Bridge/BridgeException.cs"))}
 
 
-def checks():
+def checks() -> Iterator[tuple[str, str, str]]:
     """Name, severity and documentation of each check of the compiler plugin; the documentation is empty where there is none."""
     source = text("jvm-host/compiler-plugin/src/main/kotlin/org/collektive/compiler/checks/AggregateDiagnostics.kt")
     for doc, name, severity in re.findall(r"(?:/\*\*((?:(?!\*/).)*)\*/\s+)?val (\w+) by (error|warning)\d", source, re.S):
         yield name, severity, " ".join(re.sub(r"(?m)^ *\* ?", "", doc).split())
 
 
-def exit_codes():
+def exit_codes() -> Iterator[tuple[str, list[str]]]:
     """By command, and by "" for all of them, the sentences of its help that begin with `Exit code:`."""
-    whole = help_of()
-    for command in ["", *re.findall(r"(?m)^  ([a-z]+) {2,}\S", whole)]:
-        found = re.search(r"(?ms)^Exit code: (.*?)(?:\n\n|\Z)", help_of(command) if command else whole)
+    for command in ["", *commands()]:
+        found = re.search(r"(?ms)^Exit code: (.*?)(?:\n\n|\Z)", help_of(*filter(None, [command])))
         if found:
             yield command, " ".join(found[1].split()).removesuffix(".").split("; ")
 
 
-def help_of(*command):
-    return subprocess.run([COLLEKTIVE, *command, "--help"], capture_output=True, text=True, check=True).stdout
-
-
-def errors(_):
+def errors() -> str:
+    """Returns the page."""
     bridge = bridge_errors()
     page = ("# Errors\n\nEach error has a text that says what happened, to what, and what to do next. [Troubleshooting](../troubleshooting.md) is "
             "ordered by these texts; this page lists the kinds.\n\n## Codes\n\n"

@@ -2,7 +2,7 @@
 import { mkdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { launch } from '../../unity/Headless~/Replay/browser.mjs';
+import { launch } from '../../../unity/Headless~/Replay/browser.mjs';
 
 const [page, folder, count] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });

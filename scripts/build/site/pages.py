@@ -1,18 +1,13 @@
-#!/usr/bin/env python3
-"""The sources of the site: `pages.py FOLDER XML MODULES` writes them to FOLDER, an own one.
-
-They are the pages of Documentation~ and docs/, the changelog and its neighbours, and reference pages that are made from the code. XML is the
-folder with the C# assemblies' documentation, MODULES has the libraries that pages load. A link to a file that is no page of the site is an error.
-"""
+"""The sources of the site: the pages of Documentation~ and docs/, the changelog and its neighbours, and reference pages that are made from the code."""
 import os
 import re
 import shutil
-import sys
+from collections.abc import Mapping
+from pathlib import Path
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-import reference
-
-from places import ROOT
+from build.console import Failure
+from build.places import ROOT
+from build.site import reference
 
 # Titles of sections, and pages in their order: Documentation~ lies at the top of the site, docs/ in `repository`. Pages that are named nowhere, as
 # new ones may be, come last in How-to.
@@ -41,7 +36,7 @@ STYLE = """
 """
 
 
-def places():
+def places() -> dict[str, str]:
     """Where each file of the repository that is part of the site lies in the site."""
     found = {path: place for path, place in ROOT_PAGES.items() if os.path.exists(os.path.join(ROOT, path))}
     for folder, place in [("Documentation~", ""), ("docs", "repository/")]:
@@ -50,16 +45,16 @@ def places():
     return found
 
 
-def linked(text, path, site):
+def linked(text: str, path: str, site: Mapping[str, str]) -> str:
     """A page's text with its links as they are in the site."""
-    def of(target):
+    def of(target: str) -> str:
         return os.path.relpath(site[target], os.path.dirname(site[path]) or ".")
 
-    def relative(match):
+    def relative(match: re.Match[str]) -> str:
         link, anchor = match[1], match[2] or ""
         target = os.path.normpath(os.path.join(os.path.dirname(path), link))
         if target not in site:
-            sys.exit(f"{path}: the link to {link} leads to no page of the site")
+            raise Failure(f"{path}: the link to {link} leads to no page of the site")
         return f"]({of(target)}{anchor})"
 
     text = re.sub(r"\]\((?!https?:|#)([^)#]+)(#[^)]*)?\)", relative, text)
@@ -68,47 +63,40 @@ def linked(text, path, site):
                   lambda match: f"[{match[1]}]({of(match[1])})" if match[1] in site else match[0], text)
 
 
-def title(text):
-    return re.search(r"(?m)^# (.+)", text)[1]
+def title(text: str) -> str:
+    return str(re.findall(r"(?m)^# (.+)", text)[0])
 
 
-def main():
-    folder, xml, modules = sys.argv[1:]
-    site, pages = places(), {}
+def write(folder: Path, modules: Path) -> None:
+    """Writes the sources to a folder, with the configuration site.yml of MkDocs; `modules` has the libraries that pages load.
+
+    Raises `Failure` if a link leads to a file that is not a page of the site.
+    """
+    site = places()
+    pages: dict[str, str] = {}
     for path, place in site.items():
-        target = os.path.join(folder, place)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
         if path.endswith(".md"):
-            with open(os.path.join(ROOT, path)) as file:
-                pages[place.removesuffix(".md")] = linked(file.read(), path, site)
+            pages[place.removesuffix(".md")] = linked((ROOT / path).read_text(), path, site)
         else:
-            shutil.copy(os.path.join(ROOT, path), target)
-    for name, make in reference.PAGES.items():
-        pages[f"reference/{name}"] = make(xml)
+            target = folder / "pages" / place
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / path, target)
+    pages |= {f"reference/{name}": make() for name, make in reference.PAGES.items()}
     for name, text in pages.items():
-        target = os.path.join(folder, name + ".md")
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(target, "w") as file:
-            file.write(text)
-    os.makedirs(os.path.join(folder, "assets"))
+        target = folder / f"pages/{name}.md"
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text)
+    assets = folder / "pages/assets"
+    assets.mkdir()
     for name, library in LIBRARIES.items():
-        shutil.copy(os.path.join(modules, library), os.path.join(folder, "assets", name))
-    with open(os.path.join(folder, "assets/site.css"), "w") as file:
-        file.write(STYLE)
-    write_nav(folder, pages)
-
-
-def write_nav(folder, pages):
-    """The order of the pages, for MkDocs."""
+        shutil.copy(modules / library, assets / name)
+    (assets / "site.css").write_text(STYLE)
+    shutil.copy(Path(__file__).with_name("mkdocs.yml"), folder)
+    # The order of the pages.
     named = {name for names in SECTIONS.values() for name in names}
     lines = ["INHERIT: mkdocs.yml", "nav:", "  - Home: index.md"]
     for section, names in SECTIONS.items():
         late = sorted(pages.keys() - named - {"index"}) if section == LATE else []
         lines.append(f"  - {section}:")
         lines += [f"      - {title(pages[name])!r}: {name}.md" for name in [*names, *late]]
-    with open(os.path.join(os.path.dirname(folder), "site.yml"), "w") as file:
-        file.write("\n".join(lines) + "\n")
-
-
-if __name__ == "__main__":
-    main()
+    (folder / "site.yml").write_text("\n".join(lines) + "\n")

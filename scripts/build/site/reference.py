@@ -1,28 +1,25 @@
 """Pages of the site that are made from the code: the command line, errors, JVM settings, the APIs of C#, Kotlin and C."""
-import glob
-import os
 import re
-import subprocess
-import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable, Iterator, Mapping
+from xml.etree import ElementTree
 
-from errors import errors
-from sources import text
+from build.places import BUILD, JVM
+from build.site.errors import errors
+from build.site.sources import commands, help_of, text
 
-from places import COLLEKTIVE, ROOT
+DOCUMENTATION = BUILD / "documentation"
+Documented = Mapping[str | None, ElementTree.Element]
 
 
-def command_line(_):
-    whole = subprocess.run([COLLEKTIVE, "--help"], capture_output=True, text=True, check=True).stdout
-    commands = re.findall(r"(?m)^  ([a-z]+) {2,}\S", whole)
+def command_line() -> str:
     page = "# Command line\n\nThe help texts of `./collektive`, which runs on Linux from a clone of the repository.\n"
-    page += f"\n```text\n{whole}```\n"
-    for command in commands:
-        part = subprocess.run([COLLEKTIVE, command, "--help"], capture_output=True, text=True, check=True).stdout
-        page += f"\n## {command}\n\n```text\n{part.strip()}\n```\n"
+    page += f"\n```text\n{help_of()}```\n"
+    for command in commands():
+        page += f"\n## {command}\n\n```text\n{help_of(command).strip()}\n```\n"
     return page
 
 
-def jvm_settings(_):
+def jvm_settings() -> str:
     """From the descriptions that inspectors and scenario files share."""
     source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Bridge/Jvm/JvmSetting.cs"))
     rows = re.findall(r'new JvmSetting\(\s*nameof\(JvmSettings\.(\w+)\), "([^"]+)",\s*"([^"]+)"(.*?)(?=new JvmSetting|\};)', source, re.S)
@@ -35,7 +32,7 @@ def jvm_settings(_):
     return page
 
 
-def simulation_settings(_):
+def simulation_settings() -> str:
     """From the fields that the inspector shows; Scenario.cs names those that are no keys of a scenario."""
     source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
     scenario = text("unity/Headless~/Player/Scenario.cs")
@@ -49,22 +46,22 @@ def simulation_settings(_):
     return page
 
 
-def eval_shift(number):
+def eval_shift(number: str) -> int:
     """The value of `8` and of `1 << 20`."""
     base, _, shift = number.partition("<<")
     return int(base) << int(shift or 0)
 
 
-def c_header(_):
+def c_header() -> str:
     return ("# C header\n\n`native-shim/include/collektive_shim.h`: the native library's whole interface. The package's C# calls it; it is of use to who "
             f"embeds the JVM side elsewhere.\n\n```c\n{text('native-shim/include/collektive_shim.h')}```\n")
 
 
-def csharp(assembly):
-    def make(xml):
-        documented = {member.get("name"): member for member in ElementTree.parse(os.path.join(xml, assembly.split(".")[1] + ".xml")).iter("member")}
+def csharp(assembly: str) -> Callable[[], str]:
+    def make() -> str:
+        documented = {member.get("name"): member for member in ElementTree.parse(DOCUMENTATION / f"{assembly.split('.')[1]}.xml").iter("member")}
         page = f"# C# API: {assembly}\n\nAll public and protected members. Components are found below Collektive in the Add Component menu.\n"
-        kind = None
+        type_name = header = ""
         for line in text(f"unity/Tests/PublicApi/{assembly}.txt").splitlines():
             name, _, kind = line.partition(" : ")
             if re.search(r"\b(class|struct|interface|enum|delegate)\b", kind.split(",")[0]):
@@ -83,22 +80,22 @@ def csharp(assembly):
     return make
 
 
-def identifier(name):
+def identifier(name: str) -> str:
     """A type's name as documentation files write it: List<T> is List`1."""
     return re.sub(r"<([^<>]*)>", lambda match: "`" + str(match[1].count(",") + 1), name)
 
 
-def candidates(type_name, member, documented):
+def candidates(type_name: str, member: str, documented: Documented) -> list[str]:
     """Keys that a member's documentation may have: that of the overload with the same parameter types comes first."""
     base = member.split("(")[0].split("<")[0]
     base = "#ctor" if base == "new" else base
     prefix = identifier(type_name) + "." + base
-    keys = [key for key in documented if re.sub(r"``\d+$", "", key[2:].split("(")[0]) == prefix]
+    keys = [key for key in documented if key and re.sub(r"``\d+$", "", key[2:].split("(")[0]) == prefix]
     wanted = words(member)
     return sorted(keys, key=lambda key: words(key) != wanted)
 
 
-def words(signature):
+def words(signature: str) -> list[str]:
     """Last words of the parameters' types."""
     inner = signature.partition("(")[2].partition(")")[0]
     found = []
@@ -108,7 +105,7 @@ def words(signature):
     return found
 
 
-def described(documented, *keys):
+def described(documented: Documented, *keys: str) -> str:
     for key in keys:
         if key in documented:
             return " ".join(filter(None, (plain(documented[key].find(part), label) for part, label in
@@ -117,7 +114,7 @@ def described(documented, *keys):
     return ""
 
 
-def plain(element, label):
+def plain(element: ElementTree.Element | None, label: str) -> str:
     if element is None:
         return ""
     parts = [element.text or ""]
@@ -127,7 +124,7 @@ def plain(element, label):
     return label + " ".join("".join(parts).split()).replace("|", "\\|")
 
 
-def short(name):
+def short(name: str) -> str:
     name = re.sub(r"``?\d+", "", name)
     return re.sub(r"\b(?:[A-Za-z_]\w*\.)+(?=[A-Z_a-z]\w*$|\w+<)", "", name)
 
@@ -136,7 +133,7 @@ ALIASES = {"Void": "void", "Boolean": "bool", "Single": "float", "Double": "doub
            "String": "string", "Object": "object", "Byte": "byte"}
 
 
-def simple(signature):
+def simple(signature: str) -> str:
     """A signature without namespaces, with C#'s own names of types."""
     signature = re.sub(r"\b(?:System|Collektive|UnityEngine|org)\.(?:\w+\.)*(?=\w)", "", signature)
     return re.sub(r"\b(" + "|".join(ALIASES) + r")\b", lambda match: ALIASES[match[1]], signature).replace("|", "\\|")
@@ -145,25 +142,26 @@ def simple(signature):
 PUBLIC = re.compile(r"^(\s*)(?:@\w+(?:\([^)]*\))?\s+)*public\s+(?!(?:final |open )?override\b|companion object)(.*)")
 
 
-def kotlin(module, about):
+def kotlin(module: str, about: str) -> Callable[[], str]:
     """A page of a module's public declarations, from its sources: in explicit API mode they say `public`."""
-    def make(_):
+    def make() -> str:
         page = f"# Kotlin API: {module}\n\n{about}\n"
-        for path in sorted(glob.glob(os.path.join(ROOT, "jvm-host", module, "src/main/kotlin/**/*.kt"), recursive=True)):
-            source = text(os.path.relpath(path, ROOT))
+        for path in sorted((JVM / module / "src/main/kotlin").rglob("*.kt")):
+            source = path.read_text()
             found = list(declarations(source.splitlines()))
             if found:
-                package = re.search(r"(?m)^package (.+)$", source)[1]
-                page += f"\n## {os.path.basename(path).removesuffix('.kt')}\n\n`{package}`\n"
+                package = re.findall(r"(?m)^package (.+)$", source)[0]
+                page += f"\n## {path.stem}\n\n`{package}`\n"
             for signature, doc in found:
                 page += f"\n```kotlin\n{signature}\n```\n\n{doc}\n"
         return page
     return make
 
 
-def declarations(lines):
+def declarations(lines: list[str]) -> Iterator[tuple[str, str]]:
     """Signatures of public declarations, with their documentation as Markdown."""
-    doc, at = [], 0
+    doc: list[str] = []
+    at = 0
     while at < len(lines):
         if lines[at].lstrip().startswith("/**"):
             end = next(number for number in range(at, len(lines)) if "*/" in lines[number])
@@ -171,7 +169,8 @@ def declarations(lines):
             continue
         declared = PUBLIC.match(lines[at])
         if declared:
-            signature, depth = [], 0
+            signature: list[str] = []
+            depth = 0
             while True:
                 signature.append(lines[at].removeprefix(declared[1]))
                 depth += sum(map(lines[at].count, "([")) - sum(map(lines[at].count, ")]"))
@@ -186,10 +185,11 @@ def declarations(lines):
         at += 1
 
 
-def described_kotlin(lines):
+def described_kotlin(lines: list[str]) -> str:
     """KDoc as Markdown: tags become a list, references become code."""
     plain_lines = [re.sub(r"^\s*/?\*{1,2}/? ?", "", line).removesuffix("*/").rstrip() for line in lines]
-    body, fenced = [], False
+    body: list[str] = []
+    fenced = False
     for line in plain_lines:
         fenced ^= line.startswith("```")
         if not fenced:
@@ -201,7 +201,7 @@ def described_kotlin(lines):
     return "\n".join(body).strip()
 
 
-PAGES = {
+PAGES: dict[str, Callable[[], str]] = {
     "command-line": command_line,
     "simulation-settings": simulation_settings,
     "jvm-settings": jvm_settings,

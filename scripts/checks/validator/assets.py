@@ -1,7 +1,7 @@
 """The package's assets by path and by GUID."""
 import os
 
-import metas
+from build import metas
 
 # GUIDs of what Unity itself brings: its built-in meshes, materials and shaders.
 BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f000000000000000"}

@@ -3,12 +3,12 @@ import fnmatch
 import os
 import re
 
-import package_json
+from build import manifest as manifests
 
 
 def problems(assets):
     root = assets.root
-    manifest = package_json.read(root)
+    manifest = manifests.read(root)
     if not re.fullmatch(r"[a-z0-9._-]+", manifest["name"]):
         yield f"package.json: '{manifest['name']}' is no package name"
     if not re.fullmatch(r"\d+\.\d+\.\d+(-[0-9A-Za-z.]+)?", manifest["version"]):
@@ -33,5 +33,5 @@ def problems(assets):
     for_git = os.path.join(root, "unity/package.json")
     if os.path.exists(for_git):
         with open(for_git) as file:
-            if file.read() != package_json.for_git(root):
-                yield "unity/package.json: not the one that is made from package.json; run scripts/package_json.py . --git"
+            if file.read() != manifests.for_git(root):
+                yield "unity/package.json: not the one that is made from package.json; run scripts/build/manifest.py"

@@ -9,8 +9,7 @@ import unittest
 
 import validate
 
-import metas
-from build import managed
+from build import managed, metas
 from build.places import CSHARP, ROOT
 from validator import serialized_fields
 

@@ -34,7 +34,7 @@ class Block:
             "fragment": self.page.startswith("Documentation~/") and self.language in ("csharp", "kotlin", "json"),  # test_fragments.py
             "contract": self.page == "docs/boundary.md" and self.language in ("csharp", "java"),  # test_blocks.py
             "command": self.language in ("sh", "console"),  # test_blocks.py
-            "diagram": self.language == "mermaid",  # scripts/site/test.mjs
+            "diagram": self.language == "mermaid",  # scripts/tests/site/test.mjs
             "study": self.page == "Documentation~/experiments.md" and self.language == "python",  # experiments/tests/test_sweep.py
         }
         return next((kind for kind, holds in kinds.items() if holds), "")

@@ -13,7 +13,7 @@ import installed
 import pytest
 from command import collektive, jdk, last_error
 
-import metas
+from build import metas
 from build.places import ROOT
 
 

@@ -2,6 +2,7 @@
 import hashlib
 import os
 import tarfile
+from pathlib import Path
 
 import pytest
 
@@ -16,27 +17,21 @@ MEGABYTE = 1_000_000
 pytestmark = pytest.mark.skipif(len(PLATFORMS) < 5, reason="only ./collektive test platforms builds all")
 
 
-def pack_core(folder):
-    """Makes the package of all platforms anew: the path of its archive."""
-    return package.core(folder / "work", folder, all_platforms=True)
-
-
-def digest(path):
-    with open(path, "rb") as file:
-        return hashlib.sha256(file.read()).hexdigest()
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @pytest.fixture(scope="module")
-def core(tmp_path_factory):
+def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     package.build_parts(all_platforms=True)
-    return pack_core(tmp_path_factory.mktemp("core"))
+    return package.core(tmp_path_factory.mktemp("work"), tmp_path_factory.mktemp("core"), all_platforms=True)
 
 
-def test_the_package_of_all_platforms_has_less_than_15_mb(core) -> None:
+def test_the_package_of_all_platforms_has_less_than_15_mb(core: Path) -> None:
     assert os.path.getsize(core) < 15 * MEGABYTE
 
 
-def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core) -> None:
+def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core: Path) -> None:
     with tarfile.open(core) as archive:
         names = {name.removeprefix("package/unity/") for name in archive.getnames()}
     for platform in PLATFORMS:
@@ -45,15 +40,14 @@ def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core) -> 
     assert {"Tools~/linux-x64/flatc", "Tools~/win-x64/flatc.exe", "Tools~/mac-arm64/flatc"} <= names
 
 
-def test_the_same_sources_give_the_same_bytes(core, tmp_path) -> None:
-    assert digest(pack_core(tmp_path)) == digest(core)
+def test_the_same_sources_give_the_same_bytes(core: Path, tmp_path: Path) -> None:
+    assert digest(package.core(tmp_path / "work", tmp_path, all_platforms=True)) == digest(core)
 
 
-def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path) -> None:
-    if feature_version(find_jdk()) != 25:
-        pytest.skip("only a JDK 25 links JVMs of version 25")
+@pytest.mark.skipif(feature_version(find_jdk()) != 25, reason="only a JDK 25 links JVMs of version 25")
+def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path: Path) -> None:
     archives = []
     for time in "first", "second":
         (BUILD / "stamp/cut-linux-arm64").unlink(missing_ok=True)
-        archives.append(digest(package.jvm(tmp_path / time / "work", tmp_path / time, "linux-arm64")))
+        archives.append(digest(package.jvm(tmp_path / time, tmp_path / time, "linux-arm64")))
     assert archives[0] == archives[1]

@@ -1,8 +1,8 @@
 """The site's page of errors has all that there are, each with what happened and what to do."""
 import re
 
-import errors
-from sources import text
+from build.site import errors
+from build.site.sources import text
 
 
 def test_each_code_of_the_header_has_what_to_do() -> None:
@@ -30,7 +30,7 @@ def test_each_exit_code_has_a_meaning() -> None:
 
 
 def test_the_page_shows_them() -> None:
-    page = errors.errors(None)
+    page = errors.errors()
     shown = re.findall(r"(?m)^\| .*", page)
     assert page.count("| next tick |") > 20
     for name in [*(f"CLK_{name}" for name in errors.NEXT), *errors.bridge_errors().values(), *(name for name, *_ in errors.checks()), "replay"]:

@@ -3,8 +3,7 @@ import os
 
 import pytest
 
-import metas
-import package_json
+from build import manifest, metas, platforms
 from build.places import ROOT
 
 EXPECTED = {
@@ -42,9 +41,25 @@ def test_guids_of_native_libraries_stay_and_differ() -> None:
 
 @pytest.mark.parametrize("platform", metas.NATIVE)
 def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform, tmp_path) -> None:
-    package_json.write_jvm(ROOT, platform, str(tmp_path))
+    manifest.write_jvm(ROOT, platform, tmp_path)
     assert sorted(os.listdir(tmp_path)) == ["package.json", "package.json.meta"]
-    manifest = package_json.for_jvm(ROOT, platform)
-    assert manifest["name"] == "org.collektive.unity.jvm." + platform
-    assert manifest["version"] == package_json.read(ROOT)["version"]
-    assert manifest["files"] == ["Jvm~", "package.json.meta"]
+    written = manifest.for_jvm(ROOT, platform)
+    assert written["name"] == "org.collektive.unity.jvm." + platform
+    assert written["version"] == manifest.read(ROOT)["version"]
+    assert written["files"] == ["Jvm~", "package.json.meta"]
+
+
+def test_metas_and_manifests_name_the_platforms_that_are_built() -> None:
+    assert set(platforms.PLATFORMS) == set(metas.NATIVE) == set(manifest.SYSTEMS)
+
+
+@pytest.mark.parametrize("platform", platforms.PLATFORMS)
+def test_java_of_a_platform_is_run_by_its_emulator(platform) -> None:
+    words = platforms.java_command(platform)
+    assert words[:-1] == platforms.emulator(platform)
+    assert words[-1].endswith(f"build/jre-{platform}/bin/java" + (".exe" if platform == "win-x64" else ""))
+
+
+def test_programs_of_macos_cannot_be_run_here_and_those_of_this_platform_can() -> None:
+    assert "macOS" in (platforms.unavailable_reason("mac-x64") or "")
+    assert platforms.unavailable_reason("linux-x64") is None

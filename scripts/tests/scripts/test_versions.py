@@ -8,8 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-import version
-from build import fetch
+from build import fetch, version
 from build.places import BUILD, ROOT
 
 POM = "{http://maven.apache.org/POM/4.0.0}"
@@ -29,7 +28,7 @@ def test_each_file_that_names_the_products_version_has_it(pattern) -> None:
     files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
     assert files
     for path in files:
-        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/version.py {version.product()}"
+        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/build/version.py {version.product()}"
 
 
 def test_the_shim_has_the_products_version() -> None:
