@@ -44,7 +44,7 @@ def read(path: str) -> list[Case]:
 def read_skipped(path: str) -> dict[str, str]:
     """Returns the tests of CTest that were skipped, each with the reason that its output gives."""
     reasons = {}
-    for test in itertools.chain(*_Results.fromfile(path)):  # type: ignore[no-untyped-call]
+    for test in itertools.chain(*_Results.fromfile(path)):
         if _skipped(test):
             reason = re.search(r"SKIPPED: (.*)", test.system_out or "")
             reasons[str(test.name)] = reason[1] if reason else "it gave no reason"

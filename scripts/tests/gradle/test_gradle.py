@@ -1,6 +1,7 @@
 """Gradle builds and tests the modules, does nothing twice, and its jars equal Maven's."""
 import os
 import re
+import shutil
 import subprocess
 import unittest
 import zipfile
@@ -8,13 +9,13 @@ from pathlib import Path
 
 from build.places import ROOT
 
+GRADLE = os.environ.get("COLLEKTIVE_GRADLE", "gradle")
 # Written by each build about itself.
 OWN = re.compile(r"META-INF/(MANIFEST\.MF|maven/.*)$|.*/$")
 
 
 def gradle(*tasks: str) -> subprocess.CompletedProcess[str]:
-    command = [os.environ.get("COLLEKTIVE_GRADLE", "gradle"), "--no-daemon", "--console=plain", *tasks]
-    return subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return subprocess.run([GRADLE, "--no-daemon", "--console=plain", *tasks], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
 def entries(path: Path) -> dict[str, bytes | list[bytes]]:
@@ -32,6 +33,10 @@ class Gradle(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
+        if shutil.which(GRADLE) is None:
+            reason = "there is no Gradle on the PATH, nor one that COLLEKTIVE_GRADLE names"
+            Path(os.environ["COLLEKTIVE_RESULTS"], "notes").write_text(f"gradle: skipped, {reason}\n")
+            raise unittest.SkipTest(reason)
         # The second run reuses the results of the first and its configuration.
         cls.first, cls.second = (gradle("build", "kotlinSourcesJar") for _ in range(2))
         print(cls.first.stdout, cls.second.stdout, sep="\n")
