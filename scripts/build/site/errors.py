@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 from build.site.sources import commands, help_of, text
 
-
 # By the name of a code in the C header, what to do next. The text of an error names the file, node or setting.
 NEXT = {
     "ARGUMENT": "Correct the setting or argument that the text names.",
