@@ -58,13 +58,13 @@ set(package Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Col
 assembly(Collektive.Player.exe SOURCES "${HEADLESS}/Player" "${HEADLESS}/Replay" REFERENCES ${package} Newtonsoft.Json.dll Mono.Posix.dll)
 
 # generated_code(TARGET FOLDER SCHEMA...): the generator's C# of schemas, each in a folder below FOLDER.
-# The folder has the name of the sample, or else of the schema.
+# The folder has the name of the sample or of the folder below build/generated, or else of the schema.
 function(generated_code TARGET FOLDER)
   set(commands)
   foreach(schema ${ARGN})
     cmake_path(GET schema STEM name)
-    if(schema MATCHES "/Samples~/([^/]*)/")
-      set(name "${CMAKE_MATCH_1}")
+    if(schema MATCHES "/(Samples~|generated)/([^/]*)/")
+      set(name "${CMAKE_MATCH_2}")
     endif()
     list(APPEND commands AND ${generator} --schema "${schema}" --csharp "${FOLDER}/${name}")
   endforeach()
@@ -97,10 +97,9 @@ assembly(stubs/Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERA
 set(probe "${HEADLESS}/Tests/Simulation/Probe")
 file(GLOB schemas "${PROJECT_SOURCE_DIR}/schema/test/*.fbs")
 collektive_python(swap build/swap_data.py)
-set(swapped "${GENERATED}/swapped.fbs")
-collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swap" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
-    "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs"
-  AND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
+set(swapped "${GENERATED}/swapped/features.fbs")
+collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swapped" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
+  "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs" DEPENDS scripts/build/swap_data.py FOLDERS "${PROJECT_SOURCE_DIR}/schema/test")
 generated_code(test_code "${GENERATED}/tests" "${probe}/probe.fbs" ${schemas} "${swapped}")
 
 if(COLLEKTIVE_NUNIT)
