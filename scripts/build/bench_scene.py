@@ -89,4 +89,4 @@ def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=2) + "\n")
-    print(table(rows))
+    print(table(rows), flush=True)

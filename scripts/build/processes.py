@@ -57,6 +57,8 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
     """Runs a command and returns its exit code; a signal to the group interrupts the command, not the waiting for it."""
     global _waiting
     _waiting = True
+    # What was printed so far comes before the command's output.
+    sys.stdout.flush()
     try:
         # The checkout's lock is inherited.
         return subprocess.Popen(command, env=env, cwd=cwd, stdout=stdout, close_fds=False).wait()
