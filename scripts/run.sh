@@ -98,7 +98,7 @@ programs_jar() {
 }
 
 # What programs know of their links: part of the library of the built-in runtime, compiled with the programs for another one.
-LINKS="$ROOT/jvm-host/links/src/main/kotlin"
+LINKS="$ROOT/jvm-host/stdlib/src/main/kotlin/org/collektive/links"
 
 # compile_programs SCHEMA PROGRAMS RUNTIME_JARS PLUGIN WORK
 compile_programs() {

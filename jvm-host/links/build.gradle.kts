@@ -1,8 +1,0 @@
-plugins {
-    id("org.collektive.kotlin-module")
-}
-
-dependencies {
-    api(project(":dsl"))
-    api(project(":api"))
-}
