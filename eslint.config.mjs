@@ -8,7 +8,7 @@ const globals = (names) => Object.fromEntries(names.split(' ').map((name) => [na
 export default [
   js.configs.recommended,
   {
-    files: ['unity/Headless~/Replay/**/*.{js,mjs}', 'scripts/site/*.mjs'],
+    files: ['unity/Headless~/Replay/**/*.{js,mjs}', 'scripts/**/*.mjs'],
     languageOptions: { globals: globals(
       'Blob Buffer DecompressionStream MediaRecorder OffscreenCanvas Response TextDecoder URL atob cancelAnimationFrame console devicePixelRatio document'
         + ' getComputedStyle innerWidth matchMedia navigator performance process requestAnimationFrame setTimeout window',

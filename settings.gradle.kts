@@ -1,10 +1,14 @@
-// The modules of jvm-host for those who live in Gradle or IntelliJ; CI and ./collektive use jvm-host/pom.xml.
+// Builds jvm-host with Gradle, for its users and IntelliJ. The modules are described in jvm-host/pom.xml and jvm-host/*/pom.xml.
 pluginManagement {
     includeBuild("gradle/build-logic")
     repositories {
         mavenCentral()
         gradlePluginPortal()
     }
+}
+
+plugins {
+    id("org.collektive.maven-modules")
 }
 
 dependencyResolutionManagement {
@@ -14,32 +18,3 @@ dependencyResolutionManagement {
 }
 
 rootProject.name = "collektive"
-
-val modules = listOf(
-    "flatbuffers",
-    "spi",
-    "dsl",
-    "runtime",
-    "mailbox",
-    "compiler-plugin",
-    "lifter",
-    "fielded",
-    "stdlib",
-    "api",
-    "links",
-    "engine",
-    "generator",
-    "frames",
-    "testing",
-    "host",
-    "tools",
-    "programs",
-    "bench",
-    "stress",
-    "conformance",
-    "architecture",
-)
-for (module in modules) {
-    include(module)
-    project(":$module").projectDir = file("jvm-host/$module")
-}

@@ -6,6 +6,7 @@ import sys
 from typing import NoReturn
 
 from . import experiment as experiments
+from .options import add_sweep_arguments
 from .positions import ExperimentError
 from .slurm import run_task, write_job
 from .store import Store
@@ -27,15 +28,7 @@ def main(words: list[str]) -> int:
     parser = Parser(prog="./collektive")
     commands = parser.add_subparsers(dest="command", required=True)
     sweeping = commands.add_parser("sweep")
-    sweeping.add_argument("experiment")
-    sweeping.add_argument("--out")
-    sweeping.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)))
-    sweeping.add_argument("--time-limit", type=_positive, default=3600)
-    for flag in ("--resume", "--csv", "--dry-run", "--trust-jvm"):
-        sweeping.add_argument(flag, action="store_true")
-    where = sweeping.add_mutually_exclusive_group()
-    where.add_argument("--ray", metavar="ADDRESS")
-    where.add_argument("--slurm", action="store_true")
+    add_sweep_arguments(sweeping)
     task = commands.add_parser("task")
     task.add_argument("folder")
     task.add_argument("index", type=int)
@@ -101,12 +94,6 @@ def _plot(options: argparse.Namespace) -> int:
     for path in plot(options.folder):
         print(path)
     return 0
-
-
-def _positive(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number above 0")
-    return int(text)
 
 
 if __name__ == "__main__":

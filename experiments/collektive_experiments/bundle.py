@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from typing import Any
 
@@ -82,7 +83,7 @@ def fingerprint(folder: str) -> str:
 def prepare(scenario: str, bundle: str, trust: bool) -> None:
     """
     Makes the bundle, or checks that the scenario's inputs are those of the bundle that is there: runs of one sweep have one program.
-    `COLLEKTIVE` names the command that builds.
+    `COLLEKTIVE` names the command of the checkout whose scripts/build/bundle.py builds.
     """
     with tempfile.TemporaryDirectory(dir=os.path.dirname(bundle), prefix=".inputs-") as work:
         inputs = os.path.join(work, "inputs")
@@ -92,7 +93,8 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
                 raise ExperimentError(f"the scenario, its scripts, schema or programs are not those that the runs in '{os.path.dirname(bundle)}' were made of: "
                                       "name another folder with --out, or undo the change")
             return
-        command = [os.environ["COLLEKTIVE"], "step", "sweep_bundle", os.path.abspath(scenario), os.path.abspath(work)]
+        script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
+        command = [sys.executable, "-I", script, os.path.abspath(scenario), os.path.abspath(work)]
         if subprocess.run(command + (["--trust-jvm"] if trust else [])).returncode != 0:
             raise ExperimentError("the scenario could not be built; see above")
         os.rename(work, bundle)

@@ -46,6 +46,8 @@ class LocalPool:
         self._workers = [Worker(store.bundle, os.path.join(logs, f"worker-{index + 1}.txt"), trust) for index in range(jobs)]
         self._tasks: deque[Task] = deque()
         self._threads: list[threading.Thread] = []
+        self._lock = threading.Lock()
+        self._running: set[Worker] = set()
         self._stopped = False
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
@@ -56,24 +58,28 @@ class LocalPool:
             thread.start()
 
     def stop(self) -> None:
-        """Ends the runs at hand, and the workers."""
-        self._stopped = True
-        for worker in self._workers:
-            worker.kill()
+        """Ends the runs at hand, and the workers. Idle workers exit by themselves."""
+        with self._lock:
+            self._stopped = True
+            for worker in self._running:
+                worker.kill()
         for thread in self._threads:
             thread.join()
 
     def _work(self, worker: Worker, ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
         try:
-            while not self._stopped:
-                try:
+            while True:
+                with self._lock:
+                    if self._stopped or not self._tasks:
+                        break
                     number, run = self._tasks.popleft()
-                except IndexError:
-                    break
+                    self._running.add(worker)
                 began = time.monotonic()
                 outcome = worker.run(run.settings, run.jvm, self._store.place(run), self._limit)
-                if self._stopped:
-                    break
+                with self._lock:
+                    self._running.remove(worker)
+                    if self._stopped:
+                        break
                 seconds = time.monotonic() - began
                 self._store.finish(run, number, outcome, seconds)
                 ended.put((number, run, outcome, seconds))

@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 COLLEKTIVE = str(ROOT / "collektive")
-PROJECT = ROOT / "scripts/acceptance/foreign"
+PROJECT = ROOT / "scripts/tests/acceptance/foreign"
 GRADIENTS = ROOT / "experiments/gradients"
 
 

@@ -3,6 +3,7 @@ import json
 from pathlib import Path
 
 import pytest
+
 from collektive_experiments import ExperimentError, read
 from collektive_experiments.experiment import name_of
 

@@ -1,6 +1,7 @@
 """Statistics of experiments."""
 import numpy as np
 import pandas as pd
+
 from collektive_experiments import Results, compare, interval
 from collektive_experiments.figures import at_end, over_time
 

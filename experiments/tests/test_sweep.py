@@ -11,8 +11,9 @@ from pathlib import Path
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from collektive_experiments import compare, load
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
+
+from collektive_experiments import compare, load
 
 MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
 """Long enough to be disturbed."""

@@ -3,16 +3,15 @@ pluginManagement {
         mavenCentral()
         gradlePluginPortal()
     }
+    val kotlin = file("../../jvm-host/pom.xml").readText().substringAfter("<kotlin.version>").substringBefore("<")
+    plugins {
+        id("org.jetbrains.kotlin.jvm") version kotlin
+    }
 }
 
 dependencyResolutionManagement {
     repositories {
         mavenCentral()
-    }
-    versionCatalogs {
-        create("libs") {
-            from(files("../libs.versions.toml"))
-        }
     }
 }
 

@@ -253,8 +253,7 @@ int32_t host_start(char *version, int32_t capacity) {
 
 /* docs/boundary.md lets the host return these; the other codes report the shim's own state. */
 static bool is_host_code(jlong code) {
-    static const int32_t codes[] = {CLK_ARGUMENT, CLK_MEMORY,  CLK_HANDLE,         CLK_HOST, CLK_FRAME,
-                                    CLK_SCHEMA,   CLK_PROGRAM, CLK_SESSION_FAILED, CLK_JAVA};
+    static const int32_t codes[] = {CLK_ARGUMENT, CLK_HANDLE, CLK_HOST, CLK_FRAME, CLK_SCHEMA, CLK_PROGRAM, CLK_SESSION_FAILED, CLK_JAVA};
     bool found = false;
     for (int i = 0; i < COUNT(codes); i++) found |= codes[i] == code;
     return found;

@@ -172,6 +172,7 @@ void host_errors(void) {
     CHECK_CODE(CLK_FRAME, "the host says no: \xC3\xA4\xE2\x82\xAC\xF0\x9F\x9A\x80", step(session, FAIL, CLK_FRAME, 1000));
     CHECK_CODE(CLK_SCHEMA, "different schemas", step(session, FAIL_SILENTLY, CLK_SCHEMA, 1000));
     CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* a code of the shim, not of the host */
+    CHECK_CODE(CLK_HOST, "-2", step(session, FAIL, CLK_MEMORY, 1000));
     CHECK_CODE(CLK_HOST, "-99", step(session, FAIL, -99, 1000));
     CHECK_CODE(CLK_HOST, "-2147483648", step(session, FAIL, INT32_MIN, 1000));
     CHECK_CODE(CLK_JAVA, "IllegalStateException", step(session, GROW_FOREIGN, 0, 1000));

@@ -9,11 +9,14 @@ import shutil
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+import compile_schemas  # noqa: E402
+
 CORPUS = os.path.join(HERE, "corpus")
 ROOT = os.path.dirname(os.path.dirname(HERE))
-COLLEKTIVE = os.path.join(ROOT, "collektive")
 
 SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "ulong", "float", "double"]
 PLAIN = ["Alpha", "Beta", "Gamma", "Delta", "Omega", "Robot", "Wheel", "Arm", "Goal", "Area", "Point", "Track", "Zone", "Lamp"]
@@ -43,7 +46,7 @@ HOSTILE_COMMENTS = ["*/ int evil; /*", "\\u002a\\u002f int evil; /*", "/ int evi
 class RandomSchema:
     """One schema file, of which few names and comments are hostile."""
 
-    def __init__(self, source, root):
+    def __init__(self, source, root) -> None:
         self.random = source
         self.root = root
         self.hostile = source.choice([0, 0, 0.02, 0.05, 0.15])
@@ -155,11 +158,7 @@ class RandomSchema:
         return self.pick(["user.fbs", "my_swarm.fbs"], HOSTILE_FILES)
 
 
-def step(*words):
-    return subprocess.run([COLLEKTIVE, "step", *words], capture_output=True, text=True)
-
-
-def write_batch(folder, seed, count):
+def write_batch(folder, seed, count) -> None:
     """Writes random schemas to `cases`, each in a folder that is named as its namespace."""
     source = random.Random(seed)
     for i in range(count):
@@ -174,9 +173,7 @@ def write_batch(folder, seed, count):
 
 def run(folder, records=20):
     """Runs all schemas of `cases`. Returns how many were made and refused, and what went wrong: (case, text)."""
-    java, classes = os.environ["FUZZ_JAVA"], os.environ["FUZZ_GENERATOR"]
-    each = subprocess.run([java, "-cp", classes, "org.collektive.generator.GenerateEach", os.environ["FUZZ_FLATC"], os.path.join(ROOT, "schema"), folder],
-                          capture_output=True, text=True)
+    each = subprocess.run([*compile_schemas.GENERATE_EACH, folder], capture_output=True, text=True)
     outcomes = [line.split("\t") for line in each.stdout.splitlines()]
     findings = []
     if len(outcomes) != len(os.listdir(os.path.join(folder, "cases"))):
@@ -191,15 +188,14 @@ def run(folder, records=20):
 
 
 def compile_and_compare(folder, made, records):
-    compiled = step("compile_fuzzed", folder)
-    if compiled.returncode != 0:
-        text = compiled.stdout + compiled.stderr
+    text = compile_schemas.compile_generated(Path(folder))
+    if text:
         blamed = {case for case in made if re.search(rf"/(csharp|jvm)/{re.escape(case)}/", text)}
         return [(case, "\n".join(line for line in text.splitlines() if f"/{case}/" in line)[:3000]) for case in sorted(blamed)] or [("all", text[-6000:])]
     names = ",".join(sorted(file[:-len(".bfbs")] for file in os.listdir(os.path.join(folder, "jvm", "META-INF", "collektive"))))
     findings = []
-    csharp = ["mono-sgen", os.path.join(folder, "RoundTrip.exe")]
-    kotlin = [os.environ["FUZZ_JAVA"], "-cp", os.path.join(folder, "classes") + ":" + os.environ["FUZZ_FRAMES"], "org.collektive.frames.data.RoundTrip"]
+    csharp = compile_schemas.round_trip_csharp(Path(folder, "RoundTrip.exe"))
+    kotlin = compile_schemas.round_trip_kotlin(Path(folder, "classes"))
     for writer, reader in [(csharp, kotlin), (kotlin, csharp)]:
         data = os.path.join(folder, "data")
         for command in [[*writer, "write", names, data, str(records), "1"], [*reader, "read", names, data]]:
@@ -222,7 +218,7 @@ def batch(folder, seed, count):
     return run(folder)
 
 
-def main():
+def main() -> None:
     end, seed = time.time() + float(sys.argv[1]), int(sys.argv[2])
     work, totals, found = os.path.join(ROOT, "build", "fuzz", "schemas"), [0, 0], 0
     while time.time() < end:

@@ -10,7 +10,7 @@ using UnityEngine.Headless;
 using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
-/// Usage: Collektive.TestRunner.exe [--results FILE] [--without CATEGORY]... ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
+/// Usage: Collektive.TestRunner.exe [--results FILE] [--only CATEGORY] [--without CATEGORY]... ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
 /// or none ran; tests of a category that are left out are counted. FILE gets the results as JUnit XML at the end; a run that does not come to its
 /// end leaves none.
 /// An attribute of NUnit's that this runner does not know is a failure: its test might not be run as it asks.
@@ -33,6 +33,7 @@ static class Program
     static readonly SortedDictionary<string, int> leftOut = new SortedDictionary<string, int>(StringComparer.Ordinal);
     static int passed, failed;
     static bool isUnity, isPlayMode;
+    static string only;
 
     static int Main(string[] arguments)
     {
@@ -40,6 +41,7 @@ static class Program
         while (arguments[0].StartsWith("--", StringComparison.Ordinal))
         {
             if (arguments[0] == "--results") file = arguments[1];
+            else if (arguments[0] == "--only") only = arguments[1];
             else if (arguments[0] == "--without") leftOut[arguments[1]] = 0;
             else throw new ArgumentException("unknown option " + arguments[0]);
             arguments = arguments.AsSpan(2).ToArray();
@@ -81,9 +83,11 @@ static class Program
         var arguments = testCase?.Arguments;
         var name = $"{type.FullName}.{method.Name}" + (arguments == null ? "" : "(" + string.Join(", ", arguments) + ")");
         if (name.IndexOf(filter, StringComparison.Ordinal) < 0 || method.IsDefined(typeof(IgnoreAttribute), true)) return;
+        bool HasCategory(string category) => testCase?.Category == category || IsIn(category, method) || IsIn(category, type);
+        if (only != null && !HasCategory(only)) return;
         foreach (var category in new List<string>(leftOut.Keys))
         {
-            if (testCase?.Category != category && !IsIn(category, method) && !IsIn(category, type)) continue;
+            if (!HasCategory(category)) continue;
             leftOut[category]++;
             return;
         }

@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllText(Path.Combine(Installation.PathOf("jars"), "dsl.jar")), Is.EqualTo("dsl"));
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Mono")]
         public void Programs_that_changed_are_built_first()
         {
             UseKotlin();

@@ -4,22 +4,18 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.engine.Philox
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.round
 import org.collektive.schema.Vector3Value
-import org.collektive.spi.Export
-import org.collektive.spi.Inbox
+import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
 /** Node 0 at the origin senses 10, node 1 at (3, 1, 4) senses 20. The expected values are calculated by hand. */
 class GradientAscentTest {
-    private val runtimes = AggregateRuntimes()
-    private val devices = List(2) { runtimes.device(it) }
-    private val exports = arrayOfNulls<Export>(2)
+    private val network = Network(AggregateRuntimes(), 0, 1)
 
     private fun round(id: Int, neighbor: Int?, sensors: SensorData, step: String = "1.0"): List<Float> {
-        val target = devices[id].round(inbox(neighbor)) { gradientAscent(sensors, device(id, step)) }.target
-        exports[id] = devices[id].commit()
+        if (neighbor != null) network.linkOneWay(neighbor, id)
+        val target = network.round(listOf(id)) { gradientAscent(sensors, device(id, step)) }.getValue(id).target
         return listOf(target.x, target.y, target.z)
     }
 
@@ -59,15 +55,6 @@ class GradientAscentTest {
     fun `a neighbour or an obstacle at the same position has no direction`() {
         round(1, null, sensors(20f, Vector3Value(0f, 1f, 0f)))
         assertEquals(listOf(0f, 1f, 0f), round(0, 1, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(0f, 0f, 0f))))
-    }
-
-    private fun inbox(neighbor: Int?): Inbox = object : Inbox {
-        override val size = if (neighbor == null) 0 else 1
-        override val ids: Array<Any> = if (neighbor == null) emptyArray() else arrayOf(neighbor)
-
-        override fun export(index: Int) = exports[checkNotNull(neighbor)]
-
-        override fun wasKnown(index: Int) = true
     }
 
     private fun device(id: Int, step: String): Device = object : Device {

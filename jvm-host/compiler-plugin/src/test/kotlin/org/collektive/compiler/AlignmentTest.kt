@@ -129,10 +129,9 @@ class AlignmentTest {
 
     @Test
     fun `calls that cannot reach a primitive are not aligned`() {
-        val network = ReferenceDevices(0)
+        val network = referenceNetwork(0)
         network.round(compiled.program("plain"))
-        val device = network.devices.getValue(0) as ReferenceDevice
-        assertEquals(listOf("neighboring"), device.pushed.map(::readable))
+        assertEquals(listOf("neighboring"), network.firstAligned.pushed.map(::readable))
     }
 
     @Test

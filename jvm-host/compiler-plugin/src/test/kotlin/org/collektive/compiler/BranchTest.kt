@@ -54,15 +54,7 @@ class BranchTest {
         assertEquals(listOf("|| > neighboring"), trace(compiled.program("or")).second)
     }
 
-    /** The neighbours in the fields of some of four devices, all linked, after two rounds. */
-    private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>) {
-        for (plain in listOf(false, true)) {
-            val network = ReferenceDevices(0, 1, 2, 3, plain = plain)
-            network.round(compiled.program(program))
-            val seen = network.round(compiled.program(program))
-            for ((id, ids) in expected) assertEquals<Any?>(ids, seen[id], "$program of device $id (plain: $plain)")
-        }
-    }
+    private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>) = assertSeen(compiled, program, expected)
 
     private companion object {
         val compiled = Compilation.of(

@@ -1,5 +1,7 @@
 package org.collektive.compiler
 
+import org.collektive.testkit.Network
+import org.collektive.testkit.ReferenceDevices
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
@@ -11,8 +13,8 @@ class ConstructsTest {
         val plugin = Compilation.of(SOURCE)
         val plain = Compilation.of(SOURCE, "collektiveEnabled=false")
         for (name in names) {
-            val aligned = ReferenceDevices(0).round(plugin.program(name))
-            val manual = ReferenceDevices(0, unchecked = true).round(plain.program(name))
+            val aligned = referenceNetwork(0).round(plugin.program(name))
+            val manual = Network(ReferenceDevices(ignoresClashes = true), 0).round(plain.program(name))
             assertEquals(manual, aligned, name)
         }
         assertEquals(NUMBER, names.size)

@@ -23,20 +23,20 @@ class FailureTest {
 
     @Test
     fun `a failure outside all calls has no path`() {
-        val network = ReferenceDevices(0)
+        val network = referenceNetwork(0)
         assertThrows<IllegalStateException> { network.round(compiled.program("root")) }
-        assertEquals(null, (network.devices.getValue(0) as ReferenceDevice).failed)
+        assertEquals(null, network.firstAligned.failed)
     }
 
     @Test
     fun `devices of other implementations pass exceptions on`() {
-        assertThrows<IllegalStateException> { ReferenceDevices(0, plain = true).round(compiled.program("plain")) }
+        assertThrows<IllegalStateException> { referenceNetwork(0, plain = true).round(compiled.program("plain")) }
     }
 
     private fun assertFails(program: String, path: String, location: String) {
-        val network = ReferenceDevices(0)
+        val network = referenceNetwork(0)
         val thrown = assertThrows<IllegalStateException> { network.round(compiled.program(program)) }
-        val (place, failure) = checkNotNull((network.devices.getValue(0) as ReferenceDevice).failed)
+        val (place, failure) = checkNotNull(network.firstAligned.failed)
         assertEquals(listOf(thrown, path, location), listOf(failure, place.path, place.location))
     }
 

@@ -22,9 +22,9 @@ class ProjectionTest {
 
     @Test
     fun `a field made in the arm needs no projection`() {
-        val network = ReferenceDevices(0, 1)
+        val network = referenceNetwork(0, 1)
         network.round(compiled.program("madeInside"))
-        assertEquals(listOf("if > neighboring"), network.devices.getValue(0).visited)
+        assertEquals(listOf("if > neighboring"), network.first.visited)
     }
 
     @Test
@@ -63,18 +63,12 @@ class ProjectionTest {
 
     @Test
     fun `the local entry is the same in every projection`() {
-        val network = ReferenceDevices(0, 1)
+        val network = referenceNetwork(0, 1)
         assertEquals(mapOf<Int, Any?>(0 to 0, 1 to -1), network.round(compiled.program("localEntry")))
     }
 
-    private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>, plainToo: Boolean = true) {
-        for (plain in if (plainToo) listOf(false, true) else listOf(false)) {
-            val network = ReferenceDevices(0, 1, 2, 3, plain = plain)
-            network.round(compiled.program(program))
-            val seen = network.round(compiled.program(program))
-            for ((id, ids) in expected) assertEquals<Any?>(ids, seen[id], "$program of device $id (plain: $plain)")
-        }
-    }
+    private fun assertSeen(program: String, vararg expected: Pair<Int, Set<Int>>, plainToo: Boolean = true) =
+        assertSeen(compiled, program, expected, plainToo)
 
     private companion object {
         val compiled = Compilation.of(

@@ -47,9 +47,9 @@ class TokensTest {
     }
 
     private fun tokens(compilation: Compilation): List<List<String>> {
-        val network = ReferenceDevices(0)
+        val network = referenceNetwork(0)
         network.round(compilation.program("main"))
-        return network.devices.getValue(0).paths.map { path -> path.map { it as String } }
+        return network.first.paths.map { path -> path.map { it as String } }
     }
 
     private companion object {

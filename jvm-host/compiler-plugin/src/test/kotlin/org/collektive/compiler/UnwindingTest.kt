@@ -34,9 +34,9 @@ class UnwindingTest {
 
     private fun assertLastPath(program: String, expected: String, plainToo: Boolean = true) {
         for (plain in if (plainToo) listOf(false, true) else listOf(false)) {
-            val network = ReferenceDevices(0, plain = plain)
+            val network = referenceNetwork(0, plain = plain)
             network.round(compiled.program(program))
-            assertEquals(expected, network.devices.getValue(0).visited.last(), "plain: $plain")
+            assertEquals(expected, network.first.visited.last(), "plain: $plain")
         }
     }
 

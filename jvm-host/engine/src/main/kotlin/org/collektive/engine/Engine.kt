@@ -14,27 +14,23 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val nodes = Peers()
     private val validator = TickValidator(nodes)
     private val result = TickResult()
-    private val pool = RoundPool(if (settings.schedule == Schedule.SEQUENTIAL) 1 else settings.threads)
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
     private val clock = Clock()
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
     private val deliveryTask = RoundPool.Task(::deliverRange)
     private var turns = IntArray(0)
+    private var linkCount = 0
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
     }
 
+    // Starts threads, so it comes last.
+    private val pool = RoundPool(if (isSequential) 1 else settings.threads)
+
     /** The last tick whose changes were applied; 0 before the first. */
     public val lastTick: Long get() = clock.tick
-
-    /** Number of nodes. */
-    public val nodeCount: Int get() = nodes.size
-
-    /** Number of directed links. */
-    public var linkCount: Int = 0
-        private set
 
     /** Announces a tick, so that the threads wake up while its frame is read. */
     public fun wake() {
@@ -55,8 +51,10 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
         validator.check(tick, clock.tick + 1)
-        result.reset(tick.due.size)
+        result.reset(tick.number, tick.due.size)
         apply(tick)
+        result.nodeCount = nodes.size
+        result.linkCount = linkCount
         if (!isSequential) order.arrange(nodes, linkCount, tick.number)
         runtimes.tidy(runtimesOfNodes)
         findDue(tick)

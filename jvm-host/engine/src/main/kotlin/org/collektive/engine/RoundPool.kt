@@ -5,12 +5,12 @@ import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
 
 /**
- * The threads of one session. Call [run] from one thread at a time; it allocates nothing.
+ * The threads of one session. Call [run] from one thread at a time; it allocates nothing. If a thread cannot start, the others end.
  *
  * Threads take work in ranges of indices. Which thread takes which range depends on timing, so a task's results must not depend on the
  * order.
  */
-internal class RoundPool(private val size: Int) {
+internal class RoundPool @JvmOverloads constructor(private val size: Int, start: (Thread) -> Unit = Thread::start) {
     /** Processes the indices `begin until end` of [input] on the thread [worker]. */
     fun interface Task<in T> {
         fun run(input: T, thread: RoundThread, worker: Int, begin: Int, end: Int)
@@ -43,7 +43,12 @@ internal class RoundPool(private val size: Int) {
         private set
 
     init {
-        for (worker in workers) worker.thread.start()
+        try {
+            for (worker in workers) start(worker.thread)
+        } catch (e: Throwable) {
+            abandon()
+            throw e
+        }
     }
 
     /** Wakes the threads that the last [run] needed; they spin for up to [WATCH_NANOS] until the next one. */

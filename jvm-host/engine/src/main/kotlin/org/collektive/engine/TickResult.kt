@@ -6,6 +6,18 @@ public class TickResult internal constructor() {
     private var answers = arrayOfNulls<Any?>(0)
     private var failures = arrayOfNulls<String>(0)
 
+    /** Number of the tick. */
+    public var tick: Long = 0
+        private set
+
+    /** Number of nodes after the tick's changes. */
+    public var nodeCount: Int = 0
+        internal set
+
+    /** Number of directed links after the tick's changes. */
+    public var linkCount: Int = 0
+        internal set
+
     /** Number of due nodes. */
     public var size: Int = 0
         private set
@@ -35,7 +47,8 @@ public class TickResult internal constructor() {
 
     internal fun node(index: Int): Node = nodes[index] ?: error("no due node $index of $size")
 
-    internal fun reset(count: Int) {
+    internal fun reset(tick: Long, count: Int) {
+        this.tick = tick
         answers.fill(null, 0, size)
         failures.fill(null, 0, size)
         if (nodes.size < count) {

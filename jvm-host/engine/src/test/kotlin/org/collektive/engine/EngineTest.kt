@@ -64,22 +64,22 @@ class EngineTest {
     @Test
     fun `removing a node removes its links`() = TestEngine(seen).use { test ->
         with(test) {
-            step {
+            val first = step {
                 add(1, 2, 3)
                 link(1, 2)
                 link(2, 1)
                 link(3, 2)
             }
-            assertEquals(3, engine.linkCount)
-            step { nodesRemoved.add(2) }
-            assertEquals(0, engine.linkCount)
-            assertEquals(2, engine.nodeCount)
-            step {
+            assertEquals(3, first.linkCount)
+            val second = step { nodesRemoved.add(2) }
+            assertEquals(0, second.linkCount)
+            assertEquals(2, second.nodeCount)
+            val third = step {
                 nodesRemoved.add(1)
                 add(1, 2)
                 link(1, 2)
             }
-            assertEquals(1, engine.linkCount)
+            assertEquals(1, third.linkCount)
         }
     }
 

@@ -1,15 +1,14 @@
 package org.collektive.engine
 
-import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
-import it.unibo.collektive.aggregate.api.share
-import it.unibo.collektive.aggregate.api.sharing
-import it.unibo.collektive.aggregate.values
 import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.SharingRule
+import org.collektive.testkit.Network
+import org.collektive.testkit.Piece
+import org.collektive.testkit.RandomPrograms
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
@@ -18,70 +17,41 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Devices on Collektive's public API compute the same results as the project's own runtime. */
+/** Devices on Collektive's public API compute the same as the project's own runtime, and the engine the same as the test kit's network. */
 class MailboxRuntimesTest {
     @TestFactory
     fun `random programs give the same answers for hundreds of ticks with nodes and links that come and go`(): List<DynamicTest> =
         Schedule.entries.flatMap { schedule ->
             (1..6).map { seed ->
                 DynamicTest.dynamicTest("$schedule, seed $seed") {
-                    val own = run(seed, schedule, AggregateRuntimes())
-                    assertEquals(own, run(seed, schedule, MailboxRuntimes()))
+                    val piece = RandomPrograms(Random(seed)).next()
+                    val own = run(seed, schedule, AggregateRuntimes(), piece)
+                    assertEquals(own, run(seed, schedule, MailboxRuntimes(), piece))
+                    assertEquals(own, runWithoutEngine(seed, schedule, piece))
                     assertTrue(own.flatMap { it.values }.toSet().size > 200, "the programs do something")
                 }
             }
         }
 
-    private fun run(seed: Int, schedule: Schedule, runtimes: DeviceRuntimes): List<Map<Int, Any?>> {
-        val piece = Pieces(Random(seed)).piece(4)
-        return TestEngine(program { piece() }, 2, schedule, runtimes = runtimes).use { test ->
+    private fun run(seed: Int, schedule: Schedule, runtimes: DeviceRuntimes, piece: Piece): List<Map<Int, Any?>> =
+        TestEngine(program { piece() ?: NOTHING }, 2, schedule, runtimes = runtimes).use { test ->
             // The two describe the place of an error differently.
             Changes.random(seed, 300).map { tick ->
-                test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) "failed" else answer }
+                test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) FAILED else answer }
             }
         }
-    }
 
-    /** Random programs of all primitives. */
-    private class Pieces(private val random: Random) {
-        private var places = 0
-
-        fun piece(depth: Int): Aggregate<Int>.() -> Int {
-            val place = "place ${places++}"
-            val k = random.nextInt(2, 7)
-            if (depth == 0) return { alignedOn(place) { evolve(k) { mix(it, localId) } } }
-            val a = piece(depth - 1)
-            val b = piece(depth - 1)
-            val body: Aggregate<Int>.() -> Int = when (random.nextInt(7)) {
-                0 -> {
-                    { share(a()) { seen -> seen.all.values.list.fold(k, ::mix) } }
-                }
-
-                1 -> {
-                    { sharing(k) { seen -> mix(seen.local.value, k).yielding { mix(b(), seen.neighbors.size) } } }
-                }
-
-                2 -> {
-                    { exchanging(k) { seen -> seen.map { mix(it.id, it.value) }.yielding { seen.all.values.list.fold(k, ::mix) } } }
-                }
-
-                3 -> {
-                    { neighboring(a()).all.list.fold(k) { sum, entry -> mix(mix(sum, entry.id), entry.value) } }
-                }
-
-                4 -> {
-                    { alignedOn((localId + alignedOn("way") { a() }) % k) { b() } }
-                }
-
-                5 -> {
-                    { evolving(k) { old -> mix(old, a()).yielding { mix(this, localId) } } }
-                }
-
-                else -> {
-                    { if (mix(localId, evolve(0) { it + 1 }) % 11 == 0) error("now and then") else mix(a(), b()) }
-                }
+    private fun runWithoutEngine(seed: Int, schedule: Schedule, piece: Piece): List<Map<Int, Any?>> {
+        val network = Network(AggregateRuntimes())
+        return Changes.random(seed, 300).map { tick ->
+            tick.removed.forEach(network::remove)
+            tick.added.forEach { network.add(it) }
+            tick.unlinked.forEach { network.unlinkOneWay(it.from, it.to) }
+            tick.linked.forEach { (line, _) -> network.linkOneWay(line.from, line.to) }
+            val steps = if (schedule == Schedule.SEQUENTIAL) tick.due.map(::listOf) else listOf(tick.due)
+            buildMap {
+                for (due in steps) putAll(network.outcomes(due, piece).mapValues { it.value.fold({ it ?: NOTHING }, { FAILED }) })
             }
-            return { alignedOn(place) { body() } }
         }
     }
 
@@ -118,6 +88,7 @@ class MailboxRuntimesTest {
     }
 
     private companion object {
-        fun mix(a: Int, b: Int): Int = (a * 31 + b) % 1009
+        const val NOTHING = -1
+        const val FAILED = "failed"
     }
 }

@@ -98,7 +98,8 @@ class RefusedTicksTest {
                     link(3, 2)
                     due(1, 2, 3)
                 }.toMap()
-                listOf(second, third, step { due(1, 2, 3) }.toMap(), engine.nodeCount, engine.linkCount)
+                val last = step { due(1, 2, 3) }
+                listOf(second, third, last.toMap(), last.nodeCount, last.linkCount)
             }
         }
     }

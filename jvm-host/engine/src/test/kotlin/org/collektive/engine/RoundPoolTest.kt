@@ -6,6 +6,7 @@ import java.util.concurrent.CountDownLatch
 import java.util.concurrent.atomic.AtomicIntegerArray
 import kotlin.random.Random
 import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
 class RoundPoolTest {
@@ -28,6 +29,21 @@ class RoundPoolTest {
             }
             pool.abandon()
         }
+    }
+
+    @Test
+    @Timeout(60)
+    fun `threads end when a later one cannot start`() {
+        val started = ArrayList<Thread>()
+        assertFailsWith<OutOfMemoryError> {
+            RoundPool(3) { thread ->
+                if (started.size == 2) throw OutOfMemoryError("unable to create native thread")
+                thread.start()
+                started += thread
+            }
+        }
+        assertEquals(2, started.size)
+        started.forEach(Thread::join)
     }
 
     @Test

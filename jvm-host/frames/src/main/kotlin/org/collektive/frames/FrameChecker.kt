@@ -6,15 +6,16 @@ import java.nio.ByteBuffer
  * Verifies a table and everything that it references: every vtable, field, vector and string lies inside the frame, strings are
  * UTF-8, required fields are present. Reading a verified table never throws.
  *
- * Offsets must point forward, and no byte may belong to two objects, except to shared strings where the [policy] allows them. The work is
- * therefore bounded by the frame's size. Confined to one thread at a time; allocates only the message of an error.
+ * Offsets must point forward, and the sizes of all objects together must not exceed the frame's, shared strings excluded where the
+ * [policy] allows them. The work is therefore bounded by the frame's size. Objects may overlap as long as others leave bytes unused.
+ * Confined to one thread at a time; allocates only the message of an error.
  */
 public class FrameChecker(private val policy: FramePolicy) {
     private var frame: ByteBuffer = ByteBuffer.allocate(0)
     private var start = 0L
     private var end = 0L
 
-    /** Bytes that belong to no object so far. Negative if objects overlap. */
+    /** The frame's size less the sizes of the objects checked so far. Negative only if objects overlap. */
     private var unclaimed = 0L
 
     // Verified vtables: a direct-mapped cache.

@@ -118,25 +118,6 @@ internal class GeneratedTextTest {
         for (file in Workshop.files(output)) assertEquals(longAgo, Files.getLastModifiedTime(file), "$file")
     }
 
-    @Test
-    fun `the code committed for Unity is the generator's output`() {
-        for (schema in Workshop.files(Workshop.root.resolve("unity/Samples~")).filter { "$it".endsWith(".fbs") }) {
-            val output = Workshop.newFolder()
-            Workshop.generate(schema, output)
-            assertEquals(
-                texts(output.resolve("csharp")),
-                committed(schema.parent.resolve("Generated")),
-                "run ./collektive generate $schema",
-            )
-        }
-        val output = Workshop.newFolder()
-        val flatc = Flatc(Workshop.flatc, listOf(Workshop.root.resolve("schema")))
-        listOf("types.fbs", "frame.fbs").forEach { flatc.csharp(Workshop.root.resolve("schema/$it"), output) }
-        assertEquals(texts(output), committed(Workshop.root.resolve("unity/Runtime/Bridge/Generated")), "run flatc on schema/")
-    }
-
-    private fun committed(folder: Path) = texts(folder).filterKeys { it.endsWith(".cs") }
-
     private fun texts(folder: Path): Map<String, String> = Workshop.files(folder).associate {
         folder.relativize(it).joinToString("/") to Files.readAllBytes(it).toString(Charsets.ISO_8859_1)
     }.toSortedMap()

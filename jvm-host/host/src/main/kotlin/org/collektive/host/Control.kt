@@ -26,7 +26,7 @@ internal class Control(shim: ShimCalls) {
 
     /** Executes the `ControlRequest` in [frame] and writes the `ControlResponse`. Returns its place, `offset << 32 | length`. */
     fun answer(frame: ByteBuffer, slot: Long, answer: ByteBuffer): Long {
-        request = reading({ "the frame" }) { controlRequest(frame) }
+        request = reading { controlRequest(frame) }
         record()
         if (request.collect()) System.gc()
         buffer.begin(slot, answer)

@@ -4,6 +4,7 @@ import org.collektive.frames.frameIn
 import org.collektive.host.log.HostLog
 import org.collektive.host.session.Session
 import org.collektive.host.session.SessionOpening
+import org.collektive.host.session.orClose
 import org.collektive.host.session.reading
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
@@ -48,12 +49,8 @@ public object Host {
             requireLimit(limitMillis)
             if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
             log?.install()
-            val opened = SessionOpening.open(frame(request, offset, length), shim)
-            try {
+            SessionOpening.open(frame(request, offset, length), shim).orClose { opened ->
                 opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
-            } catch (e: Throwable) {
-                opened.close()
-                throw e
             }
         }
 
@@ -118,7 +115,7 @@ public object Host {
         return left.none(Thread::isAlive)
     }
 
-    private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading({ "the frame" }) { frameIn(slot, offset, length) }
+    private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading { frameIn(slot, offset, length) }
 
     private fun indexOf(id: Long): Int {
         for (index in sessions.indices) if (sessions[index].id == id) return index

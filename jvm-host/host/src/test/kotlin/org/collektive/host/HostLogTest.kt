@@ -78,6 +78,25 @@ internal class HostLogTest {
     }
 
     @Test
+    fun `a line is cut between characters`() {
+        for (character in listOf("\u00E4", "\u20AC", "\uD83D\uDE80")) {
+            for (before in 0..4) {
+                val text = "x".repeat(before) + character.repeat(3000)
+                println(text)
+                assertEquals(text, logs().joinToString("") { it.second })
+                assertTrue(logs().all { it.second.encodeToByteArray().size <= 4096 })
+                shim.logs.clear()
+            }
+        }
+    }
+
+    @Test
+    fun `a line of greatest length is one entry`() {
+        println("x".repeat(4096))
+        assertEquals(listOf(4096), logs().map { it.second.length })
+    }
+
+    @Test
     fun `an uncaught exception is logged once, then counted`() {
         repeat(25) { thread { error("number $it") }.join() }
         val first = logs()

@@ -1,6 +1,7 @@
 package org.collektive.host
 
 import org.collektive.frame.AggregateRuntime
+import org.collektive.host.library.AggregateLibrary
 import org.collektive.host.shim.HostError
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
@@ -9,9 +10,12 @@ import java.nio.file.Path
 import java.util.zip.ZipEntry
 import java.util.zip.ZipFile
 import java.util.zip.ZipOutputStream
+import kotlin.io.path.copyTo
 import kotlin.io.path.outputStream
+import kotlin.io.path.writeBytes
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
 /** Programs and the library that they run on. Both libraries are on the class path of the tests. */
@@ -79,6 +83,17 @@ class LibraryTest {
         session.close()
         assertContains(error, "NoSuchMethodError")
         assertContains(error, "build the programs again with the jars that run them")
+    }
+
+    @Test
+    fun `a user's library can be replaced while it is in use`() {
+        val jar = folder.resolve("library.jar")
+        ProbeJars.programs.copyTo(jar)
+        val loader = AggregateLibrary.loaderInMemory(listOf(jar))
+        assertEquals("SensorData", loader.loadClass("probe.SensorData").simpleName)
+        jar.writeBytes(ByteArray(100))
+        assertEquals("Programs", loader.loadClass("probe.Programs").simpleName)
+        assertNotNull(loader.getResource("probe/Programs.class")).readBytes()
     }
 
     @Test

@@ -46,13 +46,15 @@ internal class AggregateDevice<ID : Any>(
         this.inbox = inbox
         forgetFailure()
         running.clear()
-        ownStack = stacks.get().also { it.popTo(0) }
+        val stack = stacks.get()
+        ownStack = stack
         try {
             return program.run(this, sensors)
         } catch (failure: Throwable) {
             failing(failure)
             throw failure
         } finally {
+            stack.popTo(0)
             ownStack = null
         }
     }

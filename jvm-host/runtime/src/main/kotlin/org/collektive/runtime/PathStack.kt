@@ -21,9 +21,10 @@ internal class PathStack(private val tree: PathTree) {
         tokens[depth++] = token
     }
 
+    /** Drops what lies above [depth], so that the stack keeps no user's object reachable. */
     fun popTo(depth: Int) {
-        this.depth = depth
-        if (resolved > depth) resolved = depth
+        while (this.depth > depth) tokens[--this.depth] = null
+        while (resolved > depth) nodes[resolved--] = null
     }
 
     /** A copy of the tokens on the stack. */

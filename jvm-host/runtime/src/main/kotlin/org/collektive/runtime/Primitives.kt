@@ -64,6 +64,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** Forgets the failure of the last round. */
     protected fun forgetFailure() {
         failure = null
+        failedAt = emptyList()
     }
 
     /** The reason why [pivot] cannot align devices; `null` when it can. */

@@ -1,7 +1,9 @@
 package org.collektive.runtime
 
+import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
+import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 import org.junit.jupiter.api.Test
@@ -15,6 +17,10 @@ class ExportTest {
     private val runtimes = AggregateRuntimes()
     private val sender = runtimes.device(1)
     private val receiver = runtimes.device(2)
+
+    @Suppress("UNCHECKED_CAST")
+    private fun DeviceRuntime.round(inbox: Inbox, program: Aggregate<Int>.() -> Any?) =
+        round(inbox, { aggregate, _ -> (aggregate as Aggregate<Int>).program() }, null)
 
     private fun send(value: Int): Export {
         sender.round(inboxOf(null)) { neighboring(value) }

@@ -16,6 +16,7 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.FullPath
 import it.unibo.collektive.path.Path
 import org.collektive.alignment.project
+import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
@@ -23,138 +24,140 @@ import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class PrimitivesTest {
+    private fun network(vararg ids: Int) = Network(AggregateRuntimes(), *ids)
+
     @Test
     fun `neighboring returns what aligned neighbours sent in their last round`() {
-        val network = TestNetwork(1, 2, 3).line(1, 2, 3)
-        val first = network.values { neighboring(localId * 10).all.toMap() }
+        val network = network(1, 2, 3).line(1, 2, 3)
+        val first = network.round { neighboring(localId * 10).all.toMap() }
         assertEquals(mapOf(1 to 10), first[1], "nobody had sent anything yet")
-        val second = network.values { neighboring(localId * 100).all.toMap() }
+        val second = network.round { neighboring(localId * 100).all.toMap() }
         assertEquals(mapOf(1 to 10, 3 to 30, 2 to 200), second[2])
         assertEquals(mapOf(2 to 20, 1 to 100), second[1])
     }
 
     @Test
     fun `links are directed`() {
-        val network = TestNetwork(1, 2).apply { link(1, 2) }
-        network.values { neighborhood().neighbors.ids.list }
-        assertEquals(mapOf<Int, Any?>(1 to emptyList<Int>(), 2 to listOf(1)), network.values { neighborhood().neighbors.ids.list })
+        val network = network(1, 2).apply { linkOneWay(1, 2) }
+        network.round { neighborhood().neighbors.ids.list }
+        assertEquals(mapOf<Int, Any?>(1 to emptyList<Int>(), 2 to listOf(1)), network.round { neighborhood().neighbors.ids.list })
     }
 
     @Test
     fun `neighbours on another path are absent, not defaulted`() {
-        val network = TestNetwork(1, 2, 3).line(1, 2, 3)
+        val network = network(1, 2, 3).line(1, 2, 3)
         val program: Aggregate<Int>.() -> Any? = { alignedOn(localId == 3) { neighboring(localId).all.values.list } }
-        network.values(program = program)
-        assertEquals(mapOf<Int, Any?>(1 to listOf(2, 1), 2 to listOf(1, 2), 3 to listOf(3)), network.values(program = program))
+        network.round(program)
+        assertEquals(mapOf<Int, Any?>(1 to listOf(2, 1), 2 to listOf(1, 2), 3 to listOf(3)), network.round(program))
     }
 
     @Test
     fun `pivots are compared by equals, null and data classes included`() {
         data class Key(val name: String, val number: Int)
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             alignedOn(null) { alignedOn(Key("a", 1)) { neighboring(localId).neighbors.values.list } }
         }
-        network.values(program = program)
-        assertEquals(mapOf<Int, Any?>(1 to listOf(2), 2 to listOf(1)), network.values(program = program))
+        network.round(program)
+        assertEquals(mapOf<Int, Any?>(1 to listOf(2), 2 to listOf(1)), network.round(program))
     }
 
     @Test
     fun `evolve stores its value from round to round`() {
-        val network = TestNetwork(1)
-        assertEquals(listOf(1, 2, 3), List(3) { network.values { evolve(0) { it + 1 } }[1] })
+        val network = network(1)
+        assertEquals(listOf(1, 2, 3), List(3) { network.round { evolve(0) { it + 1 } }[1] })
     }
 
     @Test
     fun `evolving returns another value than it stores`() {
-        val network = TestNetwork(1)
-        assertEquals(listOf("1", "2"), List(2) { network.values { evolving(0) { (it + 1).yielding { toString() } } }[1] })
+        val network = network(1)
+        assertEquals(listOf("1", "2"), List(2) { network.round { evolving(0) { (it + 1).yielding { toString() } } }[1] })
     }
 
     @Test
     fun `a path that is not visited loses its state and its messages`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val visiting: Aggregate<Int>.() -> Any? = {
             val count = alignedOn("count") { evolve(0) { it + 1 } }
             count to alignedOn("near") { neighboring(localId).neighbors.values.list }
         }
-        network.values(program = visiting)
-        assertEquals(2 to listOf(2), network.values(program = visiting)[1])
-        network.values { "elsewhere" }
-        assertEquals(1 to emptyList<Int>(), network.values(program = visiting)[1])
+        network.round(visiting)
+        assertEquals(2 to listOf(2), network.round(visiting)[1])
+        network.round { "elsewhere" }
+        assertEquals(1 to emptyList<Int>(), network.round(visiting)[1])
     }
 
     @Test
     fun `null can be stored and shared`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             val kept = alignedOn("kept") { evolve<String?>("initial") { if (it == null) "was null" else null } }
             kept to alignedOn("sent") { neighboring(null as String?).neighbors.values.list }
         }
-        assertEquals(null to emptyList<Any?>(), network.values(program = program)[1])
-        assertEquals("was null" to listOf<Any?>(null), network.values(program = program)[1])
+        assertEquals(null to emptyList<Any?>(), network.round(program)[1])
+        assertEquals("was null" to listOf<Any?>(null), network.round(program)[1])
     }
 
     @Test
     fun `share can count hops`() {
-        val network = TestNetwork(0, 1, 2, 3).line(0, 1, 2, 3)
+        val network = network(0, 1, 2, 3).line(0, 1, 2, 3)
         val hops: Aggregate<Int>.() -> Any? = {
             share(99) { seen -> if (localId == 0) 0 else (seen.neighbors.values.list.minOrNull() ?: 98) + 1 }
         }
-        repeat(5) { network.values(program = hops) }
-        assertEquals(mapOf<Int, Any?>(0 to 0, 1 to 1, 2 to 2, 3 to 3), network.values(program = hops))
+        repeat(5) { network.round(hops) }
+        assertEquals(mapOf<Int, Any?>(0 to 0, 1 to 1, 2 to 2, 3 to 3), network.round(hops))
     }
 
     @Test
     fun `the local value of an exchange is the stored one, at first initial`() {
-        val network = TestNetwork(1)
+        val network = network(1)
         val program: Aggregate<Int>.() -> Any? = { sharing(5) { seen -> (seen.local.value + 1).yielding { seen.local.value } } }
-        assertEquals(listOf(5, 6, 7), List(3) { network.values(program = program)[1] })
+        assertEquals(listOf(5, 6, 7), List(3) { network.round(program)[1] })
     }
 
     @Test
     fun `exchange sends each neighbour its own value, and new neighbours the local one`() {
-        val network = TestNetwork(1, 2, 3).line(1, 2)
+        val network = network(1, 2, 3).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             exchanging("") { seen ->
                 val toSend = seen.map { "${it.id} from $localId" }
                 toSend.yielding { seen.neighbors.toMap() }
             }
         }
-        network.values(program = program)
-        network.values(program = program)
+        network.round(program)
+        network.round(program)
         network.line(1, 3)
-        val third = network.values(program = program)
+        val third = network.round(program)
         assertEquals(mapOf(1 to "2 from 1"), third[2])
         assertEquals(mapOf(1 to "1 from 1"), third[3], "1 did not know 3 when it sent")
-        assertEquals(mapOf(1 to "3 from 1"), network.values(program = program)[3])
+        assertEquals(mapOf(1 to "3 from 1"), network.round(program)[3])
     }
 
     @Test
     fun `a new node with an old id starts without state and messages`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             exchange("") { seen -> seen.map { "${it.id} from $localId" } }.let { "" }
         }
-        repeat(2) { network.values(program = program) }
+        repeat(2) { network.round(program) }
         network.remove(2)
         network.add(2)
         network.line(1, 2)
-        val seen = network.values { exchanging("") { seen -> seen.yielding { seen.neighbors.toMap() } } }
+        val seen = network.round { exchanging("") { seen -> seen.yielding { seen.neighbors.toMap() } } }
         assertEquals(mapOf(1 to "1 from 1"), seen[2])
     }
 
     @Test
     fun `mapNeighborhood maps ids, this device's included`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = { mapNeighborhood { it * 2 }.all.toMap() }
-        network.values(program = program)
-        assertEquals(mapOf(2 to 4, 1 to 2), network.values(program = program)[1])
+        network.round(program)
+        assertEquals(mapOf(2 to 4, 1 to 2), network.round(program)[1])
     }
 
     @Test
     fun `primitives inside map are aligned on the entry's id`() {
-        val network = TestNetwork(1, 2, 3).line(1, 2, 3)
+        val network = network(1, 2, 3).line(1, 2, 3)
         val program: Aggregate<Int>.() -> Any? = {
             val near = alignedOn("near") { exchanging(0) { it.yielding { neighbors.ids.list.size } } }
             val around = alignedOn("around") {
@@ -162,100 +165,101 @@ class PrimitivesTest {
             }
             near to around
         }
-        repeat(2) { network.values(program = program) }
-        assertEquals(1 to mapOf(2 to 1, 1 to 1), network.values(program = program)[1])
+        repeat(2) { network.round(program) }
+        assertEquals(1 to mapOf(2 to 1, 1 to 1), network.round(program)[1])
     }
 
     @Test
     fun `a field stored in an earlier round is projected to the current neighbours`() {
-        val network = TestNetwork(1, 2, 3, 4).line(1, 2, 3).line(2, 4)
+        val network = network(1, 2, 3, 4).line(1, 2, 3).line(2, 4)
         val program: Aggregate<Int>.() -> Any? = {
             val now = alignedOn("now") { listOf(neighborhood()) }.single()
             alignedOn("then") {
                 evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef")?.neighbors?.ids?.list } }
             }
         }
-        repeat(3) { network.values(program = program) }
-        assertEquals(listOf(1, 3, 4), network.values(program = program)[2])
+        repeat(3) { network.round(program) }
+        assertEquals(listOf(1, 3, 4), network.round(program)[2])
         network.remove(3)
-        assertEquals(listOf(1, 4), network.values(program = program)[2])
+        assertEquals(listOf(1, 4), network.round(program)[2])
     }
 
     @Test
     fun `two primitives at one path clash, and the error names the path`() {
-        val network = TestNetwork(1)
-        val clash = network.round {
-            alignedOn("outer") {
-                alignedOn(7) {
-                    evolve(0) { it }
-                    evolve(0) { it }
+        val network = network(1)
+        val error = assertFailsWith<AlignmentClashException> {
+            network.round {
+                alignedOn("outer") {
+                    alignedOn(7) {
+                        evolve(0) { it }
+                        evolve(0) { it }
+                    }
                 }
             }
-        }.getValue(1)
-        val error = assertFailsWith<AlignmentClashException> { clash.getOrThrow() }
+        }
         assertEquals<Path>(FullPath(listOf("outer", 7)), error.path)
         assertNull(error.previous, "evolve sends nothing")
         assertEquals(SharedData<Int, Int>(0), error.current)
         assertTrue("outer > 7" in error.message.orEmpty())
         val second = assertFailsWith<AlignmentClashException> {
-            network.round { neighboring(1).also { neighboring(2) } }.getValue(1).getOrThrow()
+            network.round { neighboring(1).also { neighboring(2) } }
         }
         assertEquals(1 to 2, second.previous?.payload to second.current.default)
     }
 
     @Test
     fun `a loop clashes without a key, and works with one`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             (0 until 20).sumOf { key -> alignedOn(key) { neighboring(key).neighbors.values.list.sum() } }
         }
-        network.values(program = program)
-        assertEquals(190, network.values(program = program)[1])
+        network.round(program)
+        assertEquals(190, network.round(program)[1])
     }
 
     @Test
     fun `fields do not leave alignedOn, evolve or evolving`() {
-        val network = TestNetwork(1)
-        assertFailsWith<IllegalStateException> { network.round { alignedOn(1) { neighboring(1) } }.getValue(1).getOrThrow() }
+        val network = network(1)
+        assertFailsWith<IllegalStateException> { network.round { alignedOn(1) { neighboring(1) } } }
         assertFailsWith<IllegalStateException> {
-            network.round { evolve<Any>(0) { listOf(neighborhood()).first() } }.getValue(1).getOrThrow()
+            network.round { evolve<Any>(0) { listOf(neighborhood()).first() } }
         }
         assertFailsWith<IllegalStateException> {
             network.round {
                 val field = alignedOn("x") { neighborhood().let { listOf(it) } }.first()
                 evolving(0) { it.yielding { field } }
-            }.getValue(1).getOrThrow()
+            }
         }
     }
 
     @Test
     fun `a caught exception leaves the stack as it was`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             if (localId == 1) runCatching { alignedOn("a") { alignedOn("b") { error("caught") } } }
             neighboring(localId).neighbors.values.list
         }
-        network.values(program = program)
-        assertEquals(mapOf<Int, Any?>(1 to listOf(2), 2 to listOf(1)), network.values(program = program))
+        network.round(program)
+        assertEquals(mapOf<Int, Any?>(1 to listOf(2), 2 to listOf(1)), network.round(program))
     }
 
     @Test
     fun `a failed round changes neither state nor messages`() {
-        val network = TestNetwork(1, 2).line(1, 2)
+        val network = network(1, 2).line(1, 2)
         fun program(fails: Boolean): Aggregate<Int>.() -> Any? = {
             val count = alignedOn("count") { evolve(0) { it + 1 } }
             val seen = alignedOn("seen") { neighboring(count).neighbors.values.list }
             if (fails && localId == 1) error("broken")
             count to seen
         }
-        network.values(program = program(false))
-        assertTrue(network.round(program = program(true)).getValue(1).isFailure)
-        assertEquals(mapOf<Int, Any?>(1 to (2 to listOf(2)), 2 to (3 to listOf(1))), network.values(program = program(false)))
+        network.round(program(false))
+        assertTrue(network.outcomes(program = program(true)).getValue(1).isFailure)
+        assertEquals(mapOf<Int, Any?>(1 to (2 to listOf(2)), 2 to (3 to listOf(1))), network.round(program(false)))
     }
 
     @Test
     fun `a value that the rule refuses can be neither shared, nor stored, nor a pivot`() {
-        val network = TestNetwork(1, rule = { if (it is StringBuilder) "a builder changes" else null })
+        val network = Network(AggregateRuntimes { if (it is StringBuilder) "a builder changes" else null }, 1)
         val view = StringBuilder("view")
         val programs = listOf<Aggregate<Int>.() -> Any?>(
             { alignedOn("here") { neighboring(view).local.value } },
@@ -264,11 +268,11 @@ class PrimitivesTest {
             { alignedOn("here") { evolving<Any, Int>(view) { it.yielding { 1 } } } },
         )
         for (program in programs) {
-            val error = assertFailsWith<IllegalArgumentException> { network.round(program = program).getValue(1).getOrThrow() }
+            val error = assertFailsWith<IllegalArgumentException> { network.round(program) }
             assertEquals("a builder changes; it cannot be shared or kept [node 1 at here]", error.message)
         }
         val pivot = assertFailsWith<IllegalArgumentException> {
-            network.round { alignedOn(view) { evolve(0) { it } } }.getValue(1).getOrThrow()
+            network.round { alignedOn(view) { evolve(0) { it } } }
         }
         assertEquals("a builder changes; it cannot be a pivot [node 1 at root]", pivot.message)
     }
@@ -277,8 +281,8 @@ class PrimitivesTest {
     fun `the stack can be deep`() {
         fun Aggregate<Int>.nested(depth: Int): Int =
             if (depth == 0) neighboring(localId).neighbors.values.list.sum() else alignedOn(depth) { nested(depth - 1) }
-        val network = TestNetwork(1, 2).line(1, 2)
-        network.values { nested(500) }
-        assertEquals(mapOf<Int, Any?>(1 to 2, 2 to 1), network.values { nested(500) })
+        val network = network(1, 2).line(1, 2)
+        network.round { nested(500) }
+        assertEquals(mapOf<Int, Any?>(1 to 2, 2 to 1), network.round { nested(500) })
     }
 }

@@ -12,8 +12,7 @@ import kotlin.test.assertTrue
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {
-        val names =
-            listOf("alignment", "api", "compiler", "engine", "frames", "generator", "host", "links", "mailbox", "runtime", "spi", "testing", "tools")
+        val names = "alignment api compiler engine frames generator host links mailbox runtime spi testing tools".split(' ')
         for (name in names) {
             assertTrue(classes.any { it.packageName.startsWith("org.collektive.$name") }, name)
         }

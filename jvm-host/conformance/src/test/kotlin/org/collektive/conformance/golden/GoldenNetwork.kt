@@ -2,17 +2,8 @@ package org.collektive.conformance.golden
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
-import org.collektive.api.Parameters
-import org.collektive.engine.Engine
-import org.collektive.engine.EngineSettings
-import org.collektive.engine.LinkList
-import org.collektive.engine.NewNode
-import org.collektive.engine.NodeProgram
-import org.collektive.engine.RoundData
-import org.collektive.engine.RoundDevice
-import org.collektive.engine.Schedule
-import org.collektive.engine.Tick
 import org.collektive.spi.DeviceRuntimes
+import org.collektive.testkit.Network
 import kotlin.math.hypot
 import kotlin.random.Random
 
@@ -41,25 +32,22 @@ enum class Topology(val nodes: Int, val place: (Int) -> Pair<Double, Double>) {
  * tick; otherwise nothing changes but what nodes sense. The order of random numbers is part of it.
  */
 @CollektiveIgnore("it drives the programs")
-class GoldenNetwork(private val topology: Topology, private val churning: Boolean) {
+class GoldenNetwork(private val topology: Topology, private val churning: Boolean, runtimes: DeviceRuntimes) {
     private val random = Random(SEED * 31 + topology.name.lowercase().hashCode())
+    private val network = Network(runtimes)
     private val places = sortedMapOf<Int, Pair<Double, Double>>()
-    private val known = HashSet<Int>()
-    private var linked = emptySet<Pair<Int, Int>>()
     private var nextId = 0
 
-    /** The answers of all rounds of [program], by tick and node. A failed round's answer is its error. */
-    fun answers(program: GoldenProgram, runtimes: DeviceRuntimes): List<String> =
-        Engine(EngineSettings(1, 1, Schedule.LOCKSTEP), runtimes).use { engine ->
-            repeat(topology.nodes) { add(topology.place(it)) }
-            (1..TICKS).flatMap { number ->
-                if (churning) churn(number)
-                val tick = tick(number, nodeProgram(program))
-                val senses = (0 until tick.due.size).map { sense(tick.due[it], number) }
-                val result = engine.step(tick, Data(senses), System.nanoTime() + 60_000_000_000)
-                (0 until result.size).map { index -> result.failure(index)?.let { "FAIL $it" } ?: result.answer(index).toString() }
-            }
+    /** The answers of all rounds of [program], by tick and node. */
+    fun answers(program: GoldenProgram): List<String> {
+        repeat(topology.nodes) { add(topology.place(it)) }
+        return (1..TICKS).flatMap { tick ->
+            if (churning) churn(tick)
+            update()
+            val due = network.ids.filter { !churning || random.nextInt(10) < 7 }
+            network.round(due) { program(sense(localId, tick)) }.values.map { "$it" }
         }
+    }
 
     private fun add(place: Pair<Double, Double>) {
         places[nextId++] = place
@@ -77,31 +65,15 @@ class GoldenNetwork(private val topology: Topology, private val churning: Boolea
         }
     }
 
-    private fun tick(number: Int, program: NodeProgram) = Tick().apply {
-        this.number = number.toLong()
-        time = number * .5
-        deltaTime = .5
-        for (gone in known - places.keys) {
-            known -= gone
-            linked = linked.filterTo(HashSet()) { (from, to) -> from != gone && to != gone }
-            nodesRemoved.add(gone)
+    /** Brings nodes and links in line with [places]. */
+    private fun update() {
+        (network.ids - places.keys).forEach(network::remove)
+        (places.keys - network.ids).forEach { network.add(it) }
+        for ((a, from) in places) {
+            for ((b, to) in places.tailMap(a + 1)) {
+                if (hypot(from.first - to.first, from.second - to.second) <= RANGE) network.link(a, b) else network.unlink(a, b)
+            }
         }
-        for (id in places.keys - known) {
-            known += id
-            nodesAdded += NewNode(id, program, NO_PARAMETERS)
-        }
-        val near = near()
-        for ((from, to) in linked - near) {
-            linksRemoved.add(from)
-            linksRemoved.add(to)
-        }
-        links = LinkList().apply { for ((from, to) in near - linked) add(from, to, 1f, 0f) }
-        linked = near
-        places.keys.filter { !churning || random.nextInt(10) < 7 }.forEach(due::add)
-    }
-
-    private fun near() = places.flatMapTo(HashSet()) { (from, a) ->
-        places.filter { (to, b) -> from != to && hypot(a.first - b.first, a.second - b.second) <= RANGE }.keys.map { from to it }
     }
 
     private fun sense(id: Int, tick: Int): Senses {
@@ -111,27 +83,10 @@ class GoldenNetwork(private val topology: Topology, private val churning: Boolea
         return Senses(id, x, y, tick, numbers.nextBoolean(), isSource, numbers.nextInt(10), 1_000_000L + tick * 500L + id)
     }
 
-    private fun nodeProgram(program: GoldenProgram) = object : NodeProgram {
-        override val name = "golden"
-
-        @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any =
-            program(aggregate as Aggregate<Int>, sensors as Senses) ?: "null"
-
-        override fun describe(failure: Throwable, place: String?) = "$failure $place"
-    }
-
-    private class Data(private val senses: List<Senses>) : RoundData {
-        override fun sensors(worker: Int, index: Int) = senses[index]
-
-        override fun pack(worker: Int, index: Int, answer: Any): String? = null
-    }
-
     private companion object {
         const val SEED = 1
         const val TICKS = 25
         const val CALM = 8
         const val RANGE = 1.5
-        val NO_PARAMETERS = Parameters(emptyMap<String, String>())
     }
 }

@@ -25,7 +25,7 @@ class GoldenTest {
     private fun tests(runtimes: () -> DeviceRuntimes) = goldenPrograms.map { (name, program) ->
         DynamicTest.dynamicTest(name) {
             val ours = Topology.entries.flatMap { topology ->
-                listOf(false, true).flatMap { GoldenNetwork(topology, it).answers(program, runtimes()) }
+                listOf(false, true).flatMap { GoldenNetwork(topology, it, runtimes()).answers(program) }
             }
             val theirs = answers.getValue(name)
             assertEquals(theirs.size, ours.size, "rounds")

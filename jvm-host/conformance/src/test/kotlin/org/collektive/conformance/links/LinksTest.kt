@@ -5,21 +5,9 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.stdlib.spreading.distanceTo
 import org.collektive.api.Device
-import org.collektive.api.Parameters
-import org.collektive.engine.Engine
-import org.collektive.engine.EngineSettings
-import org.collektive.engine.LinkList
-import org.collektive.engine.NewNode
-import org.collektive.engine.NodeProgram
-import org.collektive.engine.RoundData
-import org.collektive.engine.RoundDevice
-import org.collektive.engine.Schedule
-import org.collektive.engine.Tick
 import org.collektive.links.attenuations
 import org.collektive.links.distances
-import org.collektive.mailbox.MailboxRuntimes
-import org.collektive.runtime.AggregateRuntimes
-import org.collektive.spi.DeviceRuntimes
+import org.collektive.testing.TestNetwork
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
@@ -51,46 +39,18 @@ class LinksTest {
         onBoth { assertEquals<Map<Int, Any?>>(mapOf(0 to 0, 1 to -1, 2 to 0), it(Aggregate<Int>::inBranch, 3)) }
 
     private fun onBoth(check: ((Aggregate<Int>.(Device) -> Any?, Int) -> Map<Int, Any?>) -> Unit) {
-        for (runtimes in listOf<() -> DeviceRuntimes>({ AggregateRuntimes() }, { MailboxRuntimes() })) {
-            check { program, ticks -> run(runtimes(), program, ticks) }
-        }
+        for (runtime in listOf("builtIn", "collektive")) check { program, ticks -> run(runtime, program, ticks) }
     }
 
     /** The answers of the last of [ticks]. The line is 0 - 2.5 m - 1 - 3 m - 2; from the sixth tick on its second link has 9 m. */
-    private fun run(runtimes: DeviceRuntimes, program: Aggregate<Int>.(Device) -> Any?, ticks: Int): Map<Int, Any?> =
-        Engine(EngineSettings(1, 1, Schedule.LOCKSTEP), runtimes).use { engine ->
-            (1..ticks).map { number ->
-                val tick = Tick().apply {
-                    this.number = number.toLong()
-                    if (number == 1) (0..2).forEach { nodesAdded += NewNode(it, Rounds(program), Parameters(emptyMap<String, String>())) }
-                    if (number == 1) links = line(3f)
-                    if (number == 6) links = line(9f)
-                    (0..2).forEach(due::add)
-                }
-                val result = engine.step(tick, NoSensors, System.nanoTime() + 10_000_000_000)
-                (0..2).associateWith { id -> result.failure(id)?.let { error(it) } ?: result.answer(id) }
+    private fun run(runtime: String, program: Aggregate<Int>.(Device) -> Any?, ticks: Int): Map<Int, Any?> =
+        TestNetwork(runtime = runtime).use { network ->
+            network.add(0, 1, 2)
+            network.link(0, 1, 2.5)
+            network.link(1, 2, 3.0, attenuation = 7.0)
+            (1..ticks).map { tick ->
+                if (tick == 6) network.link(1, 2, 9.0, attenuation = 7.0)
+                network.round(program)
             }.last()
         }
-
-    private fun line(second: Float) = LinkList().apply {
-        add(0, 1, 2.5f, 0f)
-        add(1, 0, 2.5f, 0f)
-        add(1, 2, second, 7f)
-        add(2, 1, second, 7f)
-    }
-
-    private class Rounds(private val program: Aggregate<Int>.(Device) -> Any?) : NodeProgram {
-        override val name = "links"
-
-        @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? = program(aggregate as Aggregate<Int>, device)
-
-        override fun describe(failure: Throwable, place: String?) = "$failure $place"
-    }
-
-    private object NoSensors : RoundData {
-        override fun sensors(worker: Int, index: Int): Any? = null
-
-        override fun pack(worker: Int, index: Int, answer: Any): String? = null
-    }
 }

@@ -7,6 +7,8 @@ import org.collektive.spi.SharingRule
 import java.lang.reflect.Field
 import java.lang.reflect.Modifier
 import java.nio.ByteBuffer
+import java.util.Optional
+import java.util.concurrent.atomic.AtomicReference
 
 /** Rejects values that are or contain a view of a frame: frames are pooled memory, so a view must not outlive its round. */
 public object ViewRule : SharingRule {
@@ -65,6 +67,11 @@ public object ViewRule : SharingRule {
         override fun find(value: Any, depth: Int): Any? = (value as Pair<*, *>).let { viewIn(it.first, depth) ?: viewIn(it.second, depth) }
     }
 
+    /** A class of the JDK that holds one value, which [content] returns. */
+    private class One(private val content: (Any) -> Any?) : Holder() {
+        override fun find(value: Any, depth: Int): Any? = viewIn(content(value), depth)
+    }
+
     private class Fields(private val fields: Array<Field>) : Holder() {
         override fun find(value: Any, depth: Int): Any? {
             for (field in fields) viewIn(field.get(value), depth)?.let { return it }
@@ -86,6 +93,10 @@ public object ViewRule : SharingRule {
         type.isArray -> Slots
 
         type == Pair::class.java -> Two
+
+        type == Optional::class.java -> One { (it as Optional<*>).orElse(null) }
+
+        AtomicReference::class.java.isAssignableFrom(type) -> One { (it as AtomicReference<*>).get() }
 
         Iterable::class.java.isAssignableFrom(type) -> Elements
 

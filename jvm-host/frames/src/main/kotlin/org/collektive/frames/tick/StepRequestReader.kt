@@ -21,8 +21,8 @@ public fun interface NewNodes {
     public fun node(id: Int, program: String, parameters: Map<String, String>): NewNode
 }
 
-/** Reads `StepRequest`s in place. Allocates only for new nodes. Confined to one thread at a time. */
-public class StepRequestReader(private val newNodes: NewNodes) {
+/** Reads `StepRequest`s in place, their user data into [data]. Allocates only for new nodes. Confined to one thread at a time. */
+public class StepRequestReader(private val newNodes: NewNodes, private val data: UserData) {
     private val checker = FrameChecker(FramePolicy.FRAME)
     private val request = StepRequest()
     private val node = NodeAdded()
@@ -30,22 +30,16 @@ public class StepRequestReader(private val newNodes: NewNodes) {
     private val links = FrameLinks()
     private var frame = ByteBuffer.allocate(0)
     private var root = 0
-
-    /** The content of the frame without the user's data. Valid until the next [read], and while the frame is. */
-    public val tick: Tick = Tick()
-
-    /** Position of the table `Sensors`, 0 when absent. */
-    internal val sensors: Int get() = target(frame, root, FrameLayouts.STEP_REQUEST_SENSORS)
-
-    /** Position of the table `GlobalData`, 0 when absent. */
-    internal val globals: Int get() = target(frame, root, FrameLayouts.STEP_REQUEST_GLOBALS)
+    private val tick = Tick()
 
     /**
-     * Verifies [frame] and reads it, except for the user's data.
+     * Verifies [frame] and reads it.
      *
-     * @throws MalformedFrameException when the frame is malformed, or a node sets a parameter twice.
+     * @return the tick, valid until the next call, and while the frame is. Its global data is in use once [UserData.accept] is called.
+     * @throws MalformedFrameException when the frame is malformed, a node sets a parameter twice, or the user's data does not match the
+     *   due nodes.
      */
-    public fun read(frame: ByteBuffer) {
+    public fun read(frame: ByteBuffer): Tick {
         root = checker.checkRoot(frame, FrameLayouts.STEP_REQUEST)
         this.frame = frame
         request.__assign(root, frame)
@@ -59,6 +53,13 @@ public class StepRequestReader(private val newNodes: NewNodes) {
         links.attach(frame, target(frame, root, FrameLayouts.STEP_REQUEST_LINKS))
         tick.links = links
         tick.due.addVector(FrameLayouts.STEP_REQUEST_DUE, 1)
+        try {
+            data.readSensors(frame, target(frame, root, FrameLayouts.STEP_REQUEST_SENSORS), tick.due)
+            tick.globals = data.readGlobals(frame, target(frame, root, FrameLayouts.STEP_REQUEST_GLOBALS))
+        } catch (e: MalformedFrameException) {
+            throw MalformedFrameException(e.message.orEmpty(), tick.number)
+        }
+        return tick
     }
 
     /** Appends the vector in the field at [entry], whose elements are [width] ids each. */

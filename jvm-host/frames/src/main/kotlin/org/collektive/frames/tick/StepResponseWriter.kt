@@ -1,6 +1,5 @@
 package org.collektive.frames.tick
 
-import org.collektive.engine.Engine
 import org.collektive.engine.IntList
 import org.collektive.engine.RoundDigest
 import org.collektive.engine.TickResult
@@ -13,15 +12,15 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
     private val digest = RoundDigest()
 
     /**
-     * Writes [result], the outcome of the last tick of [engine].
+     * Writes [result].
      *
      * @param due the ids of the tick's due nodes.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @return the place of the response, see [AnswerBuffer.finish].
      */
-    public fun write(engine: Engine, result: TickResult, due: IntList, begin: Long): Long {
+    public fun write(result: TickResult, due: IntList, begin: Long): Long {
         val builder = buffer.builder
-        digest.begin(engine.lastTick)
+        digest.begin(result.tick)
         val actuators = data.answers.write(result, buffer, digest)
         digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
@@ -30,13 +29,13 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
         for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
         val nodes = builder.endVector()
         StepResponse.startStepResponse(builder)
-        StepResponse.addTick(builder, engine.lastTick)
+        StepResponse.addTick(builder, result.tick)
         StepResponse.addDigest(builder, digest.value)
         StepResponse.addNodes(builder, nodes)
         StepResponse.addActuators(builder, actuators)
         if (errors != 0) StepResponse.addErrors(builder, errors)
-        StepResponse.addNodeCount(builder, engine.nodeCount)
-        StepResponse.addLinkCount(builder, engine.linkCount)
+        StepResponse.addNodeCount(builder, result.nodeCount)
+        StepResponse.addLinkCount(builder, result.linkCount)
         val network = result.network
         StepResponse.addSent(builder, count(network.sent))
         StepResponse.addDropped(builder, count(network.dropped))

@@ -1,6 +1,8 @@
 package org.collektive.frames.tick
 
+import org.collektive.engine.IntList
 import org.collektive.engine.RoundData
+import org.collektive.engine.Tick
 import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.data.DataSchema
 import org.collektive.frames.data.GlobalData
@@ -14,32 +16,35 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
     internal val answers = Answers.of(schema)
 
     /**
-     * Verifies the user's data of [request], read from [frame], once for all threads. Sets the global data of its tick.
+     * Verifies the sensor data of [due] in the table `Sensors` at [position] of [frame], once for all threads; a position of 0 means none.
      *
-     * @throws MalformedFrameException when the data is malformed, or does not match the due nodes.
+     * @throws MalformedFrameException when the data is malformed, or does not match [due].
      */
-    public fun read(frame: ByteBuffer, request: StepRequestReader) {
-        val due = request.tick.due
+    internal fun readSensors(frame: ByteBuffer, position: Int, due: IntList) {
         answers.begin(due)
-        readSensors(frame, request.sensors, due.size)
-        if (request.globals == 0) return
-        val holder = globals ?: throw MalformedFrameException("it has global data, but schema ${schema.name} defines none")
-        request.tick.globals = holder.read(frame, request.globals)
-    }
-
-    /** Puts the global data of [request] in use, if it has any. Call it once the tick is accepted. */
-    public fun accept(request: StepRequestReader) {
-        if (request.globals != 0) globals?.accept()
-    }
-
-    private fun readSensors(frame: ByteBuffer, position: Int, due: Int) {
         if (position == 0) {
-            if (due == 0) return
-            throw MalformedFrameException("it has no sensor data, but $due nodes are due")
+            if (due.size == 0) return
+            throw MalformedFrameException("it has no sensor data, but ${due.size} nodes are due")
         }
         reader.attach(frame, position)
         reader.check()
-        if (reader.size != due) throw MalformedFrameException("it has sensor data of ${reader.size} nodes, but $due are due")
+        if (reader.size != due.size) throw MalformedFrameException("it has sensor data of ${reader.size} nodes, but ${due.size} are due")
+    }
+
+    /**
+     * Verifies and copies the table `GlobalData` at [position] of [frame]. Returns a view of the copy; `null` if the position is 0.
+     *
+     * @throws MalformedFrameException when the data is malformed, or the schema defines none.
+     */
+    internal fun readGlobals(frame: ByteBuffer, position: Int): Any? {
+        if (position == 0) return null
+        val holder = globals ?: throw MalformedFrameException("it has global data, but schema ${schema.name} defines none")
+        return holder.read(frame, position)
+    }
+
+    /** Puts the global data of [tick] in use, if it has any. Call it once the tick is accepted. */
+    public fun accept(tick: Tick) {
+        if (tick.globals != null) globals?.accept()
     }
 
     override fun sensors(worker: Int, index: Int): Any = views[worker].at(reader.place(index), reader.frame)

@@ -5,6 +5,8 @@ import it.unibo.collektive.stdlib.util.Maybe
 import it.unibo.collektive.stdlib.util.Point2D
 import org.junit.jupiter.api.Test
 import java.nio.ByteBuffer
+import java.util.Optional
+import java.util.concurrent.atomic.AtomicReference
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
@@ -16,6 +18,8 @@ class ViewRuleTest {
     private class Reading(val sensors: Sensors?)
 
     private class Named(val name: String, val content: Any?)
+
+    private class Cell(val content: Optional<Sensors>?)
 
     private class Chain(val next: Chain?, val content: Sensors?)
 
@@ -44,7 +48,7 @@ class ViewRuleTest {
             ),
             listOf(1, view), arrayListOf<Any>(view), setOf(view), mapOf(1 to view), mapOf(view to 1), arrayOf(view),
             Reading(view), Named("now", view), Chain(Chain(null, view), null), Derived(view), Maybe.some(view), sequenceOf(view),
-            listOf(1 to listOf(Named("deep", view))), { view },
+            listOf(1 to listOf(Named("deep", view))), { view }, Optional.of(view), AtomicReference(view), Cell(Optional.of(view)),
         )
         for (holder in holders) {
             val refusal = assertNotNull(ViewRule.refusal(holder), holder.toString())
@@ -57,6 +61,7 @@ class ViewRuleTest {
         val ring = arrayOfNulls<Any>(1).also { it[0] = it }
         val values = listOf(
             null, 1, "text", 2.0, Unit, Thread.State.NEW, intArrayOf(1), 1 to 2, listOf(1, "a", null), emptyMap<Any, Any>(), Reading(null),
+            Optional.empty<Any>(), Optional.of("text"), AtomicReference<Any>(), Cell(null),
             Named("now", listOf(1)), Numbers(1.0, intArrayOf(2), null), Maybe.none, Point2D(1.0 to 2.0), ring,
         )
         assertEquals(emptyList(), values.filter { ViewRule.refusal(it) != null })

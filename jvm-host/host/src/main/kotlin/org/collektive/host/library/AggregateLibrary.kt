@@ -1,5 +1,8 @@
 package org.collektive.host.library
 
+import org.collektive.host.programs.JarBytes
+import org.collektive.host.programs.JarLoader
+import org.collektive.host.programs.ProgramJar
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.spi.DeviceRuntimes
@@ -11,6 +14,7 @@ import java.nio.file.Files
 import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 import java.security.MessageDigest
+import java.util.EnumMap
 import java.util.ServiceLoader
 import java.util.zip.ZipFile
 import kotlin.io.path.isDirectory
@@ -66,10 +70,10 @@ public class AggregateLibrary private constructor(
         private val home: Path? = Path.of(AggregateLibrary::class.java.protectionDomain.codeSource.location.toURI())
             .takeIf { it.isRegularFile() }?.parent
 
-        private var last: Pair<List<Any>, AggregateLibrary>? = null
+        private val last = EnumMap<AggregateRuntime, Pair<List<Any>, AggregateLibrary>>(AggregateRuntime::class.java)
 
         /**
-         * The library of [runtime]. One at a time is kept, so that the next session finds its classes compiled. Not thread-safe.
+         * The library of [runtime]. The last one of each runtime is kept: the next session finds its classes compiled. Not thread-safe.
          *
          * @param folder where the jars of [AggregateRuntime.COLLEKTIVE] are.
          * @throws HostException when a jar is missing or cannot be read.
@@ -77,14 +81,18 @@ public class AggregateLibrary private constructor(
         public fun of(runtime: AggregateRuntime, folder: String): AggregateLibrary {
             val place = if (runtime == AggregateRuntime.BUILT_IN || home == null) null else place(folder)
             val jars = listOfNotNull(home?.resolve(runtime.jar)) + place?.let(::userJars).orEmpty()
-            val key = jars.map(::state) + runtime
-            last?.let { (known, library) -> if (known == key) return library }
-            return load(runtime, jars, place).also { last = key to it }
+            val key = jars.map(::state)
+            last[runtime]?.let { (known, library) -> if (known == key) return library }
+            return load(runtime, jars, place).also { last[runtime] = key to it }
         }
 
         private fun load(runtime: AggregateRuntime, jars: List<Path>, folder: Path?): AggregateLibrary {
             val host = AggregateLibrary::class.java.classLoader
-            val loader = if (jars.isEmpty()) host else URLClassLoader("library", jars.map { it.toUri().toURL() }.toTypedArray(), host)
+            val loader = when {
+                jars.isEmpty() -> host
+                folder == null -> URLClassLoader("library", jars.map { it.toUri().toURL() }.toTypedArray(), host)
+                else -> loaderInMemory(jars)
+            }
             val provider = ServiceLoader.load(RuntimeProvider::class.java, loader).find { it.name == runtime.key }
                 ?: throw HostException(
                     HostError.HOST,
@@ -92,6 +100,10 @@ public class AggregateLibrary private constructor(
                 )
             return AggregateLibrary(runtime, loader, provider, folder)
         }
+
+        /** Reads [jars] into memory: users replace them, and Windows locks open files. The package's own jar loads faster from its file. */
+        internal fun loaderInMemory(jars: List<Path>): ClassLoader =
+            JarLoader("library", jars.map { ProgramJar.open(JarBytes.read(it.toString())) }, AggregateLibrary::class.java.classLoader)
 
         private fun place(folder: String): Path {
             if (folder.isEmpty()) throw noJars("the session names no folder of Collektive's jars")

@@ -44,7 +44,7 @@ internal class HostLog(private val shim: ShimCalls) {
         override fun close() = flush()
     }
 
-    /** Buffers a line per thread, so that the lines of parallel rounds do not mix. */
+    /** Buffers a line per thread, so that the lines of parallel rounds do not mix. Cuts long lines between two characters. */
     private inner class LineStream(private val level: LogLevel) : OutputStream() {
         private val lines = ThreadLocal.withInitial { ByteArrayOutputStream() }
 
@@ -52,7 +52,8 @@ internal class HostLog(private val shim: ShimCalls) {
             val line = lines.get()
             var begin = offset
             for (at in offset until offset + length) {
-                if (bytes[at].toInt() != '\n'.code && bytes[at].toInt() != '\r'.code && line.size() + at - begin + 1 < MAX_LINE) continue
+                val hasRoom = line.size() + at - begin + MAX_CHARACTER <= MAX_LINE
+                if (hasRoom && bytes[at].toInt() != '\n'.code && bytes[at].toInt() != '\r'.code) continue
                 line.write(bytes, begin, at - begin)
                 begin = at
                 write(bytes[begin++].toInt())
@@ -68,10 +69,18 @@ internal class HostLog(private val shim: ShimCalls) {
                 '\r' -> {}
 
                 else -> {
+                    if (line.size() + bytesOfCharacter(byte) > MAX_LINE) end(line)
                     line.write(byte)
-                    if (line.size() == MAX_LINE) end(line)
                 }
             }
+        }
+
+        /** Bytes of the UTF-8 character that begins with [byte]; 1 if none does. */
+        private fun bytesOfCharacter(byte: Int): Int = when (byte and 0xFF) {
+            in 0xC0..0xDF -> 2
+            in 0xE0..0xEF -> 3
+            in 0xF0..0xFF -> MAX_CHARACTER
+            else -> 1
         }
 
         override fun flush() {
@@ -115,7 +124,9 @@ internal class HostLog(private val shim: ShimCalls) {
     }
 
     companion object {
+        // In bytes of UTF-8.
         private const val MAX_LINE = 4096
+        private const val MAX_CHARACTER = 4
 
         /** [text], prefixed with the node and the program if their code runs on this thread. */
         fun attributed(text: String): String = RoundThread.origin()?.let { "[$it] $text" } ?: text

@@ -6,7 +6,7 @@ import java.io.IOException
 import java.util.zip.ZipInputStream
 
 /**
- * A user's jar, unpacked in memory, so that its file can be replaced while its programs run.
+ * A jar, unpacked in memory, so that its file can be replaced while its classes are in use.
  *
  * @property path the path from which it was read.
  * @property entries contents of the entries by name.

@@ -1,42 +1,8 @@
 package org.collektive.host.programs
 
-import java.io.ByteArrayInputStream
-import java.io.InputStream
-import java.net.URL
-import java.net.URLConnection
-import java.net.URLStreamHandler
-import java.util.Collections
-import java.util.Enumeration
-
-/** The class loader of one session. Searches the classes of [parent] first, the library's or the host's, then [jars] in order. */
-public class ProgramLoader(private val jars: List<ProgramJar>, parent: ClassLoader = ProgramLoader::class.java.classLoader) :
-    ClassLoader(NAME, parent) {
-    override fun findClass(name: String): Class<*> {
-        val bytes = find(name.replace('.', '/') + ".class") ?: throw ClassNotFoundException(name)
-        return defineClass(name, bytes, 0, bytes.size)
-    }
-
-    override fun findResource(name: String): URL? = jars.firstNotNullOfOrNull { it.urlOf(name) }
-
-    override fun findResources(name: String): Enumeration<URL> = Collections.enumeration(jars.mapNotNull { it.urlOf(name) })
-
-    private fun find(name: String): ByteArray? = jars.firstNotNullOfOrNull { it.entries[name] }
-
-    private fun ProgramJar.urlOf(name: String): URL? {
-        val bytes = entries[name] ?: return null
-        return URL("memory", "", -1, "$path!/$name", MemoryHandler(bytes))
-    }
-
-    private class MemoryHandler(private val bytes: ByteArray) : URLStreamHandler() {
-        override fun openConnection(url: URL): URLConnection = object : URLConnection(url) {
-            override fun connect() {
-                connected = true
-            }
-
-            override fun getInputStream(): InputStream = ByteArrayInputStream(bytes)
-        }
-    }
-
+/** The class loader of one session's programs. Its [parent] is the library's loader, or the host's. */
+public class ProgramLoader(jars: List<ProgramJar>, parent: ClassLoader = ProgramLoader::class.java.classLoader) :
+    JarLoader(NAME, jars, parent) {
     public companion object {
         /** The loader's name; it marks the users' frames in stack traces. */
         internal const val NAME = "programs"

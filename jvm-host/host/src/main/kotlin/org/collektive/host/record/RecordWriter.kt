@@ -7,6 +7,7 @@ import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.nio.channels.FileChannel
+import java.nio.channels.GatheringByteChannel
 import java.nio.file.InvalidPathException
 import java.nio.file.Path
 import java.nio.file.StandardOpenOption.CREATE
@@ -20,7 +21,7 @@ import java.util.zip.CRC32
  * A request is written before its tick runs, so that the record also contains a tick that never ends. Functions throw [IOException] when
  * the file cannot be written.
  */
-public class RecordWriter private constructor(private val path: String, private val channel: FileChannel) : AutoCloseable {
+public class RecordWriter internal constructor(private val path: String, private val channel: GatheringByteChannel) : AutoCloseable {
     private val header = ByteBuffer.allocateDirect(Chunk.HEADER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
     private val parts = arrayOf(header, header)
     private val crc = CRC32()

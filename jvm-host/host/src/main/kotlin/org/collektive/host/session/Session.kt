@@ -1,8 +1,9 @@
 package org.collektive.host.session
 
 import org.collektive.engine.Engine
-import org.collektive.engine.EngineSettings
+import org.collektive.engine.IntList
 import org.collektive.engine.RoundsNotFinished
+import org.collektive.engine.Tick
 import org.collektive.engine.TickRefused
 import org.collektive.engine.TickResult
 import org.collektive.frames.AnswerBuffer
@@ -18,7 +19,6 @@ import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
-import org.collektive.spi.DeviceRuntimes
 import java.io.IOException
 import java.nio.ByteBuffer
 
@@ -30,14 +30,13 @@ import java.nio.ByteBuffer
 public class Session internal constructor(
     public val schema: DataSchema,
     private val programs: Programs,
-    settings: EngineSettings,
-    runtimes: DeviceRuntimes,
+    threads: Int,
+    private val engine: Engine,
     private val shim: ShimCalls,
     private val record: RecordWriter?,
 ) : AutoCloseable {
-    private val request = StepRequestReader(programs)
-    private val data = UserData(schema, settings.threads)
-    private val engine = Engine(settings, runtimes)
+    private val data = UserData(schema, threads)
+    private val requests = StepRequestReader(programs, data)
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val response = StepResponseWriter(data, buffer)
     private val events = TickEvents()
@@ -76,21 +75,16 @@ public class Session internal constructor(
     private fun run(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         events.begin(begin)
         engine.wake()
-        read(frame)
-        val result = runRounds(deadline)
-        data.accept(request)
-        val place = write(result, slot, answer, begin)
-        events.end(engine, result, frame.remaining(), place.toInt())
+        val tick = reading { requests.read(frame) }
+        val result = runRounds(tick, deadline)
+        data.accept(tick)
+        val place = write(result, tick.due, slot, answer, begin)
+        events.end(result, frame.remaining(), place.toInt())
         return place
     }
 
-    private fun read(frame: ByteBuffer) {
-        reading({ "the frame" }) { request.read(frame) }
-        reading({ "the frame of tick ${request.tick.number}" }) { data.read(frame, request) }
-    }
-
-    private fun runRounds(deadline: Long): TickResult = try {
-        engine.step(request.tick, data, deadline)
+    private fun runRounds(tick: Tick, deadline: Long): TickResult = try {
+        engine.step(tick, data, deadline)
     } catch (e: TickRefused) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
     } catch (e: RoundsNotFinished) {
@@ -98,26 +92,25 @@ public class Session internal constructor(
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
         throw fail(e) { "${e.message}; the log shows what each thread was doing. Fix the program, then open a new session" }
     } catch (e: Throwable) {
-        throw fail(e) { "tick ${request.tick.number} failed inside the engine: $e" }
+        throw fail(e) { "tick ${tick.number} failed inside the engine: $e" }
     }
 
-    private fun write(result: TickResult, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
+    private fun write(result: TickResult, due: IntList, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
         events.write()
         buffer.begin(slot, answer)
-        response.write(engine, result, request.tick.due, begin)
+        response.write(result, due, begin)
     } catch (e: Throwable) {
-        throw fail(e) { "the answer of tick ${request.tick.number} could not be written: $e" }
+        throw fail(e) { "the answer of tick ${result.tick} could not be written: $e" }
     }
 
     override fun close() {
         engine.close()
         events.close(engine.lastTick, failure)
-        record?.use {
-            try {
-                it.end()
-            } catch (e: IOException) {
-                shim.log(LogLevel.ERROR, it.failure(e))
-            }
+        if (record == null) return
+        try {
+            record.use(RecordWriter::end)
+        } catch (e: IOException) {
+            shim.log(LogLevel.ERROR, record.failure(e))
         }
     }
 
@@ -140,9 +133,18 @@ public class Session internal constructor(
     }
 }
 
-/** Runs [read], and converts a [MalformedFrameException] to a [HostException] that names [what]. */
-internal inline fun <T> reading(what: () -> String, read: () -> T): T = try {
+/** Runs [work] on this resource, and closes it if that fails. */
+internal inline fun <R : AutoCloseable?, T> R.orClose(work: (R) -> T): T = try {
+    work(this)
+} catch (e: Throwable) {
+    this?.close()
+    throw e
+}
+
+/** Runs [read], and converts a [MalformedFrameException] to a [HostException]. */
+internal inline fun <T> reading(read: () -> T): T = try {
     read()
 } catch (e: MalformedFrameException) {
-    throw HostException(HostError.FRAME, "${what()} is damaged: ${e.message}", e)
+    val frame = if (e.tick == null) "the frame" else "the frame of tick ${e.tick}"
+    throw HostException(HostError.FRAME, "$frame is damaged: ${e.message}", e)
 }

@@ -1,5 +1,6 @@
 package org.collektive.host.session
 
+import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
 import org.collektive.engine.NetworkModel
 import org.collektive.engine.Schedule
@@ -13,7 +14,7 @@ import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
 import org.collektive.host.library.AggregateRuntime
-import org.collektive.host.programs.CompiledFor
+import org.collektive.host.library.CompiledFor
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.programs.ProgramFinder
 import org.collektive.host.programs.ProgramJar
@@ -33,7 +34,7 @@ public object SessionOpening {
 
     /** Opens the session of the `OpenRequest` between position and limit of [frame], with its record if it names one. */
     internal fun open(frame: ByteBuffer, shim: ShimCalls): Session {
-        val request = reading({ "the frame" }) { openRequest(frame) }
+        val request = reading { openRequest(frame) }
         val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
         val path = request.record().orEmpty()
         return open(request, jars, shim) { if (path.isEmpty()) null else RecordWriter.create(path, frame, jars) }
@@ -62,9 +63,13 @@ public object SessionOpening {
         val schemas = SchemaFinder.all(loader, programJars)
         val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
         val programs = Programs(ProgramFinder(programJars, loader, schema, schemas).find(), request.program().orEmpty())
-        val session = Session(schema, programs, settings, library.runtimes(ViewRule), shim, record())
-        event?.let { commit(it, programs, schema, settings) }
-        return session
+        return Engine(settings, library.runtimes(ViewRule)).orClose { engine ->
+            record().orClose { writer ->
+                Session(schema, programs, settings.threads, engine, shim, writer).also {
+                    if (event != null) commit(event, programs, schema, settings)
+                }
+            }
+        }
     }
 
     private fun commit(event: SessionStartEvent, programs: Programs, schema: DataSchema, settings: EngineSettings) {

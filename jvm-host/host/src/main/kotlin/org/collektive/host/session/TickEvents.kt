@@ -1,6 +1,5 @@
 package org.collektive.host.session
 
-import org.collektive.engine.Engine
 import org.collektive.engine.TickResult
 import org.collektive.host.jfr.ProgramErrorEvent
 import org.collektive.host.jfr.SessionEvents
@@ -25,13 +24,13 @@ internal class TickEvents {
     }
 
     /** Marks the end of the tick; its request has [bytesIn] bytes, its response [bytesOut]. */
-    fun end(engine: Engine, result: TickResult, bytesIn: Int, bytesOut: Int) {
+    fun end(result: TickResult, bytesIn: Int, bytesOut: Int) {
         val end = System.nanoTime()
         val events = events
         if (events != null) {
-            tick(events, engine, result, bytesIn, bytesOut, end)
-            network(events, engine.lastTick, result)
-            if (result.failureCount > 0) errors(engine.lastTick, result)
+            tick(events, result, bytesIn, bytesOut, end)
+            network(events, result)
+            if (result.failureCount > 0) errors(result)
         }
         lastEnd = end
     }
@@ -44,15 +43,15 @@ internal class TickEvents {
         event.commit()
     }
 
-    private fun tick(events: SessionEvents, engine: Engine, result: TickResult, bytesIn: Int, bytesOut: Int, end: Long) {
+    private fun tick(events: SessionEvents, result: TickResult, bytesIn: Int, bytesOut: Int, end: Long) {
         val event = events.tick
         event.end()
         if (!event.shouldCommit()) return
-        event.tick = engine.lastTick
-        event.nodes = engine.nodeCount
+        event.tick = result.tick
+        event.nodes = result.nodeCount
         event.dueNodes = result.size
         event.failedRounds = result.failureCount
-        event.links = engine.linkCount
+        event.links = result.linkCount
         event.bytesIn = bytesIn.toLong()
         event.bytesOut = bytesOut.toLong()
         event.wait = if (lastEnd == 0L) 0 else called - lastEnd
@@ -61,11 +60,11 @@ internal class TickEvents {
         event.commit()
     }
 
-    private fun network(events: SessionEvents, tick: Long, result: TickResult) {
+    private fun network(events: SessionEvents, result: TickResult) {
         val event = events.network
         if (!event.isEnabled) return
         event.begin() // a reused event keeps its first start time otherwise
-        event.tick = tick
+        event.tick = result.tick
         event.sent = result.network.sent
         event.dropped = result.network.dropped
         event.delayed = result.network.delayed
@@ -73,12 +72,12 @@ internal class TickEvents {
         event.commit()
     }
 
-    private fun errors(tick: Long, result: TickResult) {
+    private fun errors(result: TickResult) {
         for (index in 0 until result.size) {
             val message = result.failure(index) ?: continue
             val event = ProgramErrorEvent()
             if (!event.isEnabled) return
-            event.tick = tick
+            event.tick = result.tick
             event.node = result.id(index)
             event.program = result.program(index).name
             event.message = message

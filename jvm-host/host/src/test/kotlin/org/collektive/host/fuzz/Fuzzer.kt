@@ -6,6 +6,7 @@ import org.collektive.host.shim.HostError
 import java.nio.file.Files
 import java.nio.file.Path
 import java.nio.file.StandardCopyOption.REPLACE_EXISTING
+import kotlin.io.path.createParentDirectories
 
 /** Calls an entry of [org.collektive.host.Host] with bytes from anywhere. One thread. */
 internal fun interface Fuzzer {
@@ -25,7 +26,7 @@ internal fun requireRefusal(code: Long, allowed: Set<HostError>, shim: TestShim)
 internal object FuzzedPrograms {
     const val PATH = "target/fuzzed-programs.jar"
 
-    private val placed by lazy { Files.copy(ProbeJars.harmless, Path.of(PATH), REPLACE_EXISTING) }
+    private val placed by lazy { Files.copy(ProbeJars.harmless, Path.of(PATH).createParentDirectories(), REPLACE_EXISTING) }
 
     /** Makes sure that it is there. */
     fun place() {

@@ -1,54 +1,19 @@
-@file:OptIn(DelicateCollektiveApi::class)
-
 package it.unibo.collektive.stdlib
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
-import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.mapNeighborhood
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.runtime.round
-import org.collektive.spi.DeviceRuntime
-import org.collektive.spi.Export
-import org.collektive.spi.Inbox
+import org.collektive.testkit.Network
 import kotlin.random.Random
 
-/** Devices of the real runtime on a graph with link lengths. Tests change the graph between rounds. */
-internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
-    private val runtimes = AggregateRuntimes()
-    private val members = sortedMapOf<Int, Member>()
-    private var nextId = 0
-    private var now = 0
+/** Devices 0, 1, 2, ... of the real runtime, on a graph that changes at random. */
+internal class Swarm(size: Int = 0, private val random: Random = Random(0)) : Network(AggregateRuntimes(), *IntArray(size) { it }) {
+    private var nextId = size
 
-    val ids: List<Int> get() = members.keys.toList()
-    val size: Int get() = members.size
+    fun add(): Int = nextId++.also { add(it) }
 
-    init {
-        repeat(size) { add() }
-    }
-
-    fun add(): Int = nextId++.also { members[it] = Member(it, runtimes.device(it)) }
-
-    fun remove(id: Int) {
-        members.remove(id)
-        for (member in members.values) member.links.remove(id)
-    }
-
-    fun link(a: Int, b: Int, length: Double = 1.0) {
-        members.getValue(a).links.getOrPut(b) { Link(now) }.length = length
-        members.getValue(b).links.getOrPut(a) { Link(now) }.length = length
-    }
-
-    fun cut(a: Int, b: Int) {
-        members.getValue(a).links.remove(b)
-        members.getValue(b).links.remove(a)
-    }
-
-    fun line(vararg lengths: Double) = apply { lengths.forEachIndexed { index, length -> link(ids[index], ids[index + 1], length) } }
-
-    fun neighbors(id: Int): Set<Int> = members.getValue(id).links.keys
-
-    fun length(a: Int, b: Int): Double = members.getValue(a).links.getValue(b).length
+    fun line(vararg lengths: Double) = apply { lengths.forEachIndexed { index, length -> link(index, index + 1, length) } }
 
     /** Adds and removes devices, and adds, removes and changes about one link in three. */
     fun shake() {
@@ -57,58 +22,22 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) {
         for (a in ids) {
             for (b in ids) {
                 if (a >= b || random.nextInt(3) != 0) continue
-                if (random.nextDouble() < 3.0 / size) link(a, b, random.nextDouble(0.01, 10.0)) else cut(a, b)
+                if (random.nextDouble() < 3.0 / size) link(a, b, random.nextDouble(0.01, 10.0)) else unlink(a, b)
             }
         }
     }
 
-    /** Runs a round of every device: all at once, or one after another in random order. */
-    fun <R> round(atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
+    /** Runs [times] rounds of every device, all at once or one after another in random order, and returns the last results. */
+    fun <R> rounds(times: Int, atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
         val results = sortedMapOf<Int, R>()
-        val waves = if (atOnce) listOf(ids) else ids.shuffled(random).map { listOf(it) }
-        for (wave in waves) {
-            now++
-            for (id in wave) {
-                val member = members.getValue(id)
-                results[id] = member.runtime.round(member, program)
-            }
-            for (id in wave) {
-                members.getValue(id).run {
-                    export = runtime.commit()
-                    sentAt = now
-                }
-            }
+        repeat(times) {
+            if (atOnce) results += round(program) else for (id in ids.shuffled(random)) results += round(listOf(id), program)
         }
         return results
     }
 
-    /** Calls [round] [times] times and returns the last results. */
-    fun <R> rounds(times: Int, atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
-        repeat(times - 1) { round(atOnce, program) }
-        return round(atOnce, program)
-    }
-
     /** The lengths of the links, as a field of a program. */
     fun Aggregate<Int>.lengths(): Field<Int, Double> = mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
-
-    private class Link(val since: Int) {
-        var length = 1.0
-    }
-
-    private inner class Member(val id: Int, val runtime: DeviceRuntime) : Inbox {
-        val links = sortedMapOf<Int, Link>()
-        var export: Export? = null
-        var sentAt = 0
-
-        override val size get() = links.size
-        override val ids: Array<Any> get() = links.keys.toTypedArray()
-        override fun export(index: Int) = members.getValue(links.keys.elementAt(index)).export
-
-        override fun wasKnown(index: Int): Boolean {
-            val sender = links.keys.elementAt(index)
-            return links.getValue(sender).since < members.getValue(sender).sentAt
-        }
-    }
 }
 
 /** Distance and nearest source of each device, by Dijkstra's algorithm from [sources] over devices for which [through] holds. */

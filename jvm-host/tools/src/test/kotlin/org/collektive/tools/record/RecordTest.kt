@@ -1,5 +1,6 @@
 package org.collektive.tools.record
 
+import org.collektive.host.Host
 import org.collektive.host.ProbeJars
 import org.collektive.host.Step
 import org.collektive.host.TestSession
@@ -63,9 +64,9 @@ class RecordTest {
         wind = if (number % 4 == 0) number.toFloat() else null
     }
 
-    /** Options for the other runtime; the jars that Maven has made stand in for Collektive's. */
+    /** Options for the other runtime; the folder that the host is built into stands in for that of Collektive's jars. */
     private val collektive =
-        arrayOf("--runtime", "collektive", "--runtime-jars", Path.of(System.getProperty("collektive.root"), "jvm-host/host/target"))
+        arrayOf("--runtime", "collektive", "--runtime-jars", Path.of(Host::class.java.protectionDomain.codeSource.location.toURI()).parent)
 
     private class Result(val code: Int, val results: String, val messages: String)
 

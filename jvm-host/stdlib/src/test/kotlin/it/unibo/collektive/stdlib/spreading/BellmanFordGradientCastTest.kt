@@ -33,7 +33,7 @@ class BellmanFordGradientCastTest {
     fun `it counts to infinity as documented`() {
         val swarm = Swarm(4).line(1.0, 1.0, 0.1)
         swarm.rounds(6) { distance(swarm, localId == 0) }
-        swarm.cut(1, 2)
+        swarm.unlink(1, 2)
         val before = swarm.round { distance(swarm, localId == 0) }.getValue(2)
         val after = swarm.rounds(10) { distance(swarm, localId == 0) }.getValue(2)
         assertEquals(before + 1.0, after, 1e-9)
@@ -45,7 +45,7 @@ class BellmanFordGradientCastTest {
         val swarm = Swarm(4).line(1.0, 1.0, 0.5)
         swarm.link(3, 0, 20.0)
         swarm.rounds(6) { distance(swarm, localId == 0) }
-        swarm.cut(1, 2)
+        swarm.unlink(1, 2)
         val seen = swarm.rounds(50) { distance(swarm, localId == 0) }
         assertEquals(mapOf(0 to 0.0, 1 to 1.0, 2 to 20.5, 3 to 20.0), seen)
     }

@@ -76,7 +76,7 @@ class GradientCastTest {
             distanceTo(localId == 0, with(swarm) { lengths() })
         }
         assertEquals(200.003, swarm.rounds(12, program = program).getValue(5), 1e-9)
-        swarm.cut(1, 2)
+        swarm.unlink(1, 2)
         val after = swarm.rounds(6, program = program)
         assertEquals(List(4) { Double.POSITIVE_INFINITY }, listOf(2, 3, 4, 5).map(after::getValue))
     }

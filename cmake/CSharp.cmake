@@ -1,0 +1,124 @@
+# The C# assemblies: build/csharp/NAME. Roslyn runs on Mono, since no .NET SDK can be expected.
+set(CSHARP "${COLLEKTIVE_BUILD}/csharp")
+set(ROSLYN "${COLLEKTIVE_BUILD}/roslyn")
+collektive_python(csc build/csharp.py)
+
+collektive_step(roslyn OUTPUT "${ROSLYN}/roslyn.exe"
+  COMMAND ${csc} --roslyn DEPENDS scripts/build/csharp.py tools/roslyn/Roslyn.cs "${COLLEKTIVE_BUILD}/stamp/npm")
+
+# assembly(NAME SOURCES DIR-OR-FILE... [REFERENCES NAME...] [OPTIONS WORD...] [DEPENDS TARGET...]): references are names of our assemblies or paths.
+function(assembly NAME)
+  cmake_parse_arguments(PARSE_ARGV 1 A "" "" "SOURCES;REFERENCES;OPTIONS;DEPENDS")
+  set(references)
+  foreach(reference ${A_REFERENCES})
+    cmake_path(ABSOLUTE_PATH reference BASE_DIRECTORY "${CSHARP}")
+    list(APPEND references "${reference}")
+  endforeach()
+  set(options ${A_OPTIONS})
+  if(NAME MATCHES "\\.exe$")
+    list(APPEND options -target:exe)
+  endif()
+  list(TRANSFORM references PREPEND "-r:" OUTPUT_VARIABLE flags)
+  string(REPLACE "/" "-" target "${NAME}")
+  collektive_step(${target} OUTPUT "${CSHARP}/${NAME}" COMMAND ${csc} "${CSHARP}/${NAME}" ${A_SOURCES} -- ${options} ${flags}
+    DEPENDS "${ROSLYN}/roslyn.exe" scripts/build/csharp.py ${references} ${A_DEPENDS} FOLDERS ${A_SOURCES})
+endfunction()
+
+# library(FILE): puts an assembly of others beside ours, where CoreCLR looks for it.
+function(library FILE)
+  cmake_path(GET FILE FILENAME name)
+  collektive_step(${name} OUTPUT "${CSHARP}/${name}" COMMAND "${CMAKE_COMMAND}" -E copy "${FILE}" "${CSHARP}/${name}" DEPENDS ${ARGN} "${FILE}")
+endfunction()
+
+# What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
+set(symbols --symbols)
+set(UNITY "${PROJECT_SOURCE_DIR}/unity")
+set(HEADLESS "${UNITY}/Headless~")
+set(GENERATED "${COLLEKTIVE_BUILD}/generated")
+set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
+  --include "${PROJECT_SOURCE_DIR}/schema")
+
+# The code of the frames that cross the boundary, and of the value types.
+collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
+  COMMAND "${CMAKE_COMMAND}" -E rm -rf "${GENERATED}/bridge"
+  AND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
+  AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
+  DEPENDS flatc schema/types.fbs schema/frame.fbs)
+
+library("${ROSLYN}/Newtonsoft.Json.dll" "${ROSLYN}/roslyn.exe")
+# Mono has it in a place of its own.
+library(/usr/lib/mono/4.5/Mono.Posix.dll)
+assembly(Collektive.FlatBuffers.dll SOURCES "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"
+  OPTIONS ${symbols} -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-)
+assembly(Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll
+  DEPENDS "${GENERATED}/bridge.stamp")
+assembly(UnityEngine.dll SOURCES "${HEADLESS}/UnityEngine" OPTIONS -unsafe+)
+assembly(Collektive.Unity.dll SOURCES "${UNITY}/Runtime/Unity" REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll)
+set(package Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll)
+assembly(Collektive.Player.exe SOURCES "${HEADLESS}/Player" "${HEADLESS}/Replay" REFERENCES ${package} Newtonsoft.Json.dll Mono.Posix.dll)
+
+# generated_code(TARGET FOLDER SCHEMA...): the generator's C# of schemas, each in a folder below FOLDER.
+# The folder has the name of the sample, or else of the schema.
+function(generated_code TARGET FOLDER)
+  set(commands)
+  foreach(schema ${ARGN})
+    cmake_path(GET schema STEM name)
+    if(schema MATCHES "/Samples~/([^/]*)/")
+      set(name "${CMAKE_MATCH_1}")
+    endif()
+    list(APPEND commands AND ${generator} --schema "${schema}" --csharp "${FOLDER}/${name}")
+  endforeach()
+  collektive_step(${TARGET} OUTPUT "${FOLDER}.stamp" COMMAND "${CMAKE_COMMAND}" -E rm -rf "${FOLDER}" ${commands}
+    AND "${CMAKE_COMMAND}" -E touch "${FOLDER}.stamp" DEPENDS flatc "${GENERATOR_JAR}" ${ARGN} FOLDERS "${PROJECT_SOURCE_DIR}/schema")
+endfunction()
+
+file(GLOB samples "${UNITY}/Samples~/*/*.fbs")
+generated_code(sample_code "${GENERATED}/samples" ${samples})
+assembly(Collektive.Samples.dll SOURCES "${UNITY}/Samples~" "${GENERATED}/samples" REFERENCES ${package} DEPENDS "${GENERATED}/samples.stamp")
+assembly(Collektive.SerializedFields.exe SOURCES "${HEADLESS}/SerializedFields" REFERENCES UnityEngine.dll)
+assembly(SampleReplay.exe SOURCES "${HEADLESS}/SampleReplay" "${HEADLESS}/Replay" REFERENCES Newtonsoft.Json.dll)
+assembly(Collektive.Headless.Bench.exe SOURCES "${HEADLESS}/Bench" "${HEADLESS}/Player/Quantiles.cs" "${GENERATED}/samples/GradientAscent"
+  OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll Newtonsoft.Json.dll DEPENDS "${GENERATED}/samples.stamp")
+assembly(Collektive.Fuzz.exe SOURCES "${HEADLESS}/Fuzz" REFERENCES ${package} Collektive.Player.exe Newtonsoft.Json.dll)
+
+# What the tests and the reference of the API read: XML documentation, and the bridge as Unity compiles it for platforms without the shim.
+set(documentation "${COLLEKTIVE_BUILD}/documentation")
+collektive_step(documentation OUTPUT "${documentation}/stamp"
+  COMMAND ${csc} --documentation "${documentation}/Bridge.xml" "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" -- ${symbols}
+    "-r:${CSHARP}/Collektive.FlatBuffers.dll"
+  AND ${csc} --documentation "${documentation}/Unity.xml" "${UNITY}/Runtime/Unity" --
+    "-r:${CSHARP}/Collektive.FlatBuffers.dll" "-r:${CSHARP}/Collektive.Bridge.dll" "-r:${CSHARP}/UnityEngine.dll"
+  AND "${CMAKE_COMMAND}" -E touch "${documentation}/stamp"
+  DEPENDS scripts/build/csharp.py "${CSHARP}/Collektive.Unity.dll")
+assembly(stubs/Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} -define:UNITY_5_3_OR_NEWER
+  REFERENCES Collektive.FlatBuffers.dll DEPENDS "${GENERATED}/bridge.stamp")
+
+# The code of the test schemas, and of one with sensor and actuator data swapped.
+set(probe "${HEADLESS}/Tests/Simulation/Probe")
+file(GLOB schemas "${PROJECT_SOURCE_DIR}/schema/test/*.fbs")
+collektive_python(swap build/swap_data.py)
+set(swapped "${GENERATED}/swapped.fbs")
+collektive_step(swapped_data OUTPUT "${swapped}" COMMAND ${swap} "${GENERATED}/swap" "${PROJECT_SOURCE_DIR}/schema/test/features.fbs"
+    "${PROJECT_SOURCE_DIR}/schema/test/shared/cells.fbs"
+  AND "${CMAKE_COMMAND}" -E copy "${GENERATED}/swap/features.fbs" "${swapped}")
+generated_code(test_code "${GENERATED}/tests" "${probe}/probe.fbs" ${schemas} "${swapped}")
+
+if(COLLEKTIVE_NUNIT)
+  library("${COLLEKTIVE_NUNIT}")
+  set(nunit "${COLLEKTIVE_NUNIT}")
+  set(framework UnityEngine.TestRunner.dll ${nunit})
+  set(editor UnityEditor.dll Collektive.Unity.Editor.dll)
+  assembly(UnityEditor.dll SOURCES "${HEADLESS}/UnityEditor" REFERENCES UnityEngine.dll)
+  assembly(Collektive.Unity.Editor.dll SOURCES "${UNITY}/Editor" REFERENCES ${package} UnityEditor.dll)
+  assembly(Collektive.Headless.Tests.dll SOURCES "${HEADLESS}/Tests" "${GENERATED}/tests" OPTIONS ${symbols}
+    REFERENCES ${package} ${editor} Collektive.Player.exe Newtonsoft.Json.dll ${nunit} DEPENDS "${GENERATED}/tests.stamp")
+  assembly(UnityEngine.TestRunner.dll SOURCES "${HEADLESS}/TestFramework" REFERENCES UnityEngine.dll ${nunit})
+  assembly(Collektive.TestRunner.exe SOURCES "${HEADLESS}/TestRunner" REFERENCES UnityEngine.dll ${framework})
+  assembly(Collektive.Unity.Tests.dll SOURCES "${UNITY}/Tests/Runtime" REFERENCES ${package} ${framework})
+  assembly(Collektive.Unity.PublicApi.Tests.dll SOURCES "${UNITY}/Tests/PublicApi" REFERENCES ${package} ${framework})
+  assembly(Collektive.Unity.Editor.Tests.dll SOURCES "${UNITY}/Tests/Editor" REFERENCES ${package} ${editor} ${framework})
+  assembly(Collektive.TwoEditors.exe SOURCES "${HEADLESS}/TwoEditors" REFERENCES ${package} ${editor})
+  assembly(Collektive.WithoutLibrary.exe SOURCES "${HEADLESS}/WithoutLibrary" REFERENCES ${package} ${editor} Collektive.Headless.Tests.dll)
+  assembly(Collektive.Faults.exe SOURCES "${HEADLESS}/Faults" REFERENCES ${package} Collektive.Headless.Tests.dll)
+  assembly(Collektive.Soak.exe SOURCES "${HEADLESS}/Soak" REFERENCES ${package} Collektive.Headless.Tests.dll)
+endif()

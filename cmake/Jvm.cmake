@@ -1,0 +1,26 @@
+# The JVM side: Maven builds the modules that changed; the POMs alone describe modules, their dependencies and versions.
+set(JVM "${PROJECT_SOURCE_DIR}/jvm-host")
+set(GENERATOR_JAR "${JVM}/generator/target/collektive-generator.jar")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS jvm-host/pom.xml)
+file(GLOB poms "${JVM}/*/pom.xml")
+file(GLOB mains "${JVM}/*/src/main")
+file(GLOB schemas "${PROJECT_SOURCE_DIR}/unity/Samples~/*/*.fbs")
+collektive_python(maven build/maven.py)
+
+# jvm_step(TARGET COMMENT [WORDS WORD...] [FOLDERS DIR...] [BYPRODUCTS FILE...]): one call of scripts/build/maven.py.
+function(jvm_step TARGET COMMENT)
+  cmake_parse_arguments(PARSE_ARGV 2 J "" "" "WORDS;FOLDERS;BYPRODUCTS")
+  set(stamp "${COLLEKTIVE_BUILD}/stamp/${TARGET}")
+  collektive_step(${TARGET} OUTPUT "${stamp}" COMMAND ${maven} "${stamp}" ${J_WORDS} COMMENT "${COMMENT}" TERMINAL
+    BYPRODUCTS ${J_BYPRODUCTS}
+    DEPENDS flatc "${COLLEKTIVE_BUILD}/stamp/flatbuffers" scripts/build/maven.py "${JVM}/pom.xml" ${poms}
+    FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
+endfunction()
+
+# What runs scenes, with the samples; all modules; the tests of all modules.
+jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
+jvm_step(jvm_modules "all modules of the JVM side")
+add_dependencies(jvm_modules jvm)
+file(GLOB tests "${JVM}/*/src")
+jvm_step(jvm_tests "tests of the JVM side" WORDS --tests FOLDERS ${tests})
+add_dependencies(jvm_tests jvm_modules)

@@ -1,0 +1,94 @@
+# The suites. Each is a test of CTest and writes JUnit XML into build/results/NAME; `./collektive test` adds up the results.
+include(Suite)
+
+set(csharp_needs build:runtime)
+if(COLLEKTIVE_NUNIT)
+  add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
+    Collektive.Unity.PublicApi.Tests.dll Collektive.Unity.Editor.Tests.dll Collektive.TwoEditors.exe Collektive.WithoutLibrary.exe
+    Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation)
+  list(APPEND csharp_needs build:csharp_tests setup:kotlinc)
+  set(runner build:Collektive.TestRunner.exe build:nunit.framework.dll)
+endif()
+# A host jar of another version.
+set(misfit "${CMAKE_BINARY_DIR}/native-shim/test/misfit")
+collektive_step(misfit OUTPUT "${COLLEKTIVE_BUILD}/misfit.jar"
+  COMMAND "${COLLEKTIVE_JAVA_HOME}/bin/jar" --create --file "${COLLEKTIVE_BUILD}/misfit.jar" -C "${misfit}" .
+  DEPENDS shim_test_hosts "${misfit}/stamp")
+assembly(TestSchemas.dll SOURCES "${GENERATED}/tests" OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll
+  DEPENDS "${GENERATED}/tests.stamp")
+set(schema "${HEADLESS}/Tests/Schema")
+assembly(RoundTrip.exe SOURCES "${schema}/Dump.cs" "${schema}/RandomData.cs" "${schema}/RoundTrip.cs"
+  REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll)
+add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
+
+suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
+suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" -n 2)
+suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED SCRIPT jvm.py RESULTS)
+# Most of these JVMs end before code of the second compiler would pay.
+suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
+  SCRIPT jvm.py RESULTS -DexcludedGroups=slow "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
+# Under a minute on two idle processors, with some hundred thousand tries of each race: the server compiler alone, one fork each. Threads of a
+# pool must not inherit the one processor that jcstress gives an actor.
+suite(stress stress LABELS all NEEDS build:jvm_modules
+  SCRIPT stress.py RESULTS/stress.xml -f 1 -fsm 1 -iters 3 -time 200 -sc false -af NONE -jvmArgs -XX:-TieredCompilation)
+
+list(GET COLLEKTIVE_TEST_JDKS -1 newest)
+foreach(jdk ${COLLEKTIVE_TEST_JDKS})
+  cmake_path(GET jdk FILENAME name)
+  # Slow tests are part of a run of all suites on the newest JDK only.
+  set(labels all)
+  set(slow extra)
+  if(jdk STREQUAL newest)
+    set(labels quick all)
+    set(slow all)
+  endif()
+  set(shim ctest --test-dir "${CMAKE_BINARY_DIR}/native-shim" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
+  set(java_home ENVIRONMENT "CLK_TEST_JAVA_HOME=${jdk}")
+  suite(shim-on-${name} shim LABELS ${labels} NEEDS build:shim_test ${java_home} COMMAND ${shim} -LE slow)
+  suite(shim-slow-on-${name} shim LABELS ${slow} NEEDS build:shim_test ${java_home} COMMAND ${shim} -L slow)
+  suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
+    COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
+  suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
+endforeach()
+# CoreCLR's hashes need OpenSSL 1.1, and limits of time are Mono's.
+set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
+suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --without Slow)
+suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --only Slow)
+suite(unity csharp LABELS quick all NEEDS ${csharp_needs} NUNIT SCRIPT unity.py RESULTS)
+add_custom_target(sanitized
+  COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/native-shim" -B "${COLLEKTIVE_BUILD}/sanitized" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo
+    -DCOLLEKTIVE_SANITIZE=ON "-DCOLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}"
+  COMMAND "${CMAKE_COMMAND}" --build "${COLLEKTIVE_BUILD}/sanitized" VERBATIM)
+
+suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules TIMEOUT 1800 UNLOCKED SCRIPT platforms/run.py RESULTS linux-arm64 mac-arm64)
+suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules TIMEOUT 3600 UNLOCKED
+  SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
+suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
+suite(faults faults LABELS all NEEDS ${csharp_needs} build:misfit NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
+suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
+suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
+suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests setup:kotlinc PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
+suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe setup:kotlinc UNLOCKED SCRIPT pages.py page RESULTS)
+suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED SCRIPT pages.py site RESULTS)
+
+set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} setup:kotlinc UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
+suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
+suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
+suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
+
+set(experiments "${PROJECT_SOURCE_DIR}/experiments")
+set(experiments_tests UNLOCKED ENVIRONMENT "COLLEKTIVE=${COLLEKTIVE}" "COLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}" "PYTHONPATH=${experiments}"
+  PYTHONDONTWRITEBYTECODE=1 COMMAND "${COLLEKTIVE_BUILD}/experiments/bin/python" -m pytest -c "${SCRIPTS}/tests/pytest.ini"
+  --junitxml RESULTS/pytest.xml --durations 8)
+suite(experiments experiments LABELS all NEEDS build:runtime setup:kotlinc setup:experiments-tests ${experiments_tests}
+  "${experiments}/tests" "--ignore=${experiments}/tests/test_cluster.py")
+suite(ray experiments LABELS extra NEEDS build:runtime setup:kotlinc setup:experiments-tests setup:ray ${experiments_tests}
+  "${experiments}/tests/test_cluster.py")
+suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page setup:kotlinc UNLOCKED
+  SCRIPT chaos/chaos.py 6 3 3 1 --results RESULTS/chaos.xml)
+# Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
+suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)
+suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe setup:kotlinc UNLOCKED
+  PYTEST "${SCRIPTS}/tests/bench")
+suite(gradle gradle LABELS all NEEDS build:jvm_modules UNLOCKED TIMEOUT 3600 PYTEST "${SCRIPTS}/tests/gradle")

@@ -1,0 +1,84 @@
+"""The local pool, with workers that only count."""
+import queue
+import threading
+from typing import Any, cast
+
+import pytest
+
+from collektive_experiments import sweep
+from collektive_experiments.experiment import Run
+from collektive_experiments.store import Store
+from collektive_experiments.sweep import Ended, LocalPool
+from collektive_experiments.worker import Outcome
+
+
+class FakeWorker:
+    """Ends its run when told to, or when it is killed."""
+
+    def __init__(self, *_: Any):
+        self.began = threading.Event()
+        self.may_end = threading.Event()
+        self.kills = 0
+        self.stops = 0
+
+    def run(self, *_: Any) -> Outcome:
+        self.began.set()
+        assert self.may_end.wait(60)
+        return Outcome("crashed" if self.kills else "complete")
+
+    def kill(self) -> None:
+        self.kills += 1
+        self.may_end.set()
+
+    def stop(self) -> None:
+        self.stops += 1
+
+
+class FakeRun:
+    def __init__(self) -> None:
+        self.jvm = ""
+        self.settings: dict[str, Any] = {}
+
+
+class FakeStore:
+    bundle = ""
+
+    def __init__(self, folder: str):
+        self.folder = folder
+
+    def place(self, run: Run) -> str:
+        return ""
+
+    def finish(self, *_: Any) -> None:
+        pass
+
+
+Events = queue.SimpleQueue[Ended | BaseException]
+
+
+@pytest.fixture
+def started(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[LocalPool, FakeWorker, Events]:
+    """A pool whose only worker has begun the only run."""
+    worker = FakeWorker()
+    monkeypatch.setattr(sweep, "Worker", lambda *_: worker)
+    pool = LocalPool(cast(Store, FakeStore(str(tmp_path))), 1, 60, False)
+    ended: Events = queue.SimpleQueue()
+    pool.start([(0, cast(Run, FakeRun()))], ended)
+    return pool, worker, ended
+
+
+def test_a_worker_without_a_run_is_not_killed(started: tuple[LocalPool, FakeWorker, Events]) -> None:
+    pool, worker, ended = started
+    worker.may_end.set()
+    event = ended.get(timeout=60)
+    assert not isinstance(event, BaseException) and event[2].status == "complete"
+    pool.stop()
+    assert (worker.kills, worker.stops) == (0, 1)
+
+
+def test_a_run_at_hand_is_killed_and_not_kept(started: tuple[LocalPool, FakeWorker, Events]) -> None:
+    pool, worker, ended = started
+    assert worker.began.wait(60)
+    pool.stop()
+    assert (worker.kills, worker.stops) == (1, 1)
+    assert ended.empty()

@@ -1,3 +1,0 @@
-plugins {
-    id("org.collektive.kotlin-module")
-}

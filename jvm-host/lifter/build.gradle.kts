@@ -1,7 +1,0 @@
-plugins {
-    id("org.collektive.kotlin-module")
-}
-
-dependencies {
-    implementation(libs.kotlin.reflect)
-}

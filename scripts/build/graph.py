@@ -1,0 +1,60 @@
+"""The build graph: CMake describes it, Ninja builds it."""
+import shutil
+import subprocess
+import sys
+
+from build import fetch, jdk, lock, processes
+from build.console import Failure, logged
+from build.places import GRAPH, ROOT
+from build.system import NUNIT, setup_system
+
+
+def build(*targets: str) -> None:
+    """Brings targets of the graph up to date, and holds the shared lock of the outputs from then on.
+
+    A build that has nothing to do takes no exclusive lock, so that runs do not wait for each other.
+    """
+    setup_system()
+    lock.shared()
+    fetch.fetch(*fetch.BASE)
+    if _is_configured() and _is_up_to_date(targets):
+        return
+    lock.exclusive()
+    try:
+        if not _is_configured():
+            _configure()
+        if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
+            raise Failure("the build failed; the messages are above")
+    finally:
+        lock.shared()
+
+
+def _is_up_to_date(targets: tuple[str, ...]) -> bool:
+    dry = subprocess.run(["ninja", "-n", *targets], cwd=GRAPH, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return dry.returncode == 0 and "no work to do" in dry.stdout
+
+
+def _arguments() -> list[str]:
+    prefix_map = f'-ffile-prefix-map="{ROOT}"=.'
+    return [
+        "-G", "Ninja", "-S", str(ROOT), "-B", str(GRAPH),
+        "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+        f"-DCMAKE_C_FLAGS={prefix_map}",
+        f"-DCMAKE_CXX_FLAGS={prefix_map}",
+        f"-DCOLLEKTIVE_JAVA_HOME={jdk.find_jdk()}",
+        f"-DCOLLEKTIVE_TEST_JDKS={';'.join(map(str, jdk.test_jdks()))}",
+        f"-DCOLLEKTIVE_PYTHON={sys.executable}",
+        f"-DCOLLEKTIVE_NUNIT={NUNIT if NUNIT.exists() else ''}",
+    ]
+
+
+def _is_configured() -> bool:
+    stamp = GRAPH / "arguments"
+    return stamp.exists() and stamp.read_text() == "\n".join(_arguments())
+
+
+def _configure() -> None:
+    # CMake refuses a tree of a checkout that was moved.
+    shutil.rmtree(GRAPH, ignore_errors=True)
+    logged("configure", ["cmake", *_arguments()])
+    (GRAPH / "arguments").write_text("\n".join(_arguments()))

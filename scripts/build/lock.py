@@ -1,0 +1,40 @@
+"""The lock on the build outputs of this checkout."""
+import fcntl
+import os
+
+from build.console import say
+from build.places import ROOT
+
+_descriptor: int | None = None
+
+
+def shared() -> None:
+    """Locks the outputs for use until this process ends. Processes that it starts share the lock."""
+    _acquire(fcntl.LOCK_SH)
+
+
+def exclusive() -> None:
+    """Locks the outputs for changes. Waits for other commands, and reports that."""
+    _acquire(fcntl.LOCK_EX)
+
+
+def release() -> None:
+    """Releases the lock: for commands that only start other commands, each of which locks by itself."""
+    global _descriptor
+    if _descriptor is not None:
+        os.close(_descriptor)
+        _descriptor = None
+
+
+def _acquire(mode: int) -> None:
+    global _descriptor
+    if _descriptor is None:
+        # The folder itself is locked: `clean` removes every file that could carry the lock.
+        _descriptor = os.open(ROOT, os.O_RDONLY)
+        # A run outlives a command that is killed, and still uses the outputs.
+        os.set_inheritable(_descriptor, True)
+    try:
+        fcntl.flock(_descriptor, mode | fcntl.LOCK_NB)
+    except BlockingIOError:
+        say("waiting for another collektive command that uses build/ ...")
+        fcntl.flock(_descriptor, mode)

@@ -1,0 +1,18 @@
+""".NET programs of this checkout, with the shim in reach."""
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from build.places import ROOT, SHIM
+
+
+def command(runtime: str, program: Path, *words: str | Path) -> list[str | Path]:
+    """Returns the command line of a program on mono-sgen, mono-boehm or coreclr."""
+    return [ROOT / "tools/coreclr/coreclr" if runtime == "coreclr" else runtime, "--debug", program, *words]
+
+
+def environment(runtime: str) -> Mapping[str, str]:
+    """Returns the environment that such a program runs in."""
+    paths = [str(SHIM), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
+    return {**os.environ, "LD_LIBRARY_PATH": ":".join(paths), "COLLEKTIVE_RUNTIME": runtime,
+            "PATH": f"{ROOT / 'tools/coreclr'}:{os.environ.get('PATH', os.defpath)}"}

@@ -1,0 +1,62 @@
+"""The manifests of the packages.
+
+`python3 scripts/build/manifest.py` writes unity/package.json, for installations by git URL with `?path=/unity`, from package.json.
+"""
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import metas
+from build.places import ROOT
+
+SYSTEMS = {"win-x64": "Windows (x64)", "linux-x64": "Linux (x64)", "linux-arm64": "Linux (ARM64)", "mac-x64": "macOS (Intel)",
+           "mac-arm64": "macOS (Apple silicon)"}
+
+
+def read(root: str | Path) -> dict[str, Any]:
+    """Returns the manifest of the package."""
+    manifest: dict[str, Any] = json.loads(Path(root, "package.json").read_text())
+    return manifest
+
+
+def sources(root: Path) -> list[str]:
+    """Returns the entries of the allow-list `files` that exist in the clone, and the manifest itself, which npm always packs."""
+    return ["package.json"] + [path for path in read(root)["files"] if (root / path).exists()]
+
+
+def for_git(root: str | Path) -> str:
+    """The root's manifest as it must be for a package whose root is the folder unity."""
+    manifest = read(root)
+    del manifest["files"]
+    for sample in manifest["samples"]:
+        sample["path"] = os.path.relpath(sample["path"], "unity")
+    return json.dumps(manifest, indent=2) + "\n"
+
+
+def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
+    """The manifest of the package that holds a platform's JVM."""
+    core = read(root)
+    return {
+        "name": "org.collektive.unity.jvm." + platform,
+        "displayName": "Collektive for Unity: JVM for " + SYSTEMS[platform],
+        "version": core["version"],
+        "unity": core["unity"],
+        "description": "The Java runtime (Eclipse Temurin) that Collektive for Unity runs its programs on. Licences: Jvm~/" + platform + "/legal.",
+        "license": "GPL-2.0-only WITH Classpath-exception-2.0",
+        "author": core["author"],
+        "files": ["Jvm~", "package.json.meta"],
+    }
+
+
+def write_jvm(root: str | Path, platform: str, folder: Path) -> None:
+    """Writes the manifest of a platform's JVM package into a folder, with its meta."""
+    (folder / "package.json").write_text(json.dumps(for_jvm(root, platform), indent=2) + "\n")
+    (folder / "package.json.meta").write_text(metas.meta_of(folder, "package.json", "org.collektive.unity.jvm." + platform))
+
+
+if __name__ == "__main__":
+    (ROOT / "unity/package.json").write_text(for_git(ROOT))

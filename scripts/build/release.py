@@ -1,0 +1,116 @@
+"""What accompanies the packages of a release.
+
+`release.py notes X.Y.Z` prints the changelog's section of a version.
+`release.py openupm REPOSITORY_URL` prints the metadata for the registry OpenUPM, which builds packages from tags of a repository.
+`release.py materials FOLDER` writes the bill of materials of the package (CycloneDX): FOLDER/bom.json.
+"""
+import json
+import re
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import fetch, manifest
+from build.console import Failure, logged
+from build.jdk import find_jdk
+from build.places import BUILD, JVM, ROOT
+
+# Modules whose jars are in the package.
+SHIPPED = "host,generator,compiler-plugin,testing,programs"
+CYCLONEDX = "org.cyclonedx:cyclonedx-maven-plugin:2.9.1"
+APACHE = [{"license": {"id": "Apache-2.0"}}]
+Json = dict[str, Any]
+
+
+def notes(changelog: str, version: str) -> str:
+    """Returns the text below a version's heading of a changelog.
+
+    Raises `Failure` if the section is missing or empty.
+    """
+    section = re.search(rf"(?ms)^## \[{re.escape(version)}\][^\n]*\n(.*?)(?=^## \[|\Z)", changelog)
+    if not section or not section[1].strip():
+        raise Failure(f"CHANGELOG.md has no section [{version}], or the section is empty")
+    return section[1].strip() + "\n"
+
+
+def openupm(url: str) -> Json:
+    """Returns the package's metadata for OpenUPM."""
+    package = manifest.read(ROOT)
+    return {
+        "name": package["name"],
+        "displayName": package["displayName"],
+        "description": package["description"],
+        "repoUrl": url,
+        "licenseSpdxId": package["license"],
+        "topics": ["ai", "physics"],
+        "hunter": url.rstrip("/").split("/")[-2],
+        # Tags of commits with the package's content: the repository has no built parts.
+        "gitTagPrefix": "upm/",
+        "minVersion": package["version"],
+        "readme": "upm:README.md",
+    }
+
+
+def fetched(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
+    """Returns the components of the package that are not dependencies of the JVM side's modules."""
+    return [
+        {"type": "library", "name": "flatbuffers", "version": flatbuffers, "licenses": APACHE, "purl": f"pkg:cargo/flatc-fork@{crate}",
+         "description": "Runtimes for C# and Java, and the compiler flatc"},
+        {"type": "platform", "name": "openjdk", "version": jdk, "licenses": [{"expression": "GPL-2.0-only WITH Classpath-exception-2.0"}],
+         "description": "The bundled JVM, in packages whose names end with -jre only"},
+    ]
+
+
+def complete(bill: Json, package: Json, more: list[Json]) -> Json:
+    """Returns the bill of the package: our own modules are parts of it, not components of others."""
+    bill["metadata"]["component"] = {"type": "library", "bom-ref": package["name"], "name": package["name"], "version": package["version"],
+                                     "licenses": APACHE, "description": package["description"]}
+    bill["components"] = [component for component in bill["components"] if component.get("group") != "org.collektive"] + more
+    known = {component.get("bom-ref") for component in bill["components"]}
+    bill["dependencies"] = [{"ref": package["name"], "dependsOn": sorted(known - {None})}]
+    return bill
+
+
+def materials(folder: Path) -> None:
+    """Writes the bill of materials: Maven's of the JVM side, with what Maven does not know."""
+    fetch.fetch("flatbuffers")
+    with tempfile.TemporaryDirectory() as work:
+        logged("bill-of-materials", ["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "-pl", SHIPPED, "-am", f"{CYCLONEDX}:makeAggregateBom",
+                                     "-DincludeTestScope=false", "-DincludeProvidedScope=false", "-DoutputFormat=json", f"-DoutputDirectory={work}",
+                                     "-DoutputName=maven"])
+        bill = json.loads(Path(work, "maven.json").read_text())
+    flatbuffers = json.loads((BUILD / "flatbuffers/package.json").read_text())["version"]
+    crate = _found(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
+    jdk = _found(r'(?m)^JAVA_VERSION="([^"]+)"', find_jdk() / "release")
+    bill = complete(bill, manifest.read(ROOT), fetched(flatbuffers, crate, jdk))
+    (folder / "bom.json").write_text(json.dumps(bill, indent=2) + "\n")
+
+
+def _found(pattern: str, file: Path) -> str:
+    match = re.search(pattern, file.read_text())
+    if match is None:
+        raise Failure(f"{file} does not match {pattern}")
+    return match[1]
+
+
+def main(words: list[str]) -> None:
+    match words:
+        case ["notes", version]:
+            print(notes((ROOT / "CHANGELOG.md").read_text(), version), end="")
+        case ["openupm", url]:
+            # YAML contains JSON's scalars.
+            print("\n".join(f"{key}: {json.dumps(value)}" for key, value in openupm(url).items()))
+        case ["materials", folder]:
+            materials(Path(folder))
+        case _:
+            raise Failure(f"release.py: unknown arguments\n{__doc__}")
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1:])
+    except Failure as failure:
+        sys.exit(str(failure))

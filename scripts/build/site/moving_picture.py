@@ -1,0 +1,30 @@
+"""moving_picture.py REPLAY.html FILE.webp: makes the moving picture of the README from the replay page of a demo.
+
+Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. Twelve pictures a second, and the last one for two seconds.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image  # type: ignore[import-not-found]
+
+HERE = Path(__file__).resolve().parent
+SIZE = (720, 405)
+FRAMES = 90
+MILLIS, LAST_MILLIS = 83, 2000
+
+
+def main(page: str, target: str) -> None:
+    """Takes the frames in a browser and joins them."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["node", HERE / "moving_picture.mjs", page, folder, str(FRAMES)], check=True,
+                       env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(HERE.parents[2] / "build/npm/node_modules")})
+        pictures = [Image.open(path).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS) for path in sorted(Path(folder).glob("*.png"))]
+    durations = [MILLIS] * (len(pictures) - 1) + [LAST_MILLIS]
+    pictures[0].save(target, save_all=True, append_images=pictures[1:], duration=durations, loop=0, quality=60, method=4)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Checks the package's assets: `validate.py ROOT FIELDS` prints one line for each thing that is wrong and exits 1.
+
+FIELDS is what Collektive.SerializedFields.exe printed of the package's assemblies. With --update the new GUIDs are added to
+scripts/checks/validator/guids.txt.
+"""
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.dirname(HERE), HERE]
+from validator import asmdefs, guids, packing, references, serialized_fields  # noqa: E402
+from validator.assets import Assets  # noqa: E402
+
+from build import metas  # noqa: E402
+
+
+def problems(root, classes, ledger=guids.LEDGER):
+    """All that is wrong with the package that lies at root."""
+    yield from metas.problems(root)
+    assets = Assets(root)
+    yield from guids.problems(assets, classes, ledger)
+    yield from asmdefs.problems(assets)
+    yield from references.problems(assets, classes)
+    yield from packing.problems(assets)
+
+
+def main() -> None:
+    root, fields = sys.argv[1:3]
+    with open(fields) as file:
+        classes = serialized_fields.parse(file.read())
+    if "--update" in sys.argv:
+        guids.update(Assets(root), classes)
+    found = list(problems(root, classes))
+    print("\n".join(found))
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

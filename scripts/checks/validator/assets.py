@@ -1,0 +1,35 @@
+"""The package's assets by path and by GUID."""
+import os
+
+from build import metas
+
+# GUIDs of what Unity itself brings: its built-in meshes, materials and shaders.
+BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f000000000000000"}
+
+
+class Assets:
+    """All assets below a root, from their metas."""
+
+    def __init__(self, root) -> None:
+        self.root = root
+        self.paths = list(metas.assets(root))
+        self.guids = {}
+        for path in self.paths:
+            guid = guid_of(os.path.join(root, path + ".meta"))
+            if guid:
+                self.guids[guid] = path
+
+    def with_ending(self, *endings):
+        return [path for path in self.paths if path.endswith(endings)]
+
+    def read(self, path):
+        with open(os.path.join(self.root, path), encoding="utf-8") as file:
+            return file.read()
+
+
+def guid_of(meta):
+    """The GUID in a meta file; None when there is none."""
+    if not os.path.exists(meta):
+        return None
+    with open(meta) as file:
+        return metas.guid_in(file.read())

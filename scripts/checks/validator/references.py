@@ -1,0 +1,214 @@
+"""Prefabs, scenes and materials: their objects, their references, and their scripts' fields against the C#."""
+import os
+import re
+
+from validator import unity_yaml
+from validator.assets import BUILT_IN
+
+# Unity's class numbers, of what the package's files hold.
+CLASSES = {
+    1: "GameObject", 4: "Transform", 20: "Camera", 21: "Material", 23: "MeshRenderer", 29: "OcclusionCullingSettings", 33: "MeshFilter",
+    54: "Rigidbody", 65: "BoxCollider", 81: "AudioListener", 104: "RenderSettings", 108: "Light", 114: "MonoBehaviour", 135: "SphereCollider",
+    157: "LightmapSettings", 196: "NavMeshSettings", 1001: "PrefabInstance", 1660057539: "SceneRoots",
+}
+YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
+# The file id of an imported asset's main object, and the kind of asset that goes with it.
+IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
+# What a PrefabInstance refers to in place of one of the prefab's objects.
+WHOLE_PREFAB = "100100000"
+# Fields that Unity itself writes for every MonoBehaviour.
+OF_EVERY_SCRIPT = {
+    "m_ObjectHideFlags", "m_CorrespondingSourceObject", "m_PrefabInstance", "m_PrefabAsset", "m_GameObject", "m_Enabled", "m_EditorHideFlags",
+    "m_Script", "m_Name", "m_EditorClassIdentifier",
+}
+
+
+def problems(assets, classes):
+    files = {}
+    for path in assets.with_ending(*YAML_ENDINGS):
+        try:
+            files[path] = unity_yaml.read(os.path.join(assets.root, path))
+        except unity_yaml.UnityYamlError as error:
+            yield f"{path}:{error}"
+    for path, documents in files.items():
+        for problem in OneFile(assets, classes, files, path, documents).problems():
+            yield f"{path}:{problem}"
+
+
+class OneFile:
+    def __init__(self, assets, classes, files, path, documents) -> None:
+        self.assets = assets
+        self.classes = classes
+        self.files = files
+        self.path = path
+        self.documents = documents
+        self.by_id = {str(document.file_id): document for document in documents}
+
+    def problems(self):
+        seen = set()
+        for document in self.documents:
+            if document.file_id in seen:
+                yield f"{document.line}: the file id {document.file_id} is used twice"
+            seen.add(document.file_id)
+            if CLASSES.get(document.class_id) != document.type_name:
+                yield f"{document.line}: class {document.class_id} is not known as {document.type_name}"
+            for where, reference in references(document.fields):
+                problem = self.of_reference(reference)
+                if problem:
+                    yield f"{document.line}: {document.type_name}.{where}: {problem}"
+            if document.type_name == "GameObject":
+                yield from self.of_game_object(document)
+            if document.type_name == "Transform" and not document.stripped:
+                yield from self.of_transform(document)
+            if document.type_name == "MonoBehaviour" and not document.stripped:
+                yield from self.of_script(document)
+            if document.type_name == "PrefabInstance":
+                yield from self.of_instance(document)
+        if self.path.endswith(".unity"):
+            yield from self.of_scene()
+
+    def of_reference(self, reference):
+        """What is wrong with a reference; None when it is right."""
+        file_id, guid = reference["fileID"], reference.get("guid")
+        if file_id == "0":
+            return None
+        if guid is None:
+            return None if file_id in self.by_id else f"there is no object {file_id} in this file"
+        if guid in BUILT_IN:
+            return None
+        target = self.assets.guids.get(guid)
+        if target is None:
+            return f"no asset of the package has the GUID {guid}"
+        imported = IMPORTED.get(os.path.splitext(target)[1])
+        if imported:
+            return None if (file_id, reference.get("type")) == imported else f"{target} is referred to by fileID {imported[0]} and type {imported[1]}"
+        if target not in self.files:
+            return f"{target} is no asset that can be referred to"
+        if target.endswith(".prefab") and file_id == WHOLE_PREFAB:
+            return None
+        if file_id not in {str(document.file_id) for document in self.files[target]}:
+            return f"there is no object {file_id} in {target}"
+        return None
+
+    def of_game_object(self, document):
+        for entry in document.fields["m_Component"]:
+            component = self.by_id.get(entry["component"]["fileID"])
+            if component and component.fields["m_GameObject"]["fileID"] != str(document.file_id):
+                yield f"{component.line}: {component.type_name} says that it is on another GameObject than {document.fields['m_Name']}"
+        listed = {entry["component"]["fileID"] for entry in document.fields["m_Component"]}
+        for other in self.documents:
+            owner = other.fields.get("m_GameObject", {}).get("fileID")
+            if owner == str(document.file_id) and str(other.file_id) not in listed:
+                yield f"{other.line}: {other.type_name} is not among the components of {document.fields['m_Name']}"
+
+    def of_transform(self, document):
+        for child in document.fields["m_Children"]:
+            other = self.by_id.get(child["fileID"])
+            if other and not other.stripped and other.fields["m_Father"]["fileID"] != str(document.file_id):
+                yield f"{other.line}: Transform has another parent than {document.file_id}"
+        parent = self.by_id.get(document.fields["m_Father"]["fileID"])
+        if parent and not parent.stripped and {"fileID": str(document.file_id)} not in parent.fields["m_Children"]:
+            yield f"{document.line}: Transform is not among the children of its parent"
+
+    def of_scene(self):
+        roots = [document for document in self.documents if document.type_name == "SceneRoots"]
+        if len(roots) != 1:
+            yield "1: a scene has one SceneRoots"
+            return
+        listed = {reference["fileID"] for reference in roots[0].fields["m_Roots"]}
+        wanted = {str(document.file_id) for document in self.documents if is_root(document)}
+        for file_id in sorted(wanted ^ listed):
+            yield f"{roots[0].line}: SceneRoots: object {file_id} is {'not listed' if file_id in wanted else 'no root'}"
+
+    def of_script(self, document):
+        script = self.script_of(document)
+        if script is None:
+            # The reference itself is reported already.
+            return
+        known = self.class_of(script)
+        if known is None:
+            yield f"{document.line}: {script} holds no component or asset class of its own name"
+            return
+        for path, value in flattened(document.fields):
+            if path.split(".")[0] not in OF_EVERY_SCRIPT:
+                yield from self.of_field(document.line, known, path, value)
+
+    def of_field(self, line, known, path, value):
+        kind = known.fields.get(path)
+        if kind is None:
+            yield f"{line}: {known.name} has no serialised field {path}"
+        elif not fits(kind, value):
+            yield f"{line}: {known.name}.{path} is a {kind}, not {value!r}"
+
+    def of_instance(self, document):
+        source = self.assets.guids.get(document.fields["m_SourcePrefab"].get("guid"))
+        targets = {str(target.file_id): target for target in self.files.get(source, [])}
+        for change in document.fields["m_Modification"]["m_Modifications"]:
+            target = targets.get(change["target"]["fileID"])
+            if target is None:
+                # The reference itself is reported already.
+                continue
+            path = re.sub(r"\.Array\.(size|data\[\d+\])", "", change["propertyPath"])
+            if target.type_name == "MonoBehaviour" and path.split(".")[0] not in OF_EVERY_SCRIPT:
+                script = self.script_of(target)
+                known = script and self.class_of(script)
+                if known and path not in known.fields:
+                    yield f"{document.line}: {known.name} has no serialised field {path}"
+
+    def script_of(self, document):
+        return self.assets.guids.get(document.fields["m_Script"].get("guid"))
+
+    def class_of(self, script):
+        """The class that Unity finds in a script file: the one of the file's name."""
+        name = os.path.basename(script)[:-len(".cs")]
+        namespace = re.search(r"^namespace ([\w.]+)", self.assets.read(script), re.M)
+        return self.classes.get(f"{namespace[1]}.{name}" if namespace else name)
+
+
+def is_root(document):
+    if document.type_name == "Transform" and not document.stripped:
+        return document.fields["m_Father"]["fileID"] == "0"
+    return document.type_name == "PrefabInstance" and document.fields["m_Modification"]["m_TransformParent"]["fileID"] == "0"
+
+
+def references(value, where=""):
+    """All references in a value, with their places."""
+    if isinstance(value, dict):
+        if "fileID" in value:
+            yield where, value
+            return
+        for key, inner in value.items():
+            yield from references(inner, f"{where}.{key}" if where else key)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from references(inner, where)
+
+
+def flattened(fields, prefix=""):
+    """Paths and values of a script's fields; elements of a list have the path of the list."""
+    for key, value in fields.items():
+        path = prefix + key
+        yield path, value
+        if isinstance(value, dict) and "fileID" not in value and not is_vector(value):
+            yield from flattened(value, path + ".")
+        if isinstance(value, list):
+            for element in value:
+                if isinstance(element, dict) and "fileID" not in element and not is_vector(element):
+                    yield from flattened(element, path + ".")
+
+
+def is_vector(value):
+    """Vectors, colours and masks are Unity's own; their parts are not looked at."""
+    return set(value) <= set("xyzwrgba") or "m_Bits" in value
+
+
+def fits(kind, value):
+    if kind == "list":
+        return isinstance(value, list)
+    if kind == "reference":
+        return isinstance(value, dict) and "fileID" in value
+    if kind in ("value", "fields"):
+        return isinstance(value, dict)
+    if kind == "number":
+        return isinstance(value, str) and re.fullmatch(r"-?[0-9.]+(e[+-]?\d+)?", value) is not None
+    return isinstance(value, str)

@@ -1,0 +1,192 @@
+"""The package's assets are right, and the validator finds each kind of fault."""
+import functools
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import validate
+
+from build import managed, metas
+from build.places import CSHARP, ROOT
+from validator import serialized_fields
+
+PREFAB = "unity/Prefabs/Simulation Manager.prefab"
+NODE = "unity/Prefabs/Node.prefab"
+SCENE = "unity/Samples~/GradientAscent/GradientAscent.unity"
+ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
+
+
+@functools.cache
+def classes():
+    """What Unity would serialise of each component."""
+    command = managed.command("mono-sgen", CSHARP / "Collektive.SerializedFields.exe", CSHARP / "Collektive.Unity.dll", CSHARP / "Collektive.Samples.dll")
+    output = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True, check=True).stdout
+    return serialized_fields.parse(output)
+
+
+class TheAssets(unittest.TestCase):
+    def test_are_right(self) -> None:
+        self.assertEqual(list(validate.problems(ROOT, classes())), [])
+
+
+class TheValidator(unittest.TestCase):
+    """Each test breaks one thing in a copy of the package."""
+
+    def setUp(self) -> None:
+        self.root = tempfile.mkdtemp(prefix="collektive-assets-")
+        self.addCleanup(shutil.rmtree, self.root)
+        for name in metas.PACKED_ROOT_FILES:
+            path = os.path.join(ROOT, name)
+            if os.path.isdir(path):
+                shutil.copytree(path, os.path.join(self.root, name), ignore=shutil.ignore_patterns("Headless~"))
+            else:
+                shutil.copy(path, self.root)
+            shutil.copy(path + ".meta", self.root)
+        self.ledger = os.path.join(self.root, "guids.txt")
+        shutil.copy(validate.guids.LEDGER, self.ledger)
+
+    def change(self, path, pattern, new) -> None:
+        path = os.path.join(self.root, path)
+        with open(path) as file:
+            text, count = re.subn(pattern, new, file.read(), count=1, flags=re.M)
+        self.assertEqual(count, 1, f"nothing to change in {path}")
+        with open(path, "w") as file:
+            file.write(text)
+
+    def found(self, *words) -> None:
+        """Expects a problem with all the words."""
+        problems = list(validate.problems(self.root, classes(), self.ledger))
+        self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "nothing was found")
+
+    def test_finds_a_missing_meta(self) -> None:
+        os.remove(os.path.join(self.root, ASMDEF + ".meta"))
+        self.found(ASMDEF, "no .meta")
+
+    def test_finds_a_meta_without_an_asset(self) -> None:
+        os.remove(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs"))
+        self.found("TickTimes.cs.meta", "belongs to no asset")
+
+    def test_finds_a_guid_used_twice(self) -> None:
+        with open(os.path.join(self.root, ASMDEF + ".meta")) as file:
+            guid = re.search("guid: (.*)", file.read())[1]
+        self.change(PREFAB + ".meta", "guid: .*", f"guid: {guid}")
+        self.found("used again")
+
+    def test_finds_a_changed_guid(self) -> None:
+        self.change(PREFAB + ".meta", "guid: .*", "guid: " + 32 * "a")
+        self.found(PREFAB, "is gone")
+
+    def test_finds_an_asset_whose_guid_is_not_listed(self) -> None:
+        self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
+        self.found(NODE, "--update")
+
+    def test_an_update_lists_what_is_new_and_forgets_nothing(self) -> None:
+        os.remove(os.path.join(self.root, PREFAB))
+        os.remove(os.path.join(self.root, PREFAB + ".meta"))
+        before = validate.guids.read(self.ledger)
+        self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
+        validate.guids.update(validate.Assets(self.root), classes(), self.ledger)
+        self.assertEqual(validate.guids.read(self.ledger), before)
+        self.found(PREFAB, "its GUID", "is gone")
+
+    def test_finds_a_script_reference_to_nothing(self) -> None:
+        self.change(PREFAB, r"guid: [0-9a-f]{32}", "guid: " + 32 * "b")
+        self.found(PREFAB, "MonoBehaviour.m_Script", 32 * "b")
+
+    def test_finds_a_script_reference_to_something_else(self) -> None:
+        with open(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs.meta")) as file:
+            guid = re.search("guid: (.*)", file.read())[1]
+        self.change(PREFAB, r"guid: [0-9a-f]{32}", f"guid: {guid}")
+        self.found(PREFAB, "TickTimes.cs", "no component")
+
+    def test_finds_a_field_that_the_script_does_not_have(self) -> None:
+        self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  speed: 3\n")
+        self.found(PREFAB, "SimulationManager", "speed")
+
+    def test_finds_a_nested_field_that_the_script_does_not_have(self) -> None:
+        self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  settings:\n    tempo: 3\n")
+        self.found(PREFAB, "settings.tempo")
+
+    def test_finds_a_field_of_another_kind(self) -> None:
+        self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  paused: []\n")
+        self.found(PREFAB, "SimulationManager.paused", "number")
+
+    def test_finds_a_changed_setting_that_the_script_does_not_have(self) -> None:
+        self.change(SCENE, "propertyPath: settings.program", "propertyPath: settings.programme")
+        self.found(SCENE, "settings.programme")
+
+    def test_finds_a_reference_to_no_object_of_the_file(self) -> None:
+        self.change(SCENE, r"m_GameObject: \{fileID: \d+\}", "m_GameObject: {fileID: 12}")
+        self.found(SCENE, "there is no object 12")
+
+    def test_finds_a_reference_to_no_object_of_another_file(self) -> None:
+        self.change(SCENE, r"target: \{fileID: \d+", "target: {fileID: 12")
+        self.found(SCENE, "there is no object 12", PREFAB)
+
+    def test_finds_a_component_that_its_object_does_not_list(self) -> None:
+        self.change(NODE, r"  - component: \{fileID: \d+\}\n", "")
+        self.found(NODE, "not among the components")
+
+    def test_finds_a_root_that_the_scene_does_not_list(self) -> None:
+        self.change(SCENE, r"m_Roots:\n  - .*\n", "m_Roots:\n")
+        self.found(SCENE, "SceneRoots", "not listed")
+
+    def test_finds_two_objects_with_one_id(self) -> None:
+        self.change(SCENE, "!u!104 &2", "!u!104 &1")
+        self.found(SCENE, "used twice")
+
+    def test_finds_text_that_is_no_yaml(self) -> None:
+        self.change(NODE, "^  m_Layer: 0", "  m_Layer 0")
+        self.found(NODE, "could not find expected ':'")
+
+    def test_finds_a_flow_mapping_without_a_value(self) -> None:
+        self.change(SCENE, r"m_GameObject: \{fileID: ", "m_GameObject: {fileID ")
+        self.found(SCENE, "not 'key: value'")
+
+    def test_finds_a_duplicate_key(self) -> None:
+        self.change(NODE, "^  m_Layer: 0", "  m_Layer: 0\n  m_Layer: 0")
+        self.found(NODE, "duplicate key m_Layer")
+
+    def test_finds_an_object_of_an_unknown_class(self) -> None:
+        self.change(SCENE, "!u!20 ", "!u!21 ")
+        self.found(SCENE, "Camera")
+
+    def test_finds_an_assembly_reference_to_nothing(self) -> None:
+        self.change(ASMDEF, '"Collektive.Bridge"', '"Collektive.Bridges"')
+        self.found(ASMDEF, "Collektive.Bridges")
+
+    def test_finds_an_assembly_that_refers_to_itself(self) -> None:
+        self.change("unity/Runtime/Bridge/Collektive.Bridge.asmdef", r'"references": \[\]', '"references": ["Collektive.Unity"]')
+        self.found("refers to itself")
+
+    def test_finds_an_assembly_of_another_name_than_its_file(self) -> None:
+        self.change(ASMDEF, '"name": "Collektive.Unity"', '"name": "Collektive.Units"')
+        self.found(ASMDEF, "Collektive.Units")
+
+    def test_finds_a_plugin_that_nobody_brings(self) -> None:
+        self.change(ASMDEF, "Collektive.FlatBuffers.dll", "FlatBuffers.dll")
+        self.found(ASMDEF, "FlatBuffers.dll")
+
+    def test_finds_an_assembly_that_is_missing_on_some_platforms(self) -> None:
+        self.change(ASMDEF, r'"includePlatforms": \[\]', '"includePlatforms": ["Editor", "LinuxStandalone64"]')
+        self.found(ASMDEF, "compile for all")
+
+    def test_finds_code_without_an_assembly(self) -> None:
+        os.remove(os.path.join(self.root, ASMDEF))
+        os.remove(os.path.join(self.root, ASMDEF + ".meta"))
+        self.found("SimulationManager.cs", "no assembly definition")
+
+    def test_finds_an_asset_that_is_not_packed(self) -> None:
+        self.change("package.json", r'    "unity/Prefabs",\n', "")
+        self.found(NODE, "allow-list")
+
+    def test_finds_a_sample_that_is_not_listed(self) -> None:
+        os.makedirs(os.path.join(self.root, "unity/Samples~/Extra"))
+        self.found("Samples~/Extra", "lists no such sample")
+
+    def test_finds_an_old_manifest_for_git(self) -> None:
+        self.change("package.json", r'"version": "[^"]*"', '"version": "9.9.9"')
+        self.found("unity/package.json", "not the one")

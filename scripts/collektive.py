@@ -1,0 +1,131 @@
+"""The command `./collektive`: declares the commands, and runs one of them. Each is a module of `commands`, with the same name."""
+import argparse
+import codecs
+import importlib
+import locale
+import os
+import resource
+import sys
+from pathlib import Path
+from typing import NoReturn
+
+if sys.version_info < (3, 11):  # noqa: UP036 - the syntax of this file is older
+    sys.exit(f"collektive: Python 3.11 or newer is needed, and {sys.executable} has version {sys.version.split()[0]}")
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from build.console import Failure
+
+COMMANDS = {
+    "setup": "install and fetch what the build needs",
+    "build": "build parts of this checkout",
+    "generate": "make the code of a user schema (FlatBuffers)",
+    "demo": "run the case study without Unity and write pictures, a replay page and tables",
+    "run": "run a scenario without Unity",
+    "repeat": "repeat a run from its manifest, and compare the results",
+    "sweep": "run a scenario with many values of its keys, into tables",
+    "plot": "make figures of a sweep",
+    "profile": "run a scenario and report where its time goes on the JVM",
+    "replay": "run the programs of a recorded run again, or others on its input",
+    "diff": "find where two recorded runs differ",
+    "test": "build and test everything",
+    "bench": "measure what rounds and ticks cost",
+    "package": "make the Unity package, a tarball",
+    "site": "make the documentation as a site",
+    "clean": "remove all build output and caches",
+}
+EPILOGUE = """Every command first does what it needs: installs, fetches, builds. Caches are kept in build/.
+
+Exit code: 0 it is done; 1 it is not, and the last line says why; 2 unknown command; 130 Ctrl-C."""
+# Python, Mono and Node run with this stack.
+STACK_KB = 1024
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line, like those of the commands. A command may choose their code with the default `error_code`."""
+
+    def error(self, message: str) -> NoReturn:
+        raise Failure(f"{self.prog.removeprefix('./collektive ')}: {message} (see {self.prog} --help)", self.get_default("error_code") or 1)
+
+    def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
+        """Reports unknown arguments as those of the command that they belong to."""
+        arguments, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unknown argument {unknown[0]}")
+        return arguments, unknown
+
+
+def parser_for(name: str | None) -> Parser:
+    """Returns the parser of all commands, with the options of the named one: the modules of the others are not loaded."""
+    parser = Parser(prog="./collektive", allow_abbrev=False, epilog=EPILOGUE, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(metavar="COMMAND", dest="command", title="commands")
+    for command, summary in COMMANDS.items():
+        module = importlib.import_module(f"commands.{command}") if command == name else None
+        sub = commands.add_parser(command, help=summary, allow_abbrev=False, description=module.__doc__ if module else None,
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
+        if module:
+            module.add_arguments(sub)
+            sub.set_defaults(run=module.run)
+    return parser
+
+
+def main(words: list[str]) -> int:
+    """Runs a command line and returns its exit code."""
+    if not words or words[0] in ("-h", "--help", "help"):
+        parser_for(None).print_help()
+        return 0
+    if words[0] not in COMMANDS:
+        print(f"collektive: unknown command '{words[0]}'", file=sys.stderr)
+        parser_for(None).print_help(sys.stderr)
+        return 2
+    try:
+        arguments = parser_for(words[0]).parse_args(words)
+        check_surroundings()
+        from build.processes import attended
+        return attended(lambda: guarded(arguments))
+    except Failure as failure:
+        return report(failure)
+
+
+def guarded(arguments: argparse.Namespace) -> int:
+    """Runs a parsed command; a `Failure` becomes a message and an exit code."""
+    try:
+        return int(arguments.run(arguments))
+    except Failure as failure:
+        return report(failure)
+    except KeyboardInterrupt:
+        return 130
+
+
+def report(failure: Failure) -> int:
+    """Prints why a command failed and returns the exit code."""
+    if str(failure):
+        print(f"collektive: {failure}", file=sys.stderr)
+    return failure.code
+
+
+def open_closed_descriptors() -> None:
+    """Fills closed standard descriptors, which else the next opened file would take. Messages without a place go to the results."""
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            if descriptor == 2:
+                os.dup2(1, 2)
+            else:
+                os.open(os.devnull, os.O_RDWR)
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)
+
+
+def check_surroundings() -> None:
+    """Makes the tools independent of the caller's shell: an encoding for all file names, and a stack that suffices."""
+    if codecs.lookup(locale.getpreferredencoding()).name != "utf-8" or os.environ.get("LC_ALL") in ("C", "POSIX"):
+        os.environ["LC_ALL"] = "C.UTF-8"
+    stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
+    if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:
+        raise Failure(f"the stack of processes is limited to {stack // 1024} KB, and the tools need {STACK_KB}: ulimit -s 8192")
+
+
+if __name__ == "__main__":
+    open_closed_descriptors()
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,13 @@
+"""Builds targets of the build graph, such as native-shim, jvm or csharp. CMakeLists.txt and cmake/ declare them."""
+import argparse
+
+from build import graph
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("targets", nargs="*", default=["runtime"], metavar="TARGET", help="targets (default: runtime, all that runs scenes)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    graph.build(*arguments.targets)
+    return 0

@@ -1,0 +1,17 @@
+"""Removes build/ and the modules' target/ folders. Results in out/ stay."""
+import argparse
+import shutil
+
+from build import lock
+from build.places import BUILD, JVM
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    pass
+
+
+def run(_: argparse.Namespace) -> int:
+    lock.exclusive()
+    for folder in [BUILD, JVM / "target", *JVM.glob("*/target")]:
+        shutil.rmtree(folder, ignore_errors=True)
+    return 0

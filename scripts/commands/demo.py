@@ -1,0 +1,29 @@
+"""Runs the case study, environment-aware gradient ascent: 500 bodies climb towards a source around obstacles for 60 simulated seconds. Writes
+manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures to --out."""
+import argparse
+
+from build.places import ROOT
+from commands import run as run_command
+
+SCENARIO = ROOT / "unity/Samples~/GradientAscent/scenario.json"
+
+
+def _whole_number(text: str) -> int:
+    if not text.isascii() or not text.isdigit():
+        raise argparse.ArgumentTypeError("needs a whole number")
+    return int(text)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--nodes", type=_whole_number, metavar="N", help="number of bodies (default: 500)")
+    parser.add_argument("--seconds", metavar="S", help="simulated seconds (default: 60)")
+    parser.add_argument("--seed", default="1", metavar="K", help="seed (default: 1)")
+    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/demo-seedK, where it replaces those of an earlier demo)")
+    parser.add_argument("--overwrite", action="store_true", help="remove the results of an earlier run in that folder first")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    values = [] if arguments.nodes is None else [f"nodes={arguments.nodes}"]
+    return run_command.run(argparse.Namespace(
+        scenario=str(SCENARIO), out=arguments.out or f"out/demo-seed{arguments.seed}", overwrite=arguments.overwrite or not arguments.out,
+        seed=arguments.seed, seconds=arguments.seconds, values=values, recording=None, keep_going=False, trust_jvm=False, folder=None))

@@ -1,0 +1,57 @@
+"""Runs the programs of a recorded run on its input, without Unity, and compares the digest of every tick with the record's. With --programs, runs
+these jars instead of the recorded ones and reports where their answers differ from the record's. A record is what "outputs": { "record": true }
+of a scenario writes, or "Record" in the Simulation Manager's settings.
+
+--runtime runs the record on the other runtime, collektive with the jars in --runtime-jars. Each runtime has its own compiler, so the programs
+must be others too: a jar, or a folder of Kotlin with its schema, which is compiled here, for collektive with --runtime-plugin.
+
+Exit code: 0 every digest is that of the record; 1 a digest differs; 2 the record or a jar cannot be used, or not to its end."""
+import argparse
+import os
+from pathlib import Path
+
+from build import graph, projects, records
+from build.console import Failure
+from build.places import SAMPLES_JAR
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("record", metavar="FILE")
+    parser.add_argument("--trust", action="store_true",
+                        help="run programs that ./collektive run has not run here, such as those in somebody else's record: they have your rights")
+    parser.add_argument("--programs", type=Path, action="append", default=[], metavar="JAR|DIR", help="programs instead of the recorded ones")
+    parser.add_argument("--schema", type=Path, metavar="SCHEMA.fbs", help="schema of a folder of programs")
+    parser.add_argument("--runtime", metavar="NAME", help="builtIn or collektive (default: the record's)")
+    parser.add_argument("--runtime-jars", metavar="DIR", help="folder with Collektive's jars")
+    parser.add_argument("--runtime-plugin", type=Path, metavar="JAR", help="Collektive's compiler plugin")
+    parser.add_argument("--out", metavar="RECORD", help="record the replay, so that ./collektive diff compares the two")
+    parser.set_defaults(error_code=records.UNUSABLE)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    graph.build("jvm", "jvm_modules")
+    # Those of the samples may have run in Unity.
+    projects.own_program(SAMPLES_JAR)
+    jars = arguments.runtime_jars and os.path.realpath(arguments.runtime_jars)
+    words: list[str | Path] = ["--trust"] if arguments.trust else []
+    for programs in arguments.programs:
+        words += ["--programs", _compiled(programs, jars and Path(jars), arguments) if programs.is_dir() else programs]
+    for option, value in {"--runtime": arguments.runtime, "--runtime-jars": jars, "--out": arguments.out}.items():
+        if value is not None:
+            words += [option, value]
+    return records.read("replay", arguments.record, *words, "--own", projects.OWN_PROGRAMS)
+
+
+def _compiled(programs: Path, jars: Path | None, arguments: argparse.Namespace) -> Path:
+    """Returns the jar of a folder of programs."""
+    if arguments.schema is None or not arguments.schema.is_file():
+        raise Failure(f"replay: --programs '{programs}' is a folder: name its schema with --schema", records.UNUSABLE)
+    plugin: Path | None = arguments.runtime_plugin
+    if arguments.runtime != "collektive":
+        jars = plugin = None
+    elif jars is not None and (plugin is None or not plugin.is_file()):
+        raise Failure("replay: programs for collektive are compiled with its plugin: name it with --runtime-plugin", records.UNUSABLE)
+    try:
+        return projects.programs_jar(arguments.schema, programs, jars, plugin)
+    except Failure as failure:
+        raise Failure(str(failure), records.UNUSABLE) from failure

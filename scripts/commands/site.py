@@ -1,0 +1,38 @@
+"""Makes the documentation as a site in --out; open its index.html. The pages are those of Documentation~ and docs/ and a reference made from the
+code. The site opens from the disk, searches without a server and loads nothing from elsewhere. A broken link is an error."""
+import argparse
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+from build import fetch, graph
+from build.console import Failure, logged
+from build.places import BUILD, ROOT
+from build.site import pages
+
+TOOLS = BUILD / "site-tools"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--out", type=Path, default=ROOT / "out/site", metavar="DIR",
+                        help="folder for the site (default: out/site), where it replaces the earlier one")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    out: Path = arguments.out
+    if os.path.lexists(out) and not (out / "sitemap.xml").is_file():
+        raise Failure(f"site: '{out}' exists and is not a site: name another folder with --out")
+    graph.build("documentation")
+    fetch.fetch("site-tools")
+    # In its own folder first, so that several commands can make it at once.
+    with tempfile.TemporaryDirectory() as name:
+        work = Path(name)
+        pages.write(work, TOOLS / "node_modules")
+        logged("site", [TOOLS / "bin/python", "-I", "-m", "mkdocs", "build", "--strict", "--config-file", "site.yml", "--site-dir", "site"], cwd=work,
+               env={**os.environ, "NO_MKDOCS_2_WARNING": "true"})
+        shutil.rmtree(out, ignore_errors=True)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        shutil.move(work / "site", out)
+    print(out / "index.html")
+    return 0

@@ -1,0 +1,200 @@
+"""Builds and tests everything, or the suites named. A suite is named by its name, or with others of its area: lint, scripts, jvm, stress, shim,
+platforms, csharp, assets, faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. cmake/Tests.cmake declares
+them. Suites that take long for little more run only when they are named: platforms-all, ray (a cluster), shim-slow-on-JDK, csharp-slow-on-JDK.
+
+gradle needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one. platforms builds the native library for Linux and macOS
+on ARM64, platforms-all for Windows, Linux and macOS, and tests it under qemu and Wine where these can be installed. csharp runs on Mono and, without
+the tests that need Mono, on CoreCLR.
+
+`test bare [ROOT]...` runs the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
+as root; one whose packages cannot be fetched is skipped.
+
+The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. Results are read from the JUnit XML files of the
+suites, kept in build/results. A changed public API of the JVM side fails the suite jvm, which then shows the difference from
+jvm-host/*/api/*.api and the command that accepts it."""
+import argparse
+import json
+import re
+import shutil
+import site
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from build import fetch, graph, lock, processes, system
+from build.console import Failure, say
+from build.places import BUILD, GRAPH, RESULTS, ROOT, TEST_PYTHON
+
+RUNS = frozenset({"quick", "all", "extra"})
+
+
+class LongRun(NamedTuple):
+    """An option that runs one script of scripts/tests with its whole output."""
+
+    file: str
+    targets: tuple[str, ...]
+    words: tuple[str, ...]
+    help: str
+
+
+LONG_RUNS = {
+    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "misfit"), ("--all",), "each fault of scripts/tests/faults/faults.json (or those "
+                      "with WORDS in their name) on every runtime and JVM: a table"),
+    "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "200 runs that end in each way: the scene is left, quit, Ctrl-C, "
+                     "unhandled exceptions"),
+    "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page"), ("200", "20", "50", "5", "--seed"), "280 runs that are killed, get signals, full and "
+                     "read-only disks, a jumping clock, little memory: no folder that only looks complete, no process left, no lost earlier result; a "
+                     "table of the trials and their outcomes"),
+    "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "a scene whose nodes come, fail and go: memory, threads and descriptors must be flat "
+                    "from the second minute on; a table"),
+    "stress": LongRun("stress.py", ("jvm_modules",), (str(RESULTS / "stress-at-length/stress.xml"), "-m", "default", "-af", "NONE"), "the JVM side's "
+                      "races between threads, with every compiler and mix of compilers: takes long"),
+    "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe"), ("--each",), "inputs of any bytes against each fuzzer, or "
+                    "those named, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under "
+                    "sanitizers); what it learns stays in build/fuzz"),
+}
+
+
+class Suite(NamedTuple):
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area."""
+
+    name: str
+    labels: frozenset[str]
+    is_disabled: bool = False
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("suites", nargs="*", metavar="SUITE")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--quick", action="store_const", const=["quick"], dest="run_of", help="the verdict that matters in about six minutes on two idle "
+                      "cores: most suites on one JDK without their slow tests, and a short acceptance")
+    only.add_argument("--sanitize", action="store_const", const=["sanitized"], dest="run_of", help="the shim's tests under AddressSanitizer and "
+                      "UndefinedBehaviorSanitizer")
+    only.add_argument("--faults", nargs="*", metavar="WORDS", help=LONG_RUNS["faults"].help)
+    only.add_argument("--chaos", nargs="?", const="1", metavar="SEED", help=LONG_RUNS["chaos"].help)
+    only.add_argument("--soak", type=_minutes, metavar="MINUTES", help=LONG_RUNS["soak"].help)
+    only.add_argument("--fuzz", nargs="*", metavar="NAME|MINUTES|SEED", help=LONG_RUNS["fuzz"].help)
+    for name in ("exits", "stress"):
+        only.add_argument(f"--{name}", action="store_const", const=[], help=LONG_RUNS[name].help)
+
+
+def _minutes(text: str) -> str:
+    if not re.fullmatch(r"\d*\.?\d+", text):
+        raise argparse.ArgumentTypeError("needs a number of minutes")
+    return text
+
+
+def run(arguments: argparse.Namespace) -> int:
+    values = {name: getattr(arguments, name) for name in LONG_RUNS if getattr(arguments, name) is not None}
+    if arguments.suites and (values or arguments.run_of):
+        raise Failure(f"test: '{arguments.suites[0]}' cannot be combined with an option: --{next(iter(values), 'quick')} takes no suites")
+    for name, value in values.items():
+        return run_long(LONG_RUNS[name], [value] if isinstance(value, str) else value)
+    if arguments.suites[:1] == ["bare"]:
+        return bare(arguments.suites[1:])
+    return test(arguments.run_of or arguments.suites or ["all"])
+
+
+def run_long(long_run: LongRun, values: Sequence[str]) -> int:
+    """Runs the script of an option."""
+    prepare()
+    fetch.fetch("kotlinc")
+    graph.build(*long_run.targets)
+    # Their runs lock the outputs by themselves.
+    if long_run.file == "chaos/chaos.py":
+        lock.release()
+    return processes.call([TEST_PYTHON, "-I", "-B", ROOT / "scripts/tests" / long_run.file, *long_run.words, *values])
+
+
+def bare(roots: Sequence[str]) -> int:
+    """Tests the last commit in fresh roots of distributions."""
+    setup_environment()
+    from tests import bare as fresh
+    from tests import results
+    unknown = [name for name in roots if name not in fresh.ROOTS]
+    if unknown:
+        raise Failure(f"test bare: unknown root '{unknown[0]}'; known: {' '.join(fresh.ROOTS)}")
+    failure, skipped = fresh.test(roots or list(fresh.ROOTS), RESULTS / "bare")
+    cases = results.read(RESULTS / "bare", failure) if skipped < len(roots or fresh.ROOTS) else []
+    return results.verdict({"bare": cases}, RESULTS, skipped)
+
+
+def prepare() -> None:
+    """Installs what suites need of the system, and lets CMake read their declarations."""
+    system.setup_system()
+    try:
+        system.setup_nunit()
+    except Failure as failure:
+        say(f"the C# tests are left out: {failure}")
+    setup_environment()
+    graph.build("build.ninja")
+
+
+def setup_environment() -> None:
+    """Makes the packages of the tests' Python usable in this process, which reads results."""
+    lock.shared()
+    fetch.fetch("python")
+    for folder in (BUILD / "python/lib").glob("python*/site-packages"):
+        site.addsitedir(str(folder))
+
+
+def test(words: Sequence[str]) -> int:
+    """Runs suites and adds up their results."""
+    prepare()
+    from tests import results
+    suites = choose(declared(), words)
+    # Each suite locks the outputs by itself, and its fixtures build them.
+    lock.release()
+    for suite in suites:
+        shutil.rmtree(RESULTS / suite.name, ignore_errors=True)
+    failures = run_suites([suite.name for suite in suites])
+    return results.verdict({suite.name: results.read(RESULTS / suite.name, failures.get(suite.name, "did not run")) for suite in suites}, RESULTS)
+
+
+def declared() -> list[Suite]:
+    """Returns the suites of the build graph."""
+    output = subprocess.run(["ctest", "--test-dir", GRAPH, "--show-only=json-v1"], stdout=subprocess.PIPE, check=True).stdout
+    suites = []
+    for test in json.loads(output)["tests"]:
+        properties = {entry["name"]: entry["value"] for entry in test["properties"]}
+        labels = frozenset(properties.get("LABELS", []))
+        if labels & RUNS:
+            suites.append(Suite(test["name"], labels, properties.get("DISABLED", False)))
+    return suites
+
+
+def choose(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
+    """Returns the suites of these names, areas or runs, in their order."""
+    names = {suite.name for suite in suites}
+    chosen: set[Suite] = set()
+    for word in words:
+        labelled = [suite for suite in suites if word in suite.labels]
+        # An area stands for its part of a run of all suites, so that it has the same verdict in both.
+        whole = [suite for suite in labelled if word == "quick" or "all" in suite.labels]
+        found = [suite for suite in suites if suite.name == word] or whole or labelled
+        if not found:
+            areas = dict.fromkeys(area for suite in suites for area in suite.labels - RUNS)
+            raise Failure(f"test: unknown suite '{word}'; known: {' '.join(areas)}, and in parts: {' '.join(sorted(names - areas.keys()))}")
+        chosen |= set(found)
+    disabled = [suite.name for suite in suites if suite in chosen and suite.is_disabled]
+    if disabled:
+        text = f"{', '.join(disabled)}: this system has no package of NUnit 2.6"
+        if len(disabled) == len(chosen):
+            raise Failure(f"test: {text}")
+        say(f"skipped {text}")
+    return [suite for suite in suites if suite in chosen and not suite.is_disabled]
+
+
+def run_suites(names: Sequence[str]) -> dict[str, str]:
+    """Runs suites with CTest; returns the failure that CTest reports of each test, empty for none."""
+    report = RESULTS / "ctest.xml"
+    report.unlink(missing_ok=True)
+    pattern = "|".join(re.sub(r"[.+]", r"\\\g<0>", name) for name in names)
+    command: list[str | Path] = ["ctest", "--test-dir", GRAPH, "--output-on-failure", "--output-junit", report, "-R", f"^({pattern})$"]
+    processes.call(command, stdout=sys.stderr.fileno())
+    if not report.exists():
+        raise Failure("test: CTest ended early")
+    from tests import junit
+    return {case.name.split(".")[-1]: case.failure for case in junit.read(str(report))}

@@ -1,0 +1,103 @@
+"""Uses ./collektive as its users do; shared by the acceptance tests."""
+import atexit
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from build import projects
+from build.jdk import find_jdk
+from build.places import COLLEKTIVE, ROOT
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
+# Of all tests of this process: what one has compiled, the next one finds again at the same place.
+WORK = tempfile.mkdtemp(prefix="collektive-test-")
+atexit.register(shutil.rmtree, WORK, ignore_errors=True)
+# Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def collektive(*arguments, cwd=None):
+    return subprocess.run([COLLEKTIVE, *arguments], cwd=cwd, capture_output=True, text=True)
+
+
+def last_error(result):
+    """The error line of a failed command."""
+    lines = [line for line in result.stderr.splitlines() if line.startswith("collektive: ")]
+    return lines[-1] if lines else result.stderr
+
+
+def processes(*words):
+    """Command lines, by process id, of the processes that have all these words in theirs."""
+    found = {}
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                line = file.read().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if all(word in line for word in words):
+            found[int(pid)] = line
+    return found
+
+
+def jdk():
+    """The JDK that runs simulations."""
+    return str(find_jdk())
+
+
+class Folder(unittest.TestCase):
+    """A test with an empty folder."""
+
+    def setUp(self) -> None:
+        self.folder = os.path.join(WORK, "test")
+        os.mkdir(self.folder)
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.addCleanup(self.end_processes)
+
+    def end_processes(self) -> None:
+        """What a failed test left running would go on beside the others."""
+        for pid in processes(self.folder + "/"):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def await_that(self, holds) -> None:
+        """Waits until holds() is true; a minute at the most."""
+        end = time.monotonic() + 60
+        while not holds():
+            self.assertLess(time.monotonic(), end, "it does not come true")
+            time.sleep(0.05)
+
+    def manifest(self, out):
+        with open(os.path.join(out, "manifest.json")) as file:
+            return json.load(file)
+
+
+class Project(Folder):
+    """A project outside the clone: own schema, Kotlin, C# and scenario."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
+
+    def programs_jar(self):
+        """The jar that a run has made of the programs as they are now."""
+        return str(projects.programs_jar(Path(self.path("project", "light.fbs")), Path(self.path("project", "programs"))))
+
+    def change(self, file, old, new) -> None:
+        path = self.path("project", file)
+        with open(path) as opened:
+            text = opened.read()
+        self.assertIn(old, text)
+        with open(path, "w") as opened:
+            opened.write(text.replace(old, new))

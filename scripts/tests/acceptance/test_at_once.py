@@ -1,0 +1,38 @@
+"""Runs of one project at the same time share what is compiled and the JVM's archive of classes: none damages what another reads."""
+import json
+import os
+import subprocess
+
+from command import Project, jdk
+
+from build.places import COLLEKTIVE, ROOT
+
+RUNS = 3
+HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
+
+
+class AtOnce(Project):
+    def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self) -> None:
+        with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
+            file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")
+        home = self.path("home")
+        os.mkdir(home)
+        environment = {**os.environ, "HOME": home}
+        environment.pop("XDG_DATA_HOME", None)
+        for turn in ("first", "second"):
+            runs = [subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(f"{turn}-{i}")], env=environment,
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for i in range(RUNS)]
+            for run in runs:
+                errors = run.communicate(timeout=300)[1]
+                self.assertEqual(run.returncode, 0, errors)
+                self.assertNotIn("warning", errors.lower())
+        manifests = [self.manifest(self.path(f"{turn}-{i}")) for turn in ("first", "second") for i in range(RUNS)]
+        self.assertEqual({manifest["outcome"] for manifest in manifests}, {"complete"})
+        self.assertEqual(len({json.dumps(manifest["digest"]) for manifest in manifests}), 1)
+        files = [os.path.join(place, name) for place, _, names in os.walk(home) for name in names]
+        archives = [file for file in files if file.endswith(".jsa")]
+        self.assertEqual(len(archives), 1, files)
+        # The JVM itself checks every byte of it.
+        java = [os.path.join(jdk(), "bin/java"), "-Xshare:on", "-XX:+VerifySharedSpaces", f"-XX:SharedArchiveFile={archives[0]}", "-XX:+UseSerialGC"]
+        checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)

@@ -1,0 +1,101 @@
+"""Each code block of the README and the site has a test: of its kind in blocks.py, here or in the file that is named there."""
+import glob
+import os
+import re
+import shlex
+
+import pytest
+from blocks import PAGES, blocks, of_kind
+from command import collektive
+
+from build.places import ROOT
+
+# Blocks that no test runs or compiles, and why.
+EXEMPT = {("docs/performance.md", "text"): "a report of measurements; the tutorial on profiling runs the command, and its test looks at the lines"}
+# Options of Unity's players that the pages use.
+UNITY = {"-batchmode", "-nographics"}
+DESCRIPTORS = {"void": "V", "boolean": "Z", "int": "I", "long": "J", "byte[]": "[B", "String": "Ljava/lang/String;", "ByteBuffer": "Ljava/nio/ByteBuffer;"}
+
+
+def text(path):
+    with open(os.path.join(ROOT, path)) as file:
+        return file.read()
+
+
+def test_each_block_has_a_test() -> None:
+    untested = [block for page in PAGES for block in blocks(page) if not block.kind]
+    assert {(block.page, block.language) for block in untested} == EXEMPT.keys(), [block.place for block in untested]
+    assert len(untested) == len(EXEMPT)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_no_block_is_written_so_that_tests_overlook_it(page) -> None:
+    assert len(re.findall(r"(?m)^ *(?:```|~~~)", text(page))) == 2 * len(blocks(page))
+
+
+def commands():
+    """Where each line of commands stands, and its words."""
+    found = []
+    for block in of_kind("command"):
+        lines = block.text.replace("\\\n", " ").splitlines()
+        for line in lines:
+            # A console's lines without a prompt are commands, too, unless others have one.
+            if line.startswith("$ ") or not any(other.startswith("$ ") for other in lines):
+                found.append((block.place, shlex.split(line.removeprefix("$ "), comments=True)))
+    return found
+
+
+@pytest.mark.parametrize("place, words", commands())
+def test_a_command_that_is_not_run_has_options_that_exist(place, words) -> None:
+    command = os.path.basename(words[0])
+    if command == "collektive":
+        told = collektive(words[1], "--help")
+        assert told.stdout.startswith("usage:"), words[1]
+        unknown = [word for word in words[2:] if word.startswith("--") and not re.search(rf"{word}\b", told.stdout)]
+    elif words[0].startswith("./Swarm"):
+        unknown = [word for word in words[1:] if word.startswith("-") and word not in UNITY and word not in player_options()]
+    else:
+        unknown = [] if words == ["export", "PATH=$PWD:$PATH"] else [words[0]]
+    assert unknown == []
+    # Files of this repository exist.
+    assert [word for word in words if re.match(r"(experiments|unity|docs)/", word) and not os.path.exists(os.path.join(ROOT, word))] == []
+
+
+def player_options():
+    """Options that PlayerArguments gives to the settings that are numbers, texts or choices."""
+    fields = re.findall(r"(?m)^ +public (?!.*\()([\w<>]+) (\w+)(?: =|;)", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
+    prefix = re.search(r'Prefix = "([^"]+)"', text("unity/Runtime/Unity/Manager/PlayerArguments.cs"))[1]
+    return {prefix + name for kind, name in fields if not kind.startswith("List")}
+
+
+def test_options_of_players_are_known() -> None:
+    assert {"-collektive-seed", "-collektive-schedule"} <= player_options()
+    assert "-collektive-jars" not in player_options()
+
+
+def declarations(code):
+    """What stands between braces and semicolons, without comments; accessors say nothing alone."""
+    code = re.sub(r"//.*", "", code)
+    found = (" ".join(part.split()) for part in re.split(r"[{};]|=> ", code))
+    return [part for part in found if part and part not in ("get", "set", "null")]
+
+
+def test_the_boundarys_csharp_is_that_of_the_sources() -> None:
+    sources = " ".join(" ".join(text(path).split()) for path in glob.glob(os.path.join(ROOT, "unity/Runtime/Bridge/Schema/*.cs")))
+    told = [part for block in of_kind("contract") if block.language == "csharp" for part in declarations(block.text)]
+    assert len(told) > 20
+    assert [part for part in told if part not in sources] == []
+
+
+def test_the_boundarys_java_is_what_the_native_library_binds() -> None:
+    shim = text("native-shim/src/host.c")
+    shim = shim.replace("CALL_TYPE", re.search(r'#define CALL_TYPE (".*")', shim)[1])
+    # From the natives of the class Shim to the entries of Host.
+    bound = re.findall(r'"(\w+)",\s*"(\(\S*\)\S+)"', shim[shim.index('NATIVE("grow"'):shim.index("entries[i].name")])
+    told = set()
+    for block in of_kind("contract"):
+        if block.language == "java":
+            for kind, name, parameters in re.findall(r"static (?:native )?([\w\[\]]+) (\w+) ?\(([^)]*)\)", block.text):
+                types = [parameter.split()[0] for parameter in parameters.split(",") if parameter.strip()]
+                told.add((name, f"({''.join(map(DESCRIPTORS.get, types))}){DESCRIPTORS[kind]}"))
+    assert told == set(bound)

@@ -1,0 +1,54 @@
+"""Commands and options that are unknown or make no sense are refused by name."""
+import unittest
+
+import pytest
+from command import Folder, collektive, last_error
+
+from build.places import ROOT
+
+
+@pytest.mark.quick
+class TheCommand(unittest.TestCase):
+    def test_each_command_has_help(self) -> None:
+        whole = collektive("--help")
+        self.assertEqual(whole.returncode, 0)
+        commands = ["setup", "generate", "demo", "run", "repeat", "sweep", "plot", "profile", "replay", "diff", "test", "bench", "package", "site", "clean"]
+        for command in commands:
+            self.assertIn(command, whole.stdout)
+            part = collektive(command, "--help")
+            self.assertEqual(part.returncode, 0, command)
+            self.assertTrue(part.stdout.strip(), command)
+
+    def test_unknown_commands_and_options_are_named(self) -> None:
+        self.assertEqual(collektive("nonesuch").returncode, 2)
+        result = collektive("demo", "--nonesuch")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--nonesuch", last_error(result))
+
+    def test_a_site_replaces_no_folder_of_something_else(self) -> None:
+        result = collektive("site", "--out", ROOT)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"'{ROOT}' is there and no site", last_error(result))
+
+
+class TheTests(unittest.TestCase):
+    def test_a_fault_that_nobody_knows_is_named(self) -> None:
+        result = collektive("test", "--faults", "no", "such fault")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'no such fault'", last_error(result))
+
+    def test_arguments_too_many_are_refused(self) -> None:
+        for option in ["--exits", "--sanitize"]:
+            result = collektive("test", option, "x")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(option, last_error(result))
+
+
+@pytest.mark.quick
+class BadDemos(Folder):
+    def test_numbers_that_make_no_sense_are_refused(self) -> None:
+        for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "no room for 20000"), (["--nodes", "many"], "--nodes"),
+                                (["--seconds", "-1"], "--seconds"), (["--seed", "1.5"], "--seed")]:
+            result = collektive("demo", *arguments, "--out", self.path("out"))
+            self.assertEqual(result.returncode, 1, arguments)
+            self.assertIn(word, last_error(result))

@@ -1,0 +1,104 @@
+"""However a run ends, exit code 0 means that the ticks asked for were done."""
+import os
+import subprocess
+
+import replay
+from command import Project, collektive, last_error
+
+from build.places import COLLEKTIVE
+
+
+class WholeRuns(Project):
+    """Exit code 0 means that the ticks asked for were done."""
+
+    SCRIPT = """
+        private void Update()
+        {
+            var manager = SimulationManager.Current;
+            if (manager != null && manager.Tick == 4) { %s }
+        }
+
+        protected override void Build("""
+
+    def run_it(self, *arguments, **environment):
+        return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", *arguments],
+                              capture_output=True, text=True, env={**os.environ, **environment})
+
+    def at_tick_4(self, code):
+        self.change("scene/Lamps.cs", "\n        protected override void Build(", self.SCRIPT % code)
+        return self.run_it()
+
+    def test_a_user_without_a_home_runs_without_the_class_archive(self) -> None:
+        result = self.run_it(HOME="/proc")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without its class archive", result.stdout + result.stderr)
+        self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+
+    def test_runs_that_cannot_be_are_refused(self) -> None:
+        for old, new, words in [
+            ('"seconds": 1', '"seconds": 3e8', ["seconds", "3E+09 ticks", "100 million"]),
+            ('"seconds": 1', '"seconds": NaN', ["greater than 0"]),
+            ('"seconds": 1', '"seconds": Infinity', ["greater than 0"]),
+            ('"seconds": 1', '"seconds": -1', ["greater than 0"]),
+            ('"deltaTime": 0.1', '"deltaTime": 1e-30', ["ticks, and a run has at most"]),
+            ('"deltaTime": 0.1', '"deltaTime": NaN', ["delta time"]),
+            ('"deltaTime": 0.1', '"deltaTime": -1', ["delta time"]),
+            ('"threads": 2', '"physicsStep": 1e-30', ["physics step"]),
+        ]:
+            with self.subTest(new):
+                self.change("lamps.json", old, new)
+                result = self.run_it()
+                self.change("lamps.json", new, old)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, last_error(result))
+        result = self.run_it("--seconds", "3e8")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("100 million", last_error(result))
+
+    def test_a_replay_ends_where_the_run_ends(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')
+        result = self.run_it("--seconds", "0.3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        _, frames = replay.read(self.path("out", "replay.html"))
+        self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
+
+    def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
+        digests = set()
+        for seed in [2**63 - 1, 2**63, 2**64 - 1]:
+            self.change("lamps.json", '"threads": 2', f'"threads": 2, "seed": {seed}')
+            self.assertEqual(self.run_it().returncode, 0)
+            self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
+            in_file = self.manifest(self.path("out"))
+            self.assertEqual(self.run_it("--seed", str(seed)).returncode, 0)
+            self.assertEqual(in_file["scenario"]["seed"], seed)
+            self.assertEqual(self.manifest(self.path("out"))["scenario"], in_file["scenario"])
+            self.assertEqual(replay.read(self.path("out", "replay.html"))[0]["seed"], str(seed))
+            self.assertIn(f"seed {seed},", collektive("replay", self.path("out", "run.clkrec")).stdout)
+            digests.add(in_file["digest"])
+        for seed in ["18446744073709551616", "-1", "1.5"]:
+            self.change("lamps.json", '"threads": 2', f'"threads": 2, "seed": {seed}')
+            for result in [self.run_it(), self.run_it("--seed", seed)]:
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("seed", last_error(result))
+                self.assertIn("2^64 - 1", last_error(result))
+            self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
+
+    def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self) -> None:
+        for code in ["manager.Paused = true;", "manager.enabled = false;"]:
+            with self.subTest(code):
+                result = self.at_tick_4(code)
+                self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("4 of 10 ticks were done", last_error(result))
+                self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
+
+    def test_a_stop_condition_and_quit_end_a_run_in_order(self) -> None:
+        for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:
+            with self.subTest(code):
+                result = self.at_tick_4(code)
+                self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)

@@ -1,0 +1,107 @@
+"""What users read when something is wrong with what they gave, or with where they stand."""
+import os
+import subprocess
+
+from command import Project, collektive, last_error
+
+from build.places import COLLEKTIVE, ROOT
+
+
+class Messages(Project):
+    def run_it(self, *arguments, out="out", **options):
+        return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(out), "--overwrite", *arguments],
+                              capture_output=True, text=True, timeout=200, **options)
+
+    def in_program(self, line) -> None:
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness()\n    {line}")
+
+    def test_an_error_in_kotlin_comes_first_and_alone(self) -> None:
+        self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
+        result = self.run_it(cwd=self.folder)
+        lines = [line for line in result.stderr.splitlines() if not line.startswith("[")]
+        self.assertRegex(lines[0], r"project/programs/Brightest\.kt:10:24: error: ")
+        self.assertNotIn("WARNING", result.stderr)
+        log = last_error(result).rsplit(" ", 1)[1]
+        self.assertTrue(os.path.isfile(log), log)
+
+    def test_a_run_without_nodes_is_a_failure(self) -> None:
+        result = self.run_it("--set", "lamps=0")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("there was no node in any tick: the scene builder must make GameObjects with the component Node", last_error(result))
+        self.assertEqual(self.manifest(self.path("out"))["outcome"], "there was no node in any tick")
+
+    def test_programs_without_a_mark_are_told_how_to_mark_them(self) -> None:
+        self.change("programs/Brightest.kt", '@Program("brightest")', "")
+        self.assertIn('they have no program at all: mark its function with @Program("brightest")', last_error(self.run_it()))
+
+    def test_an_error_in_a_schema_has_its_place_at_the_front(self) -> None:
+        self.change("light.fbs", "brightness: float;", "brightness: flaot;")
+        place = self.path("project", "light.fbs")
+        self.assertRegex(self.run_it().stderr, rf"(?m)^{place}:7: error: type referenced but not defined .*flaot")
+
+    def test_a_tick_of_which_every_round_fails_ends_the_run_unless_it_may_go_on(self) -> None:
+        self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }\n"
+                        '    check(mine < 0) { "always" }')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("stopped at tick 1: all its rounds failed; the messages are above (--keep-going goes on)", last_error(result))
+        self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
+        # A full heap names the setting to raise, inlined code the line of its call.
+        told = result.stderr + result.stdout
+        self.assertRegex(told, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
+        self.assertRegex(told, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
+        result = self.run_it("--keep-going")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual((self.manifest(self.path("out"))["ticks"], self.manifest(self.path("out"))["errors"]), (10, 100))
+
+    def test_settings_are_names_and_lists_are_lists(self) -> None:
+        for value in ["0", "Lockstep,Sequential", "2", ""]:
+            with self.subTest(value):
+                self.change("lamps.json", '"threads": 2', f'"threads": 2, "schedule": "{value}"')
+                self.assertRegex(last_error(self.run_it()), r"'schedule' is .*one of Lockstep, Sequential, Asynchronous")
+                self.change("lamps.json", f'"threads": 2, "schedule": "{value}"', '"threads": 2')
+        self.change("lamps.json", '["-Xss2m"]', '"-Xss2m"')
+        self.assertIn("it must be of type list of strings", last_error(self.run_it()))
+
+    def test_pipes_and_whole_disks_are_refused_at_once(self) -> None:
+        os.mkfifo(self.path("pipe"))
+        result = subprocess.run([COLLEKTIVE, "run", self.path("pipe")], capture_output=True, text=True, timeout=60)
+        self.assertIn("there is no file", last_error(result))
+        self.change("lamps.json", '"light.fbs"', '"../pipe"')
+        self.assertIn("'schema' names no file", last_error(self.run_it()))
+        self.change("lamps.json", '"../pipe"', '"light.fbs"')
+        self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
+        self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
+
+    def test_a_folder_may_have_any_name_in_any_locale(self) -> None:
+        odd = self.path("ünïcödé 雪 \"quo'te")
+        os.rename(self.path("project"), odd)
+        os.symlink(odd, self.path("project"))
+        result = subprocess.run([COLLEKTIVE, "run", os.path.join(odd, "lamps.json"), "--out", self.path("out 雪")], capture_output=True,
+                                text=True, env={**os.environ, "LANG": "C", "LC_ALL": "C"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.manifest(self.path("out 雪"))["folder"], odd)
+
+    def test_what_the_shell_does_not_give_is_said_or_done_without(self) -> None:
+        small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
+        self.assertEqual(small.returncode, 1)
+        self.assertIn("the stack of processes is limited to 64 KB, and the tools need 1024: ulimit -s 8192", small.stderr)
+        closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run nowhere.json 2>&-"], capture_output=True, text=True)
+        self.assertIn("there is no file 'nowhere.json'", closed.stdout)
+        closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run {self.path('project', 'lamps.json')} --out {self.path('out')} <&- >&- 2>&-"])
+        self.assertEqual(closed.returncode, 0)
+        self.assertEqual(self.manifest(self.path("out"))["outcome"], "complete")
+
+    def test_a_folder_of_kotlin_is_replayed_on_a_record(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"record": true')
+        self.assertEqual(self.run_it().returncode, 0)
+        record, programs, schema = self.path("out", "run.clkrec"), self.path("project", "programs"), self.path("project", "light.fbs")
+        self.assertEqual(collektive("replay", record, "--programs", programs, "--schema", schema).returncode, 0)
+        self.change("programs/Brightest.kt", "brightest = best", "brightest = best + 1")
+        changed = collektive("replay", record, "--programs", programs, "--schema", schema)
+        self.assertEqual(changed.returncode, 1)
+        self.assertIn("tick 1 is the first that differs", changed.stdout)
+        for arguments, words in [((), "name its schema"), (("--schema", os.path.join(ROOT, "nowhere.fbs")), "name its schema")]:
+            result = collektive("replay", record, "--programs", programs, *arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, last_error(result))

@@ -1,0 +1,147 @@
+"""A folder of outputs is of one run, and its manifest says whether it is complete."""
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import replay
+from command import Project, collektive, last_error, processes
+
+from build.places import COLLEKTIVE
+
+
+class Outputs(Project):
+    def run_it(self, *arguments, out="out"):
+        return collektive("run", self.path("project", "lamps.json"), "--out", self.path(out), *arguments)
+
+    def contents(self, out="out"):
+        found = {}
+        for name in sorted(os.listdir(self.path(out))):
+            with open(self.path(out, name), "rb") as file:
+                found[name] = file.read()
+        return found
+
+    def outcome(self):
+        return self.manifest(self.path("out"))["outcome"]
+
+    def test_a_scene_without_shades_shows_what_its_nodes_answer(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.assertEqual(self.run_it().returncode, 0)
+        _, frames = replay.read(self.path("out", "replay.html"))
+        _, nodes, _ = frames[-1]
+        brightest = {round(value, 3) for *_, value in nodes.values()}
+        self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
+
+    def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')
+        self.assertEqual(self.run_it().returncode, 0)
+        before = self.contents()
+        self.assertEqual(list(before), ["manifest.json", "metrics.csv", "replay.html", "run.clkrec"])
+        self.assertEqual(self.outcome(), "complete")
+        refused = self.run_it("--seed", "2")
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("has results of a run: manifest.json, metrics.csv, replay.html, run.clkrec; name another folder", last_error(refused))
+        self.assertEqual(self.contents(), before)
+        # What is not asked for any more does not stay either.
+        self.change("lamps.json", '"replay": true, "record": true', '"replay": false')
+        self.assertEqual(self.run_it("--overwrite").returncode, 0)
+        self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
+
+    def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.assertEqual(self.run_it().returncode, 0)
+        process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
+                                    "--seconds", "1000000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")) and len(self.rows()) >= 20)
+        for pid in processes("Collektive.Player.exe", self.path("out")):
+            os.kill(pid, signal.SIGKILL)
+        process.wait()
+        self.assertEqual(process.returncode, 137)
+        self.assertEqual(self.outcome(), "running")
+        self.assertNotIn("replay.html", self.contents())
+        repeated = collektive("repeat", self.path("out", "manifest.json"), "--out", self.path("again"))
+        self.assertEqual(repeated.returncode, 1)
+        self.assertIn("the run did not come to its end", last_error(repeated))
+
+    def rows(self):
+        with open(self.path("out", "metrics.csv")) as file:
+            return file.readlines()
+
+    def test_a_run_that_fails_says_why_in_its_manifest(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick < 4 ? Brightness : float.NaN;")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(self.outcome(), "^failed: stopped at tick 5: .*not finite")
+
+    def test_two_runs_into_one_folder_do_not_meet(self) -> None:
+        command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
+        first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.await_that(lambda: os.path.exists(self.path("out", "manifest.json")))
+        second = self.run_it("--overwrite")
+        self.assertEqual(second.returncode, 1)
+        self.assertIn("another run writes to", last_error(second))
+        first.send_signal(signal.SIGTERM)
+        first.wait()
+        self.assertEqual(self.outcome(), "interrupted")
+
+    def test_folders_that_cannot_be_written_to_are_one_sentence(self) -> None:
+        with open(self.path("file"), "w"):
+            pass
+        os.symlink(self.path("nowhere", "deep"), self.path("dangling"))
+        for out in ["file", "file/below", "x" * 300, "dangling"]:
+            result = self.run_it(out=out)
+            self.assertEqual(result.returncode, 1)
+            self.assertRegex(last_error(result), "the outputs have no place: .*; name another folder with --out", out)
+        read_only = collektive("run", self.path("project", "lamps.json"), "--out", "/proc/results")
+        self.assertEqual(read_only.returncode, 1)
+        self.assertRegex(last_error(read_only), "^collektive: the outputs ")
+
+    def test_the_default_folder_is_named_by_the_seed_that_is_used(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "seed": 77')
+        for arguments, name in [((), "lamps-seed77"), (("--seed", "5"), "lamps-seed5")]:
+            result = collektive("run", self.path("project", "lamps.json"), *arguments, cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue(os.path.isfile(self.path("out", name, "manifest.json")))
+
+
+@unittest.skipUnless(os.geteuid() == 0, "only root can mount a small file system")
+class FullDisks(Project):
+    def test_a_home_on_a_full_disk_is_done_without_the_class_archive(self) -> None:
+        os.makedirs(self.path("home"))
+        script = 'mount -t tmpfs -o size=1m none "$HOME" && "$@"'
+        result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", COLLEKTIVE, "run", self.path("project", "lamps.json"),
+                                 "--out", self.path("out")], capture_output=True, text=True, env={**os.environ, "HOME": self.path("home")})
+        if "mount:" in result.stderr or "unshare:" in result.stderr:
+            self.skipTest("this system lets nobody mount")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("the JVM writes no archive of its classes", result.stdout + result.stderr)
+
+    def test_a_full_disk_is_one_sentence_and_nothing_looks_complete(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.change("lamps.json", '"seconds": 1', '"seconds": 20')
+        reached = set()
+        for kilobytes in [4, 8, 64, 700, 1000]:
+            script = 'mount -t tmpfs -o size=$1k none "$2" && { shift 2; "$@"; }; code=$?; cp -r "$OUT" "$KEEP"; exit $code'
+            os.makedirs(self.path("disk"), exist_ok=True)
+            with tempfile.TemporaryDirectory() as keep:
+                result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", str(kilobytes), self.path("disk"), COLLEKTIVE, "run",
+                                         self.path("project", "lamps.json"), "--out", self.path("disk", "out")], capture_output=True, text=True,
+                                        env={**os.environ, "OUT": self.path("disk", "out"), "KEEP": keep})
+                if "mount:" in result.stderr or "unshare:" in result.stderr:
+                    self.skipTest("this system lets nobody mount")
+                found = os.path.join(keep, "out")
+                names = set(os.listdir(found))
+                self.assertFalse([name for name in names if name.endswith(".part")], names)
+                if result.returncode == 0:
+                    self.assertLessEqual({"manifest.json", "metrics.csv", "replay.html"}, names)
+                    continue
+                reached.add(kilobytes)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(last_error(result), "^collektive: [^\n]*(No space left|Disk full|could not be)", result.stderr)
+                manifest = os.path.join(found, "manifest.json")
+                if os.path.exists(manifest):
+                    with open(manifest) as file:
+                        self.assertNotEqual(json.load(file)["outcome"], "complete")
+        self.assertTrue(reached, "no disk was full")

@@ -1,0 +1,66 @@
+"""What the pages tell a user to type works."""
+import json
+import os
+import re
+
+import pytest
+from blocks import of_kind
+from command import Folder, collektive
+
+from build.places import ROOT
+
+
+class GettingStarted(Folder):
+    SCENE = """
+using Collektive.Unity;
+using UnityEngine;
+using swarm;
+
+public sealed class Example : SceneBuilder
+{
+    protected override void Build(SimulationManager manager)
+    {
+        for (var i = 0; i < 20; i++)
+        {
+            var node = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            node.transform.position = new Vector3(2 * i, 0, 0);
+            node.AddComponent<Node>();
+            node.AddComponent<RadiusNeighbourhood>();
+            node.AddComponent<LightSensor>();
+            node.AddComponent<HopsColour>();
+        }
+    }
+}
+"""
+    KOTLIN = """
+package swarm
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.share
+import org.collektive.api.Device
+import org.collektive.api.Parameter
+import org.collektive.api.Program
+"""
+
+    def test_its_example_runs(self) -> None:
+        """The schema, the Kotlin and the C# of the page, in the scene above."""
+        schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
+        os.makedirs(self.path("programs"))
+        os.makedirs(self.path("scene"))
+        scenario = {"version": 1, "scene": "Example", "scripts": "scene", "schema": "swarm.fbs", "programs": "programs",
+                    "program": "hops-to-light", "seconds": 1}
+        files = {"swarm.fbs": schema, "programs/Hops.kt": kotlin if "import " in kotlin else self.KOTLIN + kotlin, "scene/Example.cs": self.SCENE + csharp,
+                 "swarm.json": json.dumps(scenario)}
+        for name, text in files.items():
+            with open(self.path(name), "w") as file:
+                file.write(text)
+        result = collektive("run", self.path("swarm.json"), "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
+
+    @pytest.mark.quick
+    def test_its_picture_and_links_exist(self) -> None:
+        with open(os.path.join(ROOT, "README.md")) as file:
+            text = file.read()
+        for path in re.findall(r"\]\((?!https:)([^)#]+)", text) + re.findall(r"`((?:docs|unity)/[^`]*\.md)`", text):
+            self.assertTrue(os.path.exists(os.path.join(ROOT, path)), path)

@@ -1,0 +1,190 @@
+"""A project outside the clone, with its own schema, Kotlin, C# and scenario, runs by one command."""
+import csv
+import os
+import shutil
+import subprocess
+
+import pytest
+from command import Project, collektive, jdk, last_error
+
+
+class AForeignProject(Project):
+    """It is run by one command."""
+
+    def run_it(self, *arguments):
+        return collektive("run", "project/lamps.json", "--out", self.path("out"), "--overwrite", *arguments, cwd=self.folder)
+
+    def refused(self, *words, arguments=()):
+        """Runs it, and expects one clear error with all the words."""
+        result = self.run_it(*arguments)
+        self.assertNotEqual(result.returncode, 0)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        return result
+
+    @pytest.mark.quick
+    def test_it_builds_and_runs(self) -> None:
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        manifest = self.manifest(self.path("out"))
+        # Ten lamps in a row: after ten rounds the last one's brightness has reached all; each hears its neighbours.
+        self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
+        self.assertEqual(manifest["ticks"], 10)
+
+    def test_fields_can_be_set_on_the_command_line(self) -> None:
+        result = self.run_it("--set", "lamps=6", "--set", "loop=true", "--seed", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        manifest = self.manifest(self.path("out"))
+        self.assertEqual(manifest["end"], {"agreeing": 6, "seen": 12})
+        self.assertEqual(manifest["scenario"]["seed"], 3)
+
+    def messages(self):
+        """Of the whole run."""
+        with open(self.path("out", "metrics.csv")) as file:
+            rows = list(csv.DictReader(file))
+        return {name: sum(int(row[name]) for row in rows) for name in ("sent", "dropped", "delayed", "expired")}
+
+    def test_its_timing_decides_which_ticks_have_rounds(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.5, "phase": 0 }')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Two rounds of each lamp in ten ticks, and 18 links.
+        self.assertEqual(self.messages()["sent"], 2 * 18)
+        # All lamps count, though none was due in the last tick.
+        self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
+
+    def test_its_network_decides_what_arrives(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "network": { "loss": 1 }')
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.messages(), {"sent": 180, "dropped": 180, "delayed": 0, "expired": 0})
+        self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 0)
+
+    def test_its_profile_counts_each_tick_and_names_the_program_and_its_function(self) -> None:
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks of 10 nodes and 18 links; 0 rounds failed", result.stdout)
+        self.assertRegex(result.stdout, r"program brightest \(lamps\.BrightestKt\.\w+\)\n  \d+ rounds sampled \(one in 17\)")
+        self.assertIn("allocated, estimated from samples", result.stdout)
+        recorded = subprocess.run([os.path.join(jdk(), "bin/jfr"), "summary", self.path("out", "profile.jfr")], capture_output=True, text=True).stdout
+        self.assertRegex(recorded, r"(?m)^ collektive\.Tick +10 ")
+
+    def test_its_profile_is_printed_when_rounds_failed_too(self) -> None:
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
+                    'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
+        result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
+
+    def test_no_start_waits_for_the_events_of_a_recorder_that_nobody_asked_for(self) -> None:
+        self.change("lamps.json", '"-Xss2m"', '"-Xlog:class+load:file=classes.txt"')
+        result = self.run_it("--trust-jvm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("classes.txt")) as file:
+            classes = file.read()
+        self.assertIn("org.collektive.host.session.Session ", classes)
+        self.assertNotIn("jdk.jfr.internal.", classes)
+
+    @pytest.mark.quick
+    def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self) -> None:
+        self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
+        self.refused("Brightest.kt:", "lightness")
+
+    def test_csharp_that_does_not_compile_is_shown_with_file_and_line(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness", "data.Lightness")
+        self.refused("Lamps.cs(", "Lightness")
+
+    def test_a_schema_that_is_wrong_is_shown_with_file_and_line(self) -> None:
+        self.change("light.fbs", "brightness: float;", "brightness: flaot;")
+        self.refused("light.fbs", "flaot")
+
+    @pytest.mark.quick
+    def test_an_unknown_key_is_named_with_its_line(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"treads": 2')
+        self.refused("lamps.json:10", "treads", "threads")
+
+    def test_a_key_given_twice_is_named(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"seconds": 2')
+        self.refused("seconds", "twice")
+
+    def test_a_value_of_another_type_is_named(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": "two"')
+        self.refused("threads", "whole number")
+
+    def test_values_out_of_range_are_named(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 0')
+        self.refused("threads", "1..256")
+
+    def test_a_file_that_is_not_json_is_refused_with_its_line(self) -> None:
+        self.change("lamps.json", '"threads": 2,', '"threads": 2')
+        self.refused("lamps.json:11", "not valid JSON")
+
+    def test_missing_files_are_named(self) -> None:
+        self.change("lamps.json", "light.fbs", "dark.fbs")
+        self.refused("schema", "dark.fbs")
+
+    def test_an_unknown_program_is_named_with_those_that_there_are(self) -> None:
+        self.change("lamps.json", '"brightest"', '"darkest"')
+        self.refused("darkest", "brightest")
+
+    def test_an_unknown_scene_is_named(self) -> None:
+        self.change("lamps.json", "Lamps.LampScene", "Lamps.Nonesuch")
+        self.refused("Lamps.Nonesuch", "SceneBuilder")
+
+    def test_an_unknown_field_is_named_with_those_that_there_are(self) -> None:
+        self.refused("brightness", "lamps", "loop", arguments=("--set", "brightness=3"))
+
+    def test_a_field_of_another_type_is_named(self) -> None:
+        self.refused("lamps", "whole number", arguments=("--set", "lamps=many"))
+
+    def test_a_missing_scenario_is_named(self) -> None:
+        result = collektive("run", "nowhere.json", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("nowhere.json", last_error(result))
+
+    def test_a_jvm_that_is_none_is_named(self) -> None:
+        self.change("lamps.json", '"jvm": {', '"jvm": { "location": "Folder", "home": "/nowhere/jdk",')
+        self.refused("lamps.json:11", "'jvm.home' is refused", "--trust-jvm")
+        self.refused("/nowhere/jdk", arguments=("--trust-jvm",))
+
+    def test_a_jvm_option_that_writes_a_file_needs_trust(self) -> None:
+        target = self.path("written.log")
+        self.change("lamps.json", '"-Xss2m"', f'"-Xlog:gc*:file={target}"')
+        self.refused("lamps.json:11", "'jvm.flags[0]'", "-Xlog:gc*:file=", "--trust-jvm")
+        self.assertFalse(os.path.exists(target))
+        result = self.run_it("--trust-jvm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(os.path.exists(target))
+
+    def test_a_jvm_option_that_is_wrong_is_shown(self) -> None:
+        self.change("lamps.json", '"-Xss2m"', '"-Xss2m", "-XX:+UseNonesuchGC"')
+        self.refused("UseNonesuchGC")
+
+    def test_a_jvm_setting_out_of_its_range_is_named_with_its_line(self) -> None:
+        self.change("lamps.json", '"maximumHeapMb": 128', '"maximumHeapMb": 1')
+        self.refused("lamps.json:11", "jvm.maximumHeapMb", "16 to")
+
+    def test_an_unknown_jvm_setting_is_named(self) -> None:
+        self.change("lamps.json", '"maximumHeapMb"', '"maximumHeep"')
+        self.refused("jvm.maximumHeep", "maximumHeapMb")
+
+    def test_a_jar_that_is_none_is_named(self) -> None:
+        with open(self.path("project", "broken.jar"), "w") as file:
+            file.write("this is no jar")
+        self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')
+        self.refused("broken.jar")
+
+    def test_a_program_that_throws_fails_the_run_but_not_its_end(self) -> None:
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
+                    'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
+        self.refused("three is too dark", "node 2")
+        self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+        self.assertEqual(self.manifest(self.path("out"))["errors"], 10)
+
+    def test_a_schema_changed_on_one_side_only_is_refused_with_the_type(self) -> None:
+        self.assertEqual(self.run_it().returncode, 0)
+        jar = self.programs_jar()
+        shutil.copy(jar, self.path("project", "old.jar"))
+        self.change("lamps.json", '"programs": "programs"', '"programs": "old.jar"')
+        self.change("light.fbs", "seen: [int];", "seen: [int];\n  colour: int;")
+        self.refused("ActuatorData")

@@ -1,0 +1,94 @@
+"""Recorded runs are replayed and compared."""
+import os
+import struct
+import zlib
+
+import pytest
+from command import Project, collektive, last_error
+
+from build.places import ROOT
+
+
+def with_another_jar(record):
+    """The record with another date on the first entry of its jar, as if it were compiled elsewhere."""
+    at, data = record.index(b"PK\3\4"), bytearray(record)
+    data[at + 10] ^= 1
+    # Magic and version, then chunks: kind, length, checksum, payload (docs/record-format.md).
+    chunk = 8
+    while True:
+        length, = struct.unpack_from("<I", data, chunk + 4)
+        if at < chunk + 12 + length:
+            checksum = zlib.crc32(data[chunk + 12:chunk + 12 + length], zlib.crc32(data[chunk:chunk + 8]))
+            struct.pack_into("<I", data, chunk + 8, checksum)
+            return bytes(data)
+        chunk += 12 + length
+
+
+class Records(Project):
+    """Recorded runs of the foreign project."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+        self.a = self.record("a")
+
+    def record(self, name, *arguments):
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path(name), "--overwrite", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.path(name, "run.clkrec")
+
+    @pytest.mark.quick
+    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self) -> None:
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks replayed, every digest is that of the record", result.stdout)
+        self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
+        self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
+
+    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self) -> None:
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", "val mine = if (sensors.brightness() == 5f) 9f else sensors.brightness()")
+        self.record("b")
+        jar = self.programs_jar()
+        result = collektive("replay", self.a, "--programs", jar)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stdout, r"tick \d+ is the first that differs.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
+
+    def test_two_runs_are_compared(self) -> None:
+        self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
+        result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("tick 1: input of node 9, nodesAdded: present in A, absent in B", result.stdout)
+
+    def test_programs_that_never_ran_here_are_replayed_only_with_trust(self) -> None:
+        elsewhere = self.path("elsewhere.clkrec")
+        with open(self.a, "rb") as file:
+            data = file.read()
+        # The same record with another jar: its name, and so its length, stays; an entry of it has another date.
+        with open(elsewhere, "wb") as file:
+            file.write(with_another_jar(data))
+        result = collektive("replay", elsewhere)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("contains programs that were never run here", last_error(result))
+        self.assertIn("--trust", last_error(result))
+        self.assertNotIn("ticks replayed", result.stdout)
+        result = collektive("replay", elsewhere, "--trust")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 ticks replayed", result.stdout)
+        result = collektive("replay", elsewhere, "--programs", self.programs_jar())
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self) -> None:
+        with open(self.a, "rb") as file:
+            data = file.read()
+        with open(self.a, "wb") as file:
+            file.write(data[:-100])
+        result = collektive("replay", self.a)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
+        self.assertIn("9 ticks replayed, every digest is that of the record", result.stdout)
+
+    def test_what_is_no_record_is_refused(self) -> None:
+        for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
+            result = collektive(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(last_error(result).startswith("collektive: "), arguments)

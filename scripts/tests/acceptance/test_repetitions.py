@@ -1,0 +1,51 @@
+"""A run is repeated from its manifest alone."""
+import os
+
+from command import Project, collektive, last_error
+
+
+class Repetitions(Project):
+    """A run is repeated from its manifest alone."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.25 }, "network": { "loss": 0.25 }')
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("a"), "--set", "lamps=12", "--seed", str(2**64 - 1), "--seconds", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def repeat(self, *arguments):
+        return collektive("repeat", self.path("a", "manifest.json"), "--out", self.path("b"), "--overwrite", *arguments)
+
+    def test_it_comes_out_the_same_without_its_scenario_file(self) -> None:
+        os.remove(self.path("project", "lamps.json"))
+        result = self.repeat()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        first, second = self.manifest(self.path("a")), self.manifest(self.path("b"))
+        self.assertIn(f"repeated: 30 ticks, digest {first['digest']}", result.stdout)
+        self.assertNotIn("not as in the run", result.stderr)
+        for key in ["scenario", "file", "folder", "inputs", "programs", "parameters", "ticks", "digest", "end"]:
+            self.assertEqual(first[key], second[key], key)
+        self.assertEqual(first["scenario"]["seed"], 2**64 - 1)
+        self.assertEqual(first["scenario"]["fields"], {"lamps": 12, "loop": False})
+        self.assertEqual(first["scenario"]["jvm"]["flags"], ["-Xss2m"])
+
+    def test_inputs_that_changed_are_named_and_so_is_what_came_out_differently(self) -> None:
+        self.change("scene/Lamps.cs", "Brightness = i + 1", "Brightness = i + 2")
+        result = self.repeat()
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, "not as in the run of .*: scripts is ")
+        self.assertNotRegex(result.stderr, "not as in the run of .*: (schema|programs) is ")
+        self.assertRegex(last_error(result), "the run differs from that of .*: digest is [0-9a-f]{16}, it was [0-9a-f]{16}")
+
+    def test_a_project_that_was_moved_is_found_with_folder(self) -> None:
+        os.rename(self.path("project"), self.path("moved"))
+        result = self.repeat()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("--folder", last_error(result))
+        self.assertEqual(self.repeat("--folder", self.path("moved")).returncode, 0)
+
+    def test_what_is_no_manifest_is_refused(self) -> None:
+        for path, word in [(self.path("nowhere.json"), "no file"), (self.path("project", "lamps.json"), "no manifest")]:
+            result = collektive("repeat", path)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(word, last_error(result))

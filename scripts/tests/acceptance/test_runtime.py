@@ -1,0 +1,172 @@
+"""Programs run on Collektive's own runtime, with jars and a compiler plugin of the user's.
+
+The package's own library, DSL and standard library apart, stands in for Collektive's jars, and its compiler plugin for Collektive's.
+"""
+import glob
+import os
+import re
+import zipfile
+from pathlib import Path
+
+from command import Project, collektive
+
+from build import projects
+from build.places import ROOT
+
+LIBRARY = os.path.join(ROOT, "jvm-host/host/target/collektive-library.jar")
+PLUGIN = glob.glob(os.path.join(ROOT, "jvm-host/compiler-plugin/target/compiler-plugin-*[0-9].jar"))
+STDLIB = "it/unibo/collektive/stdlib/"
+SETTINGS = '"runtime": "collektive", "runtimeJars": "collektive", "runtimePlugin": "plugin.jar"'
+
+
+def repack(source, target, wanted=lambda name: True, change=lambda name, data: data) -> None:
+    with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
+        for name in old.namelist():
+            if wanted(name) and not name.endswith("/"):
+                new.writestr(name, change(name, old.read(name)))
+
+
+class Runtimes(Project):
+    def setUp(self) -> None:
+        super().setUp()
+        os.mkdir(self.path("project", "collektive"))
+        repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB))
+        repack(LIBRARY, self.jar("stdlib"), lambda name: name.startswith(STDLIB) or "stdlib" in name)
+        repack(PLUGIN[0], self.path("project", "plugin.jar"))
+        # Something of the standard library and of the links.
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
+                    "val mine = sensors.brightness() + 0f * (hopDistanceTo(localId == 0) + with(device) { distances() }.local.value.toInt())")
+        self.change("programs/Brightest.kt", "(sensors: SensorData)", "(sensors: SensorData, device: Device)")
+        self.change("programs/Brightest.kt", "import org.collektive.api.Program", "\n".join([
+            "import it.unibo.collektive.stdlib.spreading.hopDistanceTo", "import org.collektive.api.Device", "import org.collektive.api.Program",
+            "import org.collektive.links.distances"]))
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+
+    def jar(self, name):
+        return self.path("project", "collektive", name + ".jar")
+
+    def switch(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, ' + SETTINGS)
+
+    def run_it(self, out="out"):
+        return collektive("run", self.path("project", "lamps.json"), "--out", self.path(out), "--overwrite")
+
+    def completed(self, out="out"):
+        result = self.run_it(out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def refused(self, *words) -> None:
+        result = self.run_it()
+        self.assertNotEqual(result.returncode, 0)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def collektive_jar(self):
+        """The jar that a run on Collektive has made of the programs as they are now."""
+        names = ("light.fbs", "programs", "collektive", "plugin.jar")
+        return str(projects.programs_jar(*(Path(self.path("project", name)) for name in names)))
+
+    def use_jar(self, jar, change=lambda name, data: data) -> None:
+        repack(jar, self.path("project", "programs.jar"), change=change)
+        self.change("lamps.json", '"programs": "programs"', '"programs": "programs.jar"')
+
+    def test_both_runtimes_give_the_same_run_and_their_records_are_compared(self) -> None:
+        first = self.completed("a")
+        self.switch()
+        second = self.completed("b")
+        a, b = self.manifest(self.path("a")), self.manifest(self.path("b"))
+        self.assertEqual(a["digest"], b["digest"])
+        self.assertEqual([a["scenario"]["runtime"], b["scenario"]["runtime"]], ["BuiltIn", "Collektive"])
+        self.assertIn("runtimeJars", b["inputs"])
+        self.assertIn(f"digest {a['digest']}\n", first.stdout)
+        self.assertIn(f"digest {b['digest']} (runtime Collektive)\n", second.stdout)
+        compared = collektive("diff", self.path("a", "run.clkrec"), self.path("b", "run.clkrec"))
+        self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
+        self.assertIn("on two runtimes: the built-in runtime in A, the Collektive runtime in B", compared.stdout)
+        self.assertIn("10 ticks, and none differs", compared.stdout)
+        repeated = collektive("repeat", self.path("b", "manifest.json"))
+        self.assertEqual(repeated.returncode, 0, repeated.stderr)
+
+    def test_a_record_is_replayed_on_the_other_runtime(self) -> None:
+        self.completed("a")
+        record = self.path("a", "run.clkrec")
+        other = ["--runtime", "collektive", "--runtime-jars", self.path("project", "collektive")]
+        refused = collektive("replay", record, *other)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("was compiled for the built-in runtime, and this session runs on the Collektive runtime", refused.stderr)
+        programs = ["--programs", self.path("project", "programs"), "--schema", self.path("project", "light.fbs"),
+                    "--runtime-plugin", self.path("project", "plugin.jar"), "--out", self.path("b.clkrec")]
+        replayed = collektive("replay", record, *other, *programs)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        self.assertIn("10 ticks replayed, every digest is that of the record", replayed.stdout)
+        self.assertIn("(Collektive runtime)", replayed.stdout)
+        compared = collektive("diff", record, self.path("b.clkrec"))
+        self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
+        # The record of the replay names its runtime, its jars and its programs.
+        again = collektive("replay", self.path("b.clkrec"), "--trust")
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+        stranger = collektive("replay", self.path("b.clkrec"), "--programs", self.collektive_jar())
+        self.assertEqual(stranger.returncode, 2, stranger.stdout)
+        self.assertIn("names the jars of its runtime", stranger.stderr)
+
+    def test_an_error_of_a_round_names_node_and_place(self) -> None:
+        self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')
+        self.switch()
+        self.refused("three is too dark [node 3 at ", "Brightest.kt:")
+
+    def test_programs_for_the_other_runtime_are_refused(self) -> None:
+        self.use_jar(self.programs_jar())
+        self.switch()
+        self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
+                     "Build the programs again")
+
+    def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self) -> None:
+        self.switch()
+        self.completed()
+        self.use_jar(self.collektive_jar())
+        self.change("lamps.json", ", " + SETTINGS, "")
+        self.refused("programs.jar was compiled for the Collektive runtime, and this session runs on the built-in runtime")
+
+    def test_jars_that_are_missing_or_of_another_version_are_named(self) -> None:
+        self.switch()
+        self.completed()
+        marked = self.collektive_jar()
+        os.remove(self.jar("stdlib"))
+        self.use_jar(marked)
+        self.refused("programs.jar was compiled with other jars than those of the Collektive runtime of " + self.path("project", "collektive"))
+
+        # A jar of another tool has no mark.
+        repack(marked, self.path("project", "programs.jar"), lambda name: name != "META-INF/MANIFEST.MF")
+        self.refused("links to it.unibo.collektive.stdlib.", "which the Collektive runtime of", "one of its jars is missing or of another version")
+
+        repack(LIBRARY, self.jar("stdlib"), lambda name: name.startswith(STDLIB))
+        repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB), lambda name, data: data.replace(b"getNewState", b"getNewStage"))
+        self.refused("does not work: java.lang.NoSuchMethodError", "of another version than 28.3")
+
+        with open(self.jar("dsl"), "wb") as file:
+            file.write(b"no jar")
+        self.refused("dsl.jar cannot be read", "replace it by a good one")
+
+        os.remove(self.jar("dsl"))
+        os.remove(self.jar("stdlib"))
+        self.refused("there is no jar in " + self.path("project", "collektive"), "dsl and stdlib")
+
+    def test_a_plugin_that_is_none_or_does_not_fit_the_compiler_is_named(self) -> None:
+        self.switch()
+        plugin = self.path("project", "plugin.jar")
+        repack(LIBRARY, plugin)
+        self.refused(f"{plugin} is no plugin of the Kotlin compiler")
+        # As a plugin for a compiler with another interface.
+        repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
+        self.refused("the compiler plugin may be made for another version of it")
+
+    def test_settings_without_jars_or_plugin_are_refused_with_their_line(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')
+        self.refused("the key 'runtimeJars' is missing")
+        self.change("lamps.json", '"runtime": "collektive"', '"runtime": "collektive", "runtimeJars": "nowhere"')
+        self.refused("'runtimeJars' names no folder: " + self.path("project", "nowhere"))
+        self.change("lamps.json", "nowhere", "collektive")
+        self.refused("the key 'runtimePlugin' is missing")
+        self.change("lamps.json", '"runtime": "collektive"', '"runtime": "alchemist"')
+        self.assertTrue(re.search(r"lamps\.json:\d+: 'runtime' is \"alchemist\".*one of BuiltIn, Collektive", self.run_it().stderr))

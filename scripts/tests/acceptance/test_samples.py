@@ -1,0 +1,104 @@
+"""Each sample's scenario does what its page says."""
+import csv
+import json
+import os
+import shutil
+
+import replay
+from command import SAMPLE, Folder, collektive
+
+
+class TheSamples(Folder):
+    """Each sample's scenario as it is, without its replay."""
+
+    def rows(self, sample, **changes):
+        """The metrics of each second, with these keys of the scenario changed."""
+        shutil.copytree(os.path.dirname(SAMPLE), self.path("samples"))
+        path = self.path("samples", sample, "scenario.json")
+        with open(path) as file:
+            scenario = json.load(file)
+        scenario["outputs"] = changes.pop("outputs", {})
+        scenario["fields"].update(changes.pop("fields", {}))
+        scenario.update(changes)
+        scenario["programs"] = os.path.normpath(os.path.join(SAMPLE, scenario["programs"]))
+        with open(path, "w") as file:
+            json.dump(scenario, file)
+        result = collektive("run", path, "--out", self.path("out"), "--overwrite")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("out", "metrics.csv")) as file:
+            return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+    def under_each_schedule(self, sample, **changes):
+        """Each schedule with the metrics; under the asynchronous one a quarter of the nodes is due in a tick."""
+        for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
+            yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
+            shutil.rmtree(self.path("samples"))
+
+    def test_all_nodes_of_the_leader_election_are_counted_under_each_schedule(self) -> None:
+        for schedule, rows in self.under_each_schedule("LeaderElection", seconds=15, fields={"failAfter": 1000}):
+            self.assertEqual(rows[-1]["led"], 400, schedule)
+
+    def test_the_channel_is_connected_and_its_replay_does_not_flicker_under_each_schedule(self) -> None:
+        for schedule, rows in self.under_each_schedule("Channel", seconds=15, fields={"failAfter": 1000}, outputs={"replay": True}):
+            self.assertEqual(rows[-1]["connected"], 1, schedule)
+            self.assertTrue(90 <= rows[-1]["length"] <= 125, schedule)
+            _, frames = replay.read(self.path("out", "replay.html"))
+            # Every frame shows the whole channel, whoever was due in its tick.
+            shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
+            self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
+
+    def test_all_walkers_count_for_the_crowds_density_under_each_schedule(self) -> None:
+        for schedule, rows in self.under_each_schedule("Crowd", seconds=5, fields={"walkers": 60}, outputs={"replay": True}):
+            _, frames = replay.read(self.path("out", "replay.html"))
+            for _, nodes, _ in frames[-5:]:
+                self.assertEqual([node for node, (*_, density) in nodes.items() if density == 0], [], schedule)
+            self.assertAlmostEqual(max(density for *_, density in frames[-1][1].values()), rows[-1]["density"], 3, schedule)
+
+    def test_the_swarm_climbs_under_each_schedule(self) -> None:
+        for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
+            self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
+
+    def test_the_drones_form_each_shape_in_its_turn_though_their_leader_fails(self) -> None:
+        rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "hold": 8, "failAfter": 10})
+        # Just before the next shape; the leader fails in the second one.
+        for row in rows[7], rows[15], rows[23]:
+            self.assertGreater(row["formed"], 0.9 * 299, row)
+            self.assertEqual(row["shapes"], 1, row)
+        self.assertGreater(min(row["nearest"] for row in rows), 0.1, "no two drones in one place")
+
+    def test_all_nodes_have_a_leader_near_by_and_again_when_the_leaders_failed(self) -> None:
+        rows = self.rows("LeaderElection")
+        before, after = rows[9], rows[-1]
+        self.assertEqual(before["led"], 400)
+        self.assertTrue(4 <= before["regions"] <= 40, before["regions"])
+        rest = 400 - before["regions"]
+        self.assertLess(rows[10]["led"], rest, "the leaders failed")
+        self.assertEqual(after["led"], rest)
+        for row in before, after:
+            self.assertTrue(0 < row["farthest"] <= 20, row["farthest"])
+
+    def test_the_channel_finds_its_way_around_the_walls_and_around_nodes_that_failed(self) -> None:
+        rows = self.rows("Channel")
+        before, after = rows[9], rows[-1]
+        for row in before, after:
+            self.assertEqual(row["connected"], 1)
+            self.assertLess(row["channel_nodes"], 200, "of 600")
+        # The straight way has 90 m, the one around the near ends of the walls 98 m, and around the far ends 107 m.
+        self.assertTrue(98 <= before["length"] <= 115, before["length"])
+        self.assertTrue(107 <= after["length"] <= 125, after["length"])
+
+    def test_the_robots_find_all_casualties_and_stay_connected_with_them_when_some_fail(self) -> None:
+        rows = self.rows("Rescue")
+        self.assertEqual(rows[59]["found"], 3)
+        self.assertEqual(rows[59]["connected"], 3)
+        self.assertLess(rows[59]["channel_robots"], 60, "of 120")
+        self.assertEqual(rows[-1]["robots"], 108)
+        self.assertEqual(rows[-1]["connected"], 3)
+
+    def test_the_crowds_pass_without_bumping_and_their_warning_ends(self) -> None:
+        rows = self.rows("Crowd")
+        self.assertEqual(rows[-1]["arrived"], 160)
+        # 160 walkers in 1,200 rounds.
+        self.assertLess(rows[-1]["bumps"], 100)
+        self.assertGreater(max(row["warned"] for row in rows), 20, "it was dense where they met")
+        self.assertEqual(rows[-1]["warned"], 0)

@@ -1,0 +1,78 @@
+"""A signal to a command ends all of it: nothing goes on behind the user's back, and the exit code tells of it."""
+import os
+import signal
+import subprocess
+import time
+
+from command import Project, collektive, processes
+
+from build.places import COLLEKTIVE
+
+CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
+
+
+class Signals(Project):
+    def start(self):
+        command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
+                   "--seconds", "1000000"]
+        return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def assert_ends(self, process, number):
+        process.send_signal(number)
+        began = time.monotonic()
+        output = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, CODES[number], output)
+        self.assertLess(time.monotonic() - began, 15)
+        self.assertEqual(processes(self.folder), {})
+        return output
+
+    def await_line(self, process, words) -> None:
+        for line in process.stderr:
+            if words in line:
+                return
+        self.fail(f"the command ended before it wrote '{words}'")
+
+    def await_metrics(self) -> None:
+        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")))
+        time.sleep(0.5)
+
+    def test_a_run_ends_after_its_tick_with_its_outputs(self) -> None:
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_metrics()
+                self.assertIn("interrupted after", self.assert_ends(process, number))
+                self.assertGreater(self.manifest(self.path("out"))["ticks"], 0)
+                os.remove(self.path("out", "metrics.csv"))
+
+    def test_a_scene_that_is_being_built_is_given_up(self) -> None:
+        self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
+                    "            System.Threading.Thread.Sleep(60000);")
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_line(process, "running")
+                time.sleep(1.5)
+                self.assertIn("interrupted before the first tick", self.assert_ends(process, number))
+                self.assertFalse(os.path.exists(self.path("out", "manifest.json")))
+
+    def test_a_second_signal_ends_a_tick_that_does_not_end(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;",
+                    "if (SimulationManager.Current.Tick == 0) System.Threading.Thread.Sleep(60000);\n            data.Brightness = Brightness;")
+        process = self.start()
+        self.await_metrics()
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        self.assertIn("interrupted twice", self.assert_ends(process, signal.SIGINT))
+
+    def test_compilers_end_too_and_the_next_run_compiles_again(self) -> None:
+        with open(self.path("project", "programs", "Brightest.kt"), "a") as file:
+            file.write(f"\n// {time.time_ns()}\n")
+        for number in CODES:
+            with self.subTest(number):
+                process = self.start()
+                self.await_line(process, "compile-programs")
+                time.sleep(1)
+                self.assert_ends(process, number)
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite")
+        self.assertEqual(result.returncode, 0, result.stderr)

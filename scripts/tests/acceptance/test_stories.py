@@ -1,0 +1,80 @@
+"""The tutorials are told as they are done: their files are written, their commands run, and these print what the page shows.
+
+A block with a title is a file of the reader's project; a later block of the same title replaces it. Lines of a block `sh` are commands. A block
+`text` below them shows lines of what they print, in order; `...` stands for anything.
+"""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+
+import pytest
+import replay
+from blocks import STORIES, blocks
+from command import WORK
+
+from build.places import ROOT
+
+# These say by a code of 1 that two runs differ.
+COMPARE = ("collektive diff ", "collektive replay ")
+
+
+def missing(shown, printed):
+    """The first line that should have been printed after the lines before it, or None."""
+    at = 0
+    for line in filter(None, map(str.strip, shown.splitlines())):
+        found = re.compile(re.escape(line).replace(r"\.\.\.", ".*")).search(printed, at)
+        if line != "..." and not found:
+            return line
+        at = found.end() if line != "..." else at
+    return None
+
+
+@pytest.fixture
+def folder():
+    made = tempfile.mkdtemp(dir=WORK)
+    yield made
+    shutil.rmtree(made)
+
+
+def run(commands, folder):
+    """What the commands print; each must succeed."""
+    printed = ""
+    environment = {**os.environ, "PATH": f"{ROOT}:{os.environ['PATH']}"}
+    for command in commands.splitlines():
+        result = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        assert result.returncode == 0 or (result.returncode == 1 and command.startswith(COMPARE)), f"{command}\n{result.stdout}"
+        printed += result.stdout
+    return printed
+
+
+@pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
+def test_a_tutorial_does_what_it_tells(page, folder) -> None:
+    told, printed = blocks(page), ""
+    assert any(block.language == "sh" for block in told)
+    for block in told:
+        if block.title:
+            path = os.path.join(folder, block.title)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w") as file:
+                file.write(block.text)
+        elif block.language == "sh":
+            printed = run(block.text, folder)
+        elif block.language == "text":
+            line = missing(block.text, printed)
+            assert line is None, f"{page} shows a line that is not printed: {line}\n{printed}"
+    if page.endswith("tutorial-first-swarm.md"):
+        see_neighbours(os.path.join(folder, "out", "replay.html"))
+
+
+def see_neighbours(page) -> None:
+    """The replay of nodes that answer no numbers is coloured by how many neighbours they have."""
+    _, nodes, links = replay.read(page)[1][-1]
+    for node, (*_, value) in nodes.items():
+        assert value == pytest.approx(sum(node in link for link in links), abs=0.01)
+
+
+def test_a_line_that_is_not_printed_is_found() -> None:
+    assert missing("one\n...\nthr... 3", "one\ntwo\nthree is 3\n") is None
+    assert missing("two\none", "one\ntwo\n") == "one"

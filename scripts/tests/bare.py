@@ -1,0 +1,218 @@
+"""The demo and the quick tests in fresh roots of distributions, which debootstrap makes and which are removed again."""
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from build import system
+from build.console import Failure, say
+from build.places import BUILD, LOGS, ROOT
+from tests import bare_demo
+
+# Names, and debootstrap's suites.
+ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble"}
+# Debian has no package of Ubuntu's keys. This file is taken from Ubuntu's archive.
+UBUNTU_KEYRING_SHA256 = "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8"
+# Variables that tell clients how to reach registries.
+CLIENT_VARIABLES = re.compile(r"(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)|"
+                              r"PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*")
+# Settings of the clients in the user's folder.
+CLIENT_FILES = (".m2/settings.xml", ".m2/settings-security.xml", ".cargo/config", ".cargo/config.toml", ".cargo/credentials.toml")
+# Mounts and devices of a root, whose folder is the first argument; then the rest is run inside it.
+ENTER = """
+set -e
+root=$1
+shift
+mount -t proc proc "$root/proc"
+mount -t tmpfs -o mode=755 dev "$root/dev"
+mkdir "$root/dev/shm" "$root/dev/pts"
+mount -t tmpfs shm "$root/dev/shm"
+mount -t devpts -o newinstance,ptmxmode=666 devpts "$root/dev/pts"
+for device in null:1:3 zero:1:5 full:1:7 random:1:8 urandom:1:9 tty:5:0; do
+  mknod -m 666 "$root/dev/${device%%:*}" c $(echo "${device#*:}" | tr : ' ')
+done
+ln -s pts/ptmx "$root/dev/ptmx"
+ln -s /proc/self/fd "$root/dev/fd"
+exec chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin "$@"
+"""
+PROGRESS = re.compile(r"\[ *\d+s\] |collektive: |\d+ passed, ")
+
+
+class CannotMakeError(Exception):
+    """A root cannot be made, such as without a network."""
+
+
+def test(names: Sequence[str], results: Path) -> tuple[str, int]:
+    """Tests the last commit in roots; returns what failed, or nothing, and how many roots were skipped."""
+    shutil.rmtree(results, ignore_errors=True)
+    results.mkdir(parents=True)
+    if not _is_possible():
+        return "", len(names)
+    if subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], stdout=subprocess.PIPE, check=True).stdout:
+        say("the last commit is tested; the changes since then are not in it")
+    work = Path(tempfile.mkdtemp(prefix="bare.", dir=BUILD))
+    failures, skipped = [], 0
+    try:
+        for name in names:
+            try:
+                if code := _test_root(name, work, results):
+                    failures.append(f"{name} ended with code {code}")
+            except CannotMakeError as error:
+                say(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
+                skipped += 1
+            finally:
+                _remove(work / name)
+    finally:
+        _remove(work)
+    return ", ".join(failures), skipped
+
+
+def _is_possible() -> bool:
+    """Reports whether roots can be made here, and prints why not."""
+    if not system.may_install():
+        say("skipped: fresh roots need root and apt-get")
+        return False
+    if subprocess.run(_namespace("true"), stderr=subprocess.DEVNULL).returncode != 0:
+        say("skipped: this machine allows no mount namespace")
+        return False
+    if not shutil.which("debootstrap"):
+        try:
+            system.install(["debootstrap", "debian-archive-keyring"], "debootstrap")
+        except Failure:
+            say("skipped: debootstrap cannot be installed")
+            return False
+    return True
+
+
+def _namespace(*command: str | Path) -> list[str | Path]:
+    """Returns a command line whose mounts and processes end with it."""
+    return ["unshare", "--mount", "--pid", "--fork", "--kill-child", *command]
+
+
+def _remove(folder: Path) -> None:
+    """Removes a folder; all mounts below it were in namespaces that have ended."""
+    subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
+
+
+def _log(name: str) -> Path:
+    return LOGS / f"bare-{name}.log"
+
+
+def _test_root(name: str, work: Path, results: Path) -> int:
+    """Makes a root, and runs the demo and the tests in it; returns the exit code of the last that failed."""
+    began, root = time.monotonic(), work / name
+    say(f"{name}: making the root")
+    _log(name).unlink(missing_ok=True)
+    _make(name, work, root)
+    clone = root / "root/collektive"
+    code = demo = _run(name, root, "./collektive", "demo")
+    bare_demo.check(str(clone / "out/demo-seed1"), demo, str(results / f"{name}-demo.xml"))
+    code = _run(name, root, "./collektive", "test", "--quick") or code
+    for file in (clone / "build/results").glob("*/*.xml"):
+        shutil.copy(file, results / f"{name}-{file.parent.name}-{file.name}")
+    if code != 0:
+        print("".join(_log(name).read_text(errors="replace").splitlines(keepends=True)[-60:]), file=sys.stderr)
+    size = subprocess.run(["du", "-smx", root], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
+    say(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
+    return code
+
+
+def _make(name: str, work: Path, root: Path) -> None:
+    """Makes a minimal system with a clone of HEAD and this machine's settings of clients."""
+    suite = ROOTS[name]
+    if suite == "noble":
+        # Debian 12's debootstrap does not know it yet; Ubuntu's suites differ in nothing that matters here.
+        script = [] if Path("/usr/share/debootstrap/scripts", suite).exists() else ["/usr/share/debootstrap/scripts/jammy"]
+        mirror = _mirror("Ubuntu")
+        keyring = _ubuntu_keyring(name, work, suite, mirror, script)
+        _debootstrap(name, root, suite, mirror, script, f"--keyring={keyring}")
+        # Each Ubuntu has these switched on.
+        sources = root / "etc/apt/sources.list"
+        sources.write_text(re.sub(rf"(.*) {suite} main.*", rf"\1 {suite} main universe\n\1 {suite}-updates main universe", sources.read_text()))
+    else:
+        _debootstrap(name, root, suite, _mirror("Debian"), [])
+    _add_clients(root)
+    _logged(name, ["git", "clone", "--quiet", "--no-hardlinks", "--depth", "1", f"file://{ROOT}", root / "root/collektive"])
+
+
+def _mirror(label: str) -> str:
+    """Returns the mirror of this machine's own packages, or nothing, which means debootstrap's."""
+    command = ["apt-get", "indextargets", "--format", "$(LABEL) $(REPO_URI)"]
+    lines = subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    return next((line.removeprefix(f"{label} ") for line in lines if line.startswith(f"{label} ")), "")
+
+
+def _debootstrap(name: str, root: Path, suite: str, mirror: str, script: list[str], *options: str) -> None:
+    _logged(name, _namespace("debootstrap", "--variant=minbase", *options, suite, root, mirror, *script))
+
+
+def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list[str]) -> Path:
+    """Returns the file of Ubuntu's keys."""
+    packages = work / "keyring-packages"
+    _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
+    package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
+    if hashlib.sha256(package.read_bytes()).hexdigest() != UBUNTU_KEYRING_SHA256:
+        raise CannotMakeError(f"{package.name} has another SHA-256 than expected")
+    _logged(name, ["dpkg-deb", "--extract", package, work / "keyring"])
+    _remove(packages)
+    return work / "keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg"
+
+
+def _logged(name: str, command: Sequence[str | Path]) -> None:
+    with _log(name).open("ab") as file:
+        if subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode != 0:
+            raise CannotMakeError(" ".join(map(str, command[:6])) + " failed")
+
+
+def _add_clients(root: Path) -> None:
+    """Lets clients in the root reach registries as those of this machine do: name servers, proxies, certificates, the user's settings."""
+    home = Path.home()
+    for file in ("resolv.conf", "hosts"):
+        shutil.copy(Path("/etc", file), root / "etc" / file)
+    settings = subprocess.run(["apt-config", "dump"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    (root / "etc/apt/apt.conf.d/00host").write_text("".join(line for line in settings.splitlines(keepends=True) if line.startswith("Acquire::")))
+    certificates = [*Path("/usr/local/share/ca-certificates").glob("*.crt")]
+    # A bundle of certificates elsewhere than Debian's packages put theirs.
+    bundles = [Path(value) for value in _client_variables().values() if os.path.isfile(value) and not value.startswith("/etc/ssl/certs/")]
+    for source, target in [*((file, root / str(file).lstrip("/")) for file in [*certificates, *bundles]),
+                           *((home / file, root / "root" / file) for file in CLIENT_FILES if (home / file).exists())]:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, target)
+    npm = subprocess.run(["npm", "config", "get", "globalconfig"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+    for name, sources in {"etc/pip.conf": [Path("/etc/pip.conf"), home / ".config/pip/pip.conf", home / ".pip/pip.conf"],
+                            "root/.npmrc": [Path(npm), home / ".npmrc"]}.items():
+        text = "".join(file.read_text() for file in sources if file.is_file())
+        if text:
+            (root / name).write_text(text)
+
+
+def _client_variables() -> dict[str, str]:
+    return {name: value for name, value in os.environ.items() if CLIENT_VARIABLES.fullmatch(name)}
+
+
+def _run(name: str, root: Path, *command: str) -> int:
+    """Runs a command in the clone inside the root; its output goes to the log, and its steps are shown."""
+    say(f"{name}: {' '.join(command)}")
+    variables = [f"{key}={value}" for key, value in _client_variables().items()]
+    inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]
+    process = subprocess.Popen(_namespace("bash", "-c", ENTER, "bare", root, *variables, *inside), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, errors="replace")
+    assert process.stdout is not None
+    try:
+        with _log(name).open("a") as log:
+            for line in process.stdout:
+                log.write(line)
+                if PROGRESS.match(line):
+                    print(f"{name} {line}", end="", file=sys.stderr, flush=True)
+        return process.wait()
+    except BaseException:
+        # The first process of a namespace, and unshare itself, ignore Ctrl-C.
+        process.kill()
+        process.wait()
+        raise

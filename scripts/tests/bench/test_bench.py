@@ -1,0 +1,97 @@
+"""Runs a short ./collektive bench tick and scene and checks what does not depend on the machine."""
+import json
+import os
+import subprocess
+import unittest
+
+from build.places import ROOT
+
+OUT = os.path.join(ROOT, "build/bench/test.json")
+KEYS = ["name", "variant", "program", "topology", "nodes", "threads", "median_us", "p99_us", "min_us", "managed_bytes_per_tick", "jvm_bytes_per_tick"]
+
+
+class BenchTick(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        command = [os.path.join(ROOT, "collektive"), "bench", "tick", "--quick", "--nodes", "12,500", "--out", OUT]
+        cls.result = subprocess.run(command, capture_output=True, text=True)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(OUT) as file:
+            cls.whole = json.load(file)
+        cls.rows = cls.whole["rows"]
+
+    def test_the_file_has_its_form(self) -> None:
+        self.assertEqual(sorted(self.whole), ["machine", "rows"])
+        self.assertTrue(self.whole["machine"])
+        for row in self.rows:
+            self.assertEqual(list(row), KEYS)
+
+    def test_all_variants_are_there(self) -> None:
+        found = {(row["name"], row["variant"], row["nodes"]) for row in self.rows}
+        for nodes in [12, 500]:
+            for variant in ["in-process", "per-node-call", "socket", "engine-only", "hand-written", "in-process, every 8 ms", "socket, every 8 ms"]:
+                self.assertIn(("tick", variant, nodes), found)
+        self.assertIn(("crossing", "in-process", 0), found)
+        self.assertIn(("spawn", "in-process", 500), found)
+
+    def test_times_are_in_order(self) -> None:
+        for row in self.rows:
+            self.assertLess(0, row["min_us"], row)
+            self.assertLessEqual(row["min_us"], row["median_us"], row)
+            self.assertLessEqual(row["median_us"], row["p99_us"], row)
+
+    def test_a_tick_allocates_no_managed_memory(self) -> None:
+        for row in self.rows:
+            if row["name"] in ("tick", "crossing") and row["variant"] in ("in-process", "per-node-call", "in-process, every 8 ms"):
+                self.assertEqual(row["managed_bytes_per_tick"], 0, row)
+
+    def test_the_jvm_allocates_for_rounds_only(self) -> None:
+        def bytes_of(variant):
+            return next(row["jvm_bytes_per_tick"] for row in self.rows if row["variant"] == variant and row["nodes"] == 500)
+        self.assertLess(bytes_of("in-process"), bytes_of("engine-only") * 1.5 + 1000)
+
+    def test_the_table_is_printed(self) -> None:
+        for word in ["in-process", "hand-written", "bridge at 500 nodes", "managed bytes per tick, 500 nodes"]:
+            self.assertIn(word, self.result.stdout)
+
+
+class BenchScene(unittest.TestCase):
+    OUT = os.path.join(ROOT, "build/bench/test-scene.json")
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        command = [os.path.join(ROOT, "collektive"), "bench", "scene", "--quick", "--nodes", "50,1000", "--out", cls.OUT]
+        cls.result = subprocess.run(command, capture_output=True, text=True)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(cls.OUT) as file:
+            cls.whole = json.load(file)
+
+    def test_the_file_has_a_row_for_each_size(self) -> None:
+        self.assertEqual(sorted(self.whole), ["machine", "rows"])
+        self.assertEqual([row["nodes"] for row in self.whole["rows"]], [50, 1000])
+        for row in self.whole["rows"]:
+            self.assertEqual(list(row), ["nodes", "threads", "ticks_per_second", "sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms",
+                                         "rss_mb"])
+
+    def test_the_phases_add_up_to_the_tick(self) -> None:
+        for row in self.whole["rows"]:
+            phases = [row[key] for key in row if key.endswith("_ms")]
+            self.assertGreater(min(phases), 0, row)
+            self.assertAlmostEqual(sum(phases) / (1000 / row["ticks_per_second"]), 1, places=2, msg=row)
+
+    def test_a_larger_swarm_costs_more(self) -> None:
+        small, large = self.whole["rows"]
+        self.assertLess(small["physics_ms"], large["physics_ms"])
+        self.assertLess(large["ticks_per_second"], small["ticks_per_second"])
+
+    def test_the_table_is_printed(self) -> None:
+        for word in ["ticks/s", "physics ms", "other ms", "RSS MB", "growth", "1000"]:
+            self.assertIn(word, self.result.stdout)
+
+    def test_wrong_sizes_are_refused(self) -> None:
+        for sizes in ["0", "ten", "500,"]:
+            result = subprocess.run([os.path.join(ROOT, "collektive"), "bench", "scene", "--nodes", sizes], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("--nodes needs numbers from 1 to 999999", result.stderr)

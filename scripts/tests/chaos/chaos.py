@@ -1,0 +1,310 @@
+#!/usr/bin/env python3
+"""Disturbs runs of a small scenario in every way that a machine or a user can, and checks what is left of them. Prints a table of what was tried and
+what came out, then "N passed, N failed".
+
+chaos.py KILLS DISKS SIGNALS OTHERS [--seed N] [--results FILE.xml]: so many trials of each kind; OTHERS of a jumping clock and of little memory.
+
+After each trial must hold: exit code 0 only with all ticks; a folder whose manifest says "complete" is; no process is left; earlier results in
+another folder are as they were; and the next run, at the end, works.
+"""
+import argparse
+import collections
+import concurrent.futures
+import glob
+import hashlib
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
+from build.places import COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
+from tests import junit  # noqa: E402
+
+PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
+SECONDS, TICKS = 20, 200
+LIMIT_S = 240
+# How long what a signal ended may take to be gone.
+GONE_S = 20
+MARK = "COLLEKTIVE_CHAOS"
+MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"; "$@"; code=$?; cp -r "$DISK/out" "$KEEP" 2>/dev/null; exit $code'
+
+
+@dataclass(frozen=True)
+class Outcome:
+    end: str
+    """Of the run, for the table."""
+    problems: list[str]
+
+
+class Trial:
+    """One disturbed run, in a folder of its own."""
+
+    def __init__(self, kind: str, number: int, seed: int, reference: dict, took: float) -> None:
+        self.kind, self.reference, self.took = kind, reference, took
+        self.mark = f"{os.getpid()}-{kind}-{number}"
+        self.random = random.Random(f"{seed} {kind} {number}")
+        self.folder = tempfile.mkdtemp(prefix="collektive-chaos-")
+        self.detail = ""
+
+    def path(self, *parts: str) -> str:
+        return os.path.join(self.folder, *parts)
+
+    def run(self) -> Outcome:
+        try:
+            shutil.copytree(PROJECT, self.path("project"))
+            write_scenario(self.path("project", "lamps.json"))
+            if self.random.random() < 0.2:
+                # It must be compiled first, and is disturbed in that, too.
+                with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
+                    file.write(f"// {self.mark}\n")
+            shutil.copytree(self.reference["folder"], self.path("earlier"))
+            code, output, out = getattr(self, self.kind)()
+            problems = self.wait_for_the_last()
+            problems += broken(out, code, self.reference)
+            if digest_of(self.path("earlier")) != self.reference["files"]:
+                problems.append("earlier results have changed")
+            if problems:
+                problems.append(f"{self.detail}: code {code}: {output[-1500:]}")
+            return Outcome(ending(code), problems)
+        finally:
+            shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, prefix: tuple[str, ...] = (), out: str = "out", **environment: str) -> subprocess.Popen:
+        command = [*prefix, COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(out)]
+        return subprocess.Popen(command, cwd=self.folder, env={**os.environ, MARK: self.mark, **environment}, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+
+    def end(self, process: subprocess.Popen) -> tuple[int, str]:
+        try:
+            output = process.communicate(timeout=LIMIT_S)[0]
+        except subprocess.TimeoutExpired:
+            for pid in marked(self.mark):
+                kill(pid, signal.SIGKILL)
+            return -1, "it hangs: " + process.communicate()[0]
+        return process.returncode, output
+
+    def kill(self) -> tuple[int, str, str]:
+        """SIGKILL to the player, to the command, or to all of it, at any moment."""
+        into_earlier = self.random.random() < 0.2
+        process = self.start(out="earlier" if into_earlier else "out")
+        target, moment = self.random.choice(["player", "command", "all"]), self.random.uniform(0, 1.05 * self.took)
+        self.detail = f"SIGKILL to {target} after {moment:.2f} s"
+        time.sleep(moment)
+        if target == "command":
+            kill(process.pid, signal.SIGKILL)
+        elif target == "player":
+            for pid in marked(self.mark, "Collektive.Player.exe"):
+                kill(pid, signal.SIGKILL)
+        else:
+            # As the end of a container: one that is killed may have started another just before.
+            while pids := marked(self.mark):
+                for pid in pids:
+                    kill(pid, signal.SIGKILL)
+        return (*self.end(process), self.path("refused" if into_earlier else "out"))
+
+    def signal(self) -> tuple[int, str, str]:
+        number, moment = self.random.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]), self.random.uniform(0, 1.05 * self.took)
+        self.detail = f"{number.name} after {moment:.2f} s"
+        process = self.start()
+        time.sleep(moment)
+        kill(process.pid, number)
+        return (*self.end(process), self.path("out"))
+
+    def disk(self) -> tuple[int, str, str]:
+        """A disk that is small, read-only, or becomes read-only while the run writes to it."""
+        fault = self.random.choice(["small", "small", "read-only", "becomes read-only"])
+        size = self.random.choice([4, 8, 16, 64, 200, 400, 600, 800, 1000, 1500]) if fault == "small" else 20000
+        moment = self.random.uniform(0.5, 1) * self.took
+        action = {"small": ":", "read-only": 'mount -o remount,ro "$DISK"',
+                  "becomes read-only": f'(sleep {moment:.2f}; mount -o remount,ro,force "$DISK" || mount -o remount,size=4k "$DISK") &'}[fault]
+        self.detail = f"disk {fault}, {size} KB"
+        os.makedirs(self.path("disk"))
+        os.makedirs(self.path("keep"))
+        process = self.start(("unshare", "--mount", "bash", "-c", MOUNTED, "bash"), "disk/out", SIZE=f"{size}k", DISK=self.path("disk"),
+                             FAULT=action, KEEP=self.path("keep"))
+        return (*self.end(process), self.path("keep", "out"))
+
+    def clock(self) -> tuple[int, str, str]:
+        """The time of day jumps while the run plays."""
+        jump, moment = self.random.choice([-86400, -3600, -1, 3600, 400 * 86400]), self.random.uniform(0, self.took)
+        self.detail = f"the clock jumps by {jump} s after {moment:.2f} s"
+        offset = self.path("offset")
+        write_text(offset, "+0")
+        # Without the last two settings, libfaketime changes the monotonic clock, and waits end too early.
+        process = self.start(LD_PRELOAD=clock_library(), FAKETIME_TIMESTAMP_FILE=offset, FAKETIME_NO_CACHE="1", FAKETIME_DONT_FAKE_MONOTONIC="1",
+                             FAKETIME_FORCE_MONOTONIC_FIX="0")
+        time.sleep(moment)
+        write_text(offset + ".part", f"{jump:+}")
+        os.replace(offset + ".part", offset)
+        return (*self.end(process), self.path("out"))
+
+    def memory(self) -> tuple[int, str, str]:
+        """A limit of the address space, from too little for Mono to enough for all."""
+        kilobytes = self.random.choice([100, 300, 600, 1000, 1500, 2000, 3000, 5000]) * 1000
+        self.detail = f"{kilobytes} KB of address space"
+        return (*self.end(self.start(("bash", "-c", f'ulimit -v {kilobytes}; "$@"', "bash"))), self.path("out"))
+
+    def wait_for_the_last(self) -> list[str]:
+        end = time.monotonic() + GONE_S
+        while time.monotonic() < end:
+            left = marked(self.mark)
+            if not left:
+                return []
+            time.sleep(0.1)
+        for pid in left:
+            kill(pid, signal.SIGKILL)
+        return [f"processes are left: {'; '.join(left.values())}"]
+
+
+def write_text(path: str, text: str) -> None:
+    with open(path, "w") as file:
+        file.write(text)
+
+
+def write_scenario(path: str) -> None:
+    with open(path) as file:
+        scenario = json.load(file)
+    scenario.update(seconds=SECONDS, outputs={"metrics": True, "replay": True, "record": True})
+    write_text(path, json.dumps(scenario))
+
+
+def kill(pid: int, number: int) -> None:
+    try:
+        os.kill(pid, number)
+    except ProcessLookupError:
+        pass
+
+
+def marked(mark: str, words: str = "") -> dict[int, str]:
+    """Command lines, by process id, of the processes that a trial has started and that have the words in theirs."""
+    found = {}
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/environ", "rb") as file:
+                if f"{MARK}={mark}\0".encode() not in file.read():
+                    continue
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                line = file.read().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if words in line:
+            found[int(pid)] = line[:200]
+    return found
+
+
+def digest_of(folder: str) -> dict[str, str]:
+    digests = {}
+    for name in sorted(os.listdir(folder)):
+        with open(os.path.join(folder, name), "rb") as file:
+            digests[name] = hashlib.sha256(file.read()).hexdigest()
+    return digests
+
+
+def content(path: str) -> bytes:
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def broken(out: str, code: int, reference: dict) -> list[str]:
+    """What is wrong with the outputs of a run that ended with a code."""
+    path = os.path.join(out, "manifest.json")
+    if not os.path.exists(path):
+        return ["exit code 0 without a manifest"] if code == 0 else []
+    try:
+        manifest = json.loads(content(path))
+    except ValueError:
+        return ["the manifest is not whole"]
+    problems = []
+    page = os.path.join(out, "replay.html")
+    if os.path.exists(page) and not content(page).rstrip().endswith(b"</html>"):
+        problems.append("the page is not whole")
+    if manifest["outcome"] != "complete":
+        return [*problems, f"exit code 0, and the run is '{manifest['outcome']}'"] if code == 0 else problems
+    rows = content(os.path.join(out, "metrics.csv")).splitlines() if os.path.exists(os.path.join(out, "metrics.csv")) else []
+    record = os.path.join(out, "run.clkrec")
+    for what, is_so in [("digest", manifest.get("digest") == reference["digest"]), ("ticks", manifest.get("ticks") == TICKS),
+                        ("rows of metrics", len(rows) == SECONDS + 2), ("page", os.path.exists(page)),
+                        ("record", os.path.exists(record) and content(record)[-12:-8] == b"END ")]:
+        if not is_so:
+            problems.append(f"complete, but not its {what}")
+    return problems
+
+
+def ending(code: int) -> str:
+    if code == 0:
+        return "done"
+    return f"ended by {signal.Signals(code - 128).name}" if 128 < code < 160 else "killed" if code < 0 else "refused or failed"
+
+
+def make_reference(work: str) -> tuple[dict, float]:
+    """An undisturbed run, and how long it takes once all is compiled."""
+    shutil.copytree(PROJECT, os.path.join(work, "project"))
+    scenario, out = os.path.join(work, "project", "lamps.json"), os.path.join(work, "out")
+    write_scenario(scenario)
+    for _ in range(2):
+        began = time.monotonic()
+        result = subprocess.run([COLLEKTIVE, "run", scenario, "--out", out, "--overwrite"], capture_output=True, text=True)
+        if result.returncode != 0:
+            sys.exit(f"collektive: chaos: the undisturbed run failed:\n{result.stderr}")
+    took = time.monotonic() - began
+    digest = json.loads(content(os.path.join(out, "manifest.json")))["digest"]
+    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario}, took
+
+
+def clock_library() -> str:
+    """Returns the path of libfaketime, or an empty text when it is not installed."""
+    return next(iter(glob.glob("/usr/lib/*/faketime/libfaketime.so.1")), "")
+
+
+def can_mount() -> bool:
+    return subprocess.run(["unshare", "--mount", "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True).returncode == 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    for kind in ("kills", "disks", "signals", "others"):
+        parser.add_argument(kind, type=int)
+    parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
+    parser.add_argument("--results")
+    given = parser.parse_args()
+    # Jobs of scripts ignore SIGINT, and hand that down to the runs.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others}
+    if not can_mount():
+        print("disk: skipped, this system lets nobody mount")
+        counts["disk"] = 0
+    if not clock_library():
+        print("clock: skipped, libfaketime is not installed")
+        counts["clock"] = 0
+    cases = []
+    with tempfile.TemporaryDirectory(prefix="collektive-chaos-") as work, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        reference, took = make_reference(work)
+        print(f"an undisturbed run takes {took:.1f} s; seed {given.seed}\n{'kind':8} {'trials':>6} {'wrong':>6}  ends", flush=True)
+        for kind, count in counts.items():
+            trials = [Trial(kind, number, given.seed, reference, took) for number in range(count)]
+            outcomes = list(pool.map(Trial.run, trials))
+            ends = collections.Counter(outcome.end for outcome in outcomes)
+            wrong = [outcome for outcome in outcomes if outcome.problems]
+            print(f"{kind:8} {count:6} {len(wrong):6}  {', '.join(f'{number} {end}' for end, number in ends.most_common())}", flush=True)
+            for outcome in wrong:
+                print("  " + "\n    ".join("; ".join(outcome.problems).splitlines()), flush=True)
+            cases += [junit.Case(f"{kind} {number}", "; ".join(outcome.problems)) for number, outcome in enumerate(outcomes)]
+        after = subprocess.run([COLLEKTIVE, "run", reference["scenario"], "--out", reference["folder"], "--overwrite"], capture_output=True, text=True)
+        cases.append(junit.Case("a run after all", "" if after.returncode == 0 else after.stderr or "failed"))
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if given.results:
+        junit.write(given.results, "chaos", cases)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
+
+exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, on every runtime and JVM; FILE gets the results as JUnit XML.
+"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+from build import managed
+from tests import junit
+from tests.faults import places as files
+
+# How a run ends, and its exit code.
+KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
+# Of CoreCLR, where they differ: it aborts.
+CORECLR_CODES = {"thread-exception": -signal.SIGABRT}
+SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
+LIMIT_S = 180
+
+
+def command(places, kind, runtime, jdk, folder):
+    """The player; on CoreCLR, where it does not run, a program that plays the same scene."""
+    flag = "-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")
+    if runtime == "coreclr":
+        return [runtime, "--debug", places["program"], "act=exit", "how=" + kind, "home=" + jdk, "host=" + places["host"], "jar=" + places["jar"],
+                "option=-Xmx128m", "option=-XX:+UseSerialGC", "option=" + flag]
+    path = os.path.join(folder, "exits.json")
+    with open(path, "w") as file:
+        json.dump(scenario(places, folder, 1000 if kind in SIGNALS else 2, flag), file)
+    return [runtime, "--debug", places["player"], "run", path, "--scripts", places["program"], "--jar", places["jar"], "--host-jar",
+            places["host"], "--java-home", jdk, "--out", os.path.join(folder, "out"), "--set", "how=" + kind, "--trust-jvm"]
+
+
+def scenario(places, folder, seconds, flag):
+    return {"version": 1, "scene": "Collektive.Headless.Faults.Ending", "scripts": folder, "schema": places["schema"],
+            "programs": places["jar"], "program": "fault", "seconds": seconds, "threads": 2,
+            "jvm": {"maximumHeapMb": 128, "collector": "Serial", "flags": [flag]},
+            "outputs": {"metrics": True}}
+
+
+def recording_problem(path):
+    """A recording is a row of chunks, each with its length in its head; one that was not finished has none."""
+    if not os.path.exists(path):
+        return "there is no flight recording"
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 0
+    while at < len(data):
+        if data[at:at + 4] != b"FLR\0" or at + 16 > len(data):
+            return f"the flight recording is damaged at byte {at}"
+        length, = struct.unpack_from(">q", data, at + 8)
+        if length <= 0 or at + length > len(data):
+            return f"the flight recording's chunk at byte {at} has no end"
+        at += length
+    return "" if data else "the flight recording is empty"
+
+
+def run(places, kind, index):
+    """Returns what is wrong, "" for nothing."""
+    runtime = places["runtimes"][index % len(places["runtimes"])]
+    jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
+    folder = tempfile.mkdtemp(prefix="collektive-exit-")
+    try:
+        environment = managed.environment(runtime)
+        process = subprocess.Popen(command(places, kind, runtime, jdk, folder), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        watchdog = threading.Timer(LIMIT_S, process.kill)
+        watchdog.start()
+        text = b""
+        for line in process.stdout:
+            text += line
+            if kind in SIGNALS and b"ten ticks done" in line:
+                time.sleep(random.random() * 0.2)
+                process.send_signal(SIGNALS[kind])
+        code = process.wait()
+        watchdog.cancel()
+        wrong = []
+        expected = CORECLR_CODES.get(kind, KINDS[kind]) if runtime == "coreclr" else KINDS[kind]
+        if code != expected:
+            wrong.append(f"exit code {code} instead of {expected}")
+        if b"did not end" in text:
+            wrong.append("the JVM did not go down in order")
+        problem = recording_problem(os.path.join(folder, "record.jfr"))
+        if problem:
+            wrong.append(problem)
+        if index < 2 and not problem:
+            summary = subprocess.run([os.path.join(jdk, "bin/jfr"), "summary", os.path.join(folder, "record.jfr")], capture_output=True, text=True)
+            if summary.returncode != 0 or "jdk.JVMInformation" not in summary.stdout:
+                wrong.append("jfr summary does not read the flight recording")
+        if not wrong:
+            return ""
+        return f"{kind} on {runtime}, {os.path.basename(jdk)}: {'; '.join(wrong)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("runs", type=int)
+    parser.add_argument("kinds", nargs="*", default=list(KINDS))
+    parser.add_argument("--results")
+    arguments = parser.parse_args()
+    runs, kinds = arguments.runs, arguments.kinds
+    places = files.everywhere()
+    # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    cases = []
+    with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
+        rows = {kind: [pool.submit(run, places, kind, index) for index in range(runs)] for kind in kinds}
+        for kind, futures in rows.items():
+            outcomes = [future.result() for future in futures]
+            cases += [junit.Case(f"{kind}, run {index}", problem) for index, problem in enumerate(outcomes)]
+            problems = [problem for problem in outcomes if problem]
+            print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)
+            for problem, count in collections.Counter(problems).most_common(5):
+                print(f"  {count} times: {problem}")
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if arguments.results:
+        junit.write(arguments.results, "exits", cases)
+    sys.exit(failed > 0)
+
+
+if __name__ == "__main__":
+    main()

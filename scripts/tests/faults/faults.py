@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Makes each fault of faults.json happen in a process of its own and prints what comes of it: a table, and "N passed, N failed".
+
+faults.py [--all] [WORDS]... [--results FILE.xml]; --all: on every runtime and JVM, else on Mono and the newest JVM alone. With WORDS only faults with
+these words in their name; FILE gets the results as JUnit XML.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import re
+import resource
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
+from build import managed  # noqa: E402  (lie in a folder above)
+from tests import junit  # noqa: E402
+from tests.faults import places as files  # noqa: E402
+
+LIMIT_S = 180
+ORDER = ["next tick", "next session", "next start", "restart"]
+
+
+class Trial:
+    """The files of one fault in a folder of its own."""
+
+    def __init__(self, fault, places, runtime, jdk, folder) -> None:
+        self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def cut(self, source, name):
+        with open(source, "rb") as file:
+            data = file.read()
+        with open(self.path(name), "wb") as file:
+            file.write(data[:len(data) // 2])
+        return self.path(name)
+
+    def home(self, kind):
+        """The JVM with one thing wrong: links to the real one around it."""
+        if kind == "missing":
+            return "/nowhere/jvm"
+        home = self.path("home")
+        wrong = {"no-libjvm": "lib/server/libjvm.so", "cut-libjvm": "lib/server/libjvm.so", "no-modules": "lib/modules",
+                 "cut-modules": "lib/modules", "old": "release"}[kind]
+        # The real files but the wrong one: programs find their JVM by the place of the file, not of the link.
+        for where, folders, names in os.walk(self.jdk):
+            inside = os.path.relpath(where, self.jdk)
+            if inside.split(os.sep)[0] in ("jmods", "include", "man", "demo", "legal", "docs"):
+                folders[:] = []
+                continue
+            os.makedirs(os.path.join(home, inside), exist_ok=True)
+            for name in names:
+                relative = os.path.normpath(os.path.join(inside, name))
+                if relative == wrong or name.endswith((".jsa", ".zip", ".debuginfo")):
+                    continue
+                real = os.path.realpath(os.path.join(where, name))
+                target = os.path.join(home, relative)
+                if name == "java" or name == "libjli.so" or name == "libjvm.so":
+                    shutil.copy(real, target)
+                else:
+                    os.symlink(real, target)
+        if kind.startswith("cut"):
+            shutil.copy(self.cut(os.path.join(self.jdk, wrong), "half"), os.path.join(home, wrong))
+        if kind == "old":
+            with open(os.path.join(home, "release"), "w") as file:
+                file.write('JAVA_VERSION="11.0.2"\n')
+        return home
+
+    def host(self, kind):
+        return {"missing": lambda: self.path("host.jar"), "cut": lambda: self.cut(self.places["host"], "host.jar"),
+                "misfit": lambda: self.places["misfit"]}[kind]()
+
+    def jar(self, kind):
+        if kind == "missing":
+            return self.path("programs.jar")
+        if kind == "cut":
+            return self.cut(self.places["jar"], "programs.jar")
+        if kind == "other-schema":
+            return self.places["misfit"]
+        with open(self.path("programs.jar"), "wb") as file:
+            if kind == "newer":
+                with zipfile.ZipFile(file, "w") as made, zipfile.ZipFile(self.places["jar"]) as real:
+                    for name in real.namelist():
+                        data = real.read(name)
+                        made.writestr(name, data[:6] + struct.pack(">H", 99) + data[8:] if name.endswith(".class") else data)
+        return self.path("programs.jar")
+
+    def command(self):
+        fault = self.fault
+        words = [self.runtime, "--debug", self.places["program"], "home=" + self.jdk, "host=" + self.places["host"], "jar=" + self.places["jar"]]
+        words += [f"bad-{what}=" + getattr(self, what)(fault[what]) for what in ("home", "host", "jar") if what in fault]
+        # What ends a session is a tick that does not end: that costs its limit.
+        words += ["limit=" + str(fault.get("limit", 1500 if fault["works"] == "next session" else 30000))]
+        words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
+        return words + ["option=" + option for option in fault.get("options", [])]
+
+    def limit_files(self) -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
+
+    def run(self):
+        """Returns what is wrong ("" for nothing), the line that the user reads, and what still works."""
+        environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
+        try:
+            result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                    preexec_fn=self.limit_files if "file_limit" in self.fault else None, timeout=LIMIT_S)
+        except subprocess.TimeoutExpired as expired:
+            return "hangs", "", "", (expired.stdout or b"").decode(errors="replace")
+        text = result.stdout.decode(errors="replace")
+        read = next((line for line in text.splitlines() if re.search(self.fault.get("reads", "^$"), line)), "")
+        works = re.findall(r"^still works: (.*), JVM (\w+)$", text, re.M)
+        if result.returncode != 0 or not works:
+            return f"ends with code {result.returncode}", read, "", text
+        works, state = works[0]
+        best = next((step for step in ORDER if step in works), "restart")
+        wrong = []
+        if best != self.fault["works"]:
+            wrong.append(f"works afterwards: {works}")
+        if "reads" in self.fault and not read:
+            wrong.append("the user reads nothing of it")
+        if best == "next tick" and "next play" not in works:
+            wrong.append("no next play")
+        if not works.endswith("C#"):
+            wrong.append("C# does not work afterwards")
+        if state != ("Lost" if best == "restart" else "Stopped"):
+            wrong.append(f"the JVM is {state} at the end")
+        return "; ".join(wrong), read, best, text
+
+
+def attempt(places, fault, runtime, jdk):
+    folder = tempfile.mkdtemp(prefix="collektive-fault-")
+    try:
+        return Trial(fault, places, runtime, jdk, folder).run()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def short(text, width):
+    return text if len(text) <= width else text[:width - 3] + "..."
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--results")
+    arguments = parser.parse_args()
+    words = " ".join(arguments.words)
+    places = files.everywhere() if arguments.all else files.newest()
+    with open(os.path.join(HERE, "faults.json")) as file:
+        faults = json.load(file)
+    faults = [fault for fault in faults if words in fault["fault"]]
+    if not faults:
+        sys.stderr.write(f"collektive: no fault of faults.json has '{words}' in its name\n")
+        sys.exit(2)
+    kinds = [(runtime, jdk) for jdk in places["jdks"] for runtime in places["runtimes"]]
+    print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}" for index, (runtime, jdk) in enumerate(kinds)) +
+          '. "ok": the process survived, and what is said here came true.\n')
+    head = f"{'fault':52} " + " ".join(f"{index + 1:>2}" for index in range(len(kinds))) + f" {'works afterwards':16}  the user reads"
+    print(head + "\n" + "-" * len(head))
+    cases = []
+    with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
+        rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds]) for fault in faults]
+        for fault, futures in rows:
+            results = [future.result() for future in futures]
+            marks = " ".join(" !" if wrong else "ok" for wrong, _, _, _ in results)
+            read = next((read for _, read, _, _ in results if read), "")
+            print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
+            for (wrong, _, _, text), (runtime, jdk) in zip(results, kinds):
+                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}", wrong))
+                if wrong:
+                    lines = [short(line, 300) for line in text.splitlines()]
+                    print(f"    ! {runtime}, {os.path.basename(jdk)}: {wrong}\n        " + "\n        ".join(lines[:15] + ["..."] + lines[15:][-15:]))
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if arguments.results:
+        junit.write(arguments.results, "faults", cases)
+    sys.exit(failed > 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+"""Files of the build that the trials of faults and exits use."""
+from pathlib import Path
+from typing import Any
+
+from build import jdk, projects
+from build.places import BUILD, CSHARP, HOST_JAR, PLAYER, ROOT, SHIM
+
+PROBE = ROOT / "unity/Headless~/Tests/Simulation/Probe/probe.fbs"
+PROGRAMS = ROOT / "unity/Headless~/Faults/programs"
+RUNTIMES = ["mono-sgen", "mono-boehm", "coreclr"]
+
+
+def places(runtimes: list[str], jdks: list[Path]) -> dict[str, Any]:
+    """Returns the runtimes and JDKs of the trials and the files that they use, by name."""
+    files = {"program": CSHARP / "Collektive.Faults.exe", "player": PLAYER, "shim": SHIM, "host": HOST_JAR, "misfit": BUILD / "misfit.jar", "schema": PROBE,
+             "jar": projects.programs_jar(PROBE, PROGRAMS)}
+    return {name: str(file) for name, file in files.items()} | {"runtimes": runtimes, "jdks": [str(home) for home in jdks], "jobs": 2}
+
+
+def newest() -> dict[str, Any]:
+    """Returns the places for trials on Mono with the JDK that runs simulations."""
+    return places(RUNTIMES[:1], [jdk.find_jdk()])
+
+
+def everywhere() -> dict[str, Any]:
+    """Returns the places for trials on every runtime and JDK."""
+    return places(RUNTIMES, jdk.test_jdks())

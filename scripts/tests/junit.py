@@ -1,0 +1,88 @@
+"""Test results in JUnit's XML, which all suites write."""
+import itertools
+import os
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from xml.etree.ElementTree import ParseError
+
+from junitparser import Attr, Failure, JUnitXml, JUnitXmlError, Skipped, TestCase, TestSuite
+
+
+@dataclass(frozen=True)
+class Case:
+    """One test that ran. An empty failure means that it passed."""
+    name: str
+    failure: str = ""
+    seconds: float = 0
+
+
+class _Case(TestCase):
+    status = Attr()
+    """CTest's: `run`, or the way in which a test failed."""
+
+
+class _Suite(TestSuite):
+    testcase = _Case
+
+
+class _Results(JUnitXml):
+    testsuite = _Suite
+
+
+def read(path: str) -> list[Case]:
+    """Returns the tests of a file without the skipped ones. Raises ValueError when the file contains no results."""
+    try:
+        results = _Results.fromfile(path)
+        # Node's reporter writes tests without a suite too.
+        tests: Iterable[_Case] = itertools.chain(results.iterchildren(_Case), *results)  # type: ignore[no-untyped-call]
+        return [_case(test) for test in tests if not _skipped(test)]
+    except (OSError, ParseError, JUnitXmlError, ValueError) as error:
+        raise ValueError(f"{path} cannot be read: {error}") from error
+
+
+def read_skipped(path: str) -> dict[str, str]:
+    """Returns the tests of CTest that were skipped, each with the reason that its output gives."""
+    reasons = {}
+    for test in itertools.chain(*_Results.fromfile(path)):
+        if _skipped(test):
+            reason = re.search(r"SKIPPED: (.*)", test.system_out or "")
+            reasons[str(test.name)] = reason[1] if reason else "it gave no reason"
+    return reasons
+
+
+def _skipped(test: _Case) -> bool:
+    """CTest also reports a test as skipped when its program is missing."""
+    return any(isinstance(result, Skipped) and not (result.message or "").startswith("Unable to find executable") for result in test.result)
+
+
+def _case(test: _Case) -> Case:
+    name = ".".join(part for part in (test.classname, test.name) if part)
+    failures = [result for result in test.result if not isinstance(result, Skipped)]
+    # CTest marks a test without a program by its status alone.
+    if not failures and test.status in (None, "run"):
+        return Case(name, "", test.time or 0)
+    text = failures[0].message or failures[0].text or "" if failures else ""
+    return Case(name, text.strip() or "failed", test.time or 0)
+
+
+def write(path: str, name: str, cases: list[Case]) -> None:
+    """Writes the results of a suite atomically."""
+    tests = []
+    for case in cases:
+        test = TestCase(case.name, name, case.seconds)
+        if case.failure:
+            failure = Failure(_printable(case.failure.splitlines()[0]))
+            failure.text = _printable(case.failure)
+            test.result = failure
+        tests.append(test)
+    suite = TestSuite(name)
+    suite.add_testcases(tests)
+    os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+    suite.write(path + ".part")
+    os.replace(path + ".part", path)
+
+
+def _printable(text: str) -> str:
+    """Replaces control characters, which XML does not allow."""
+    return "".join(character if character in "\n\t" or character >= " " else "?" for character in text)

@@ -1,0 +1,72 @@
+"""Tests the shim of other platforms: `run.py RESULTS PLATFORM...` builds it for each, checks the files, and runs the tests where that is possible."""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from build import jdk, lock, platforms, processes
+from build.console import Failure
+from build.places import ROOT
+from tests import junit
+
+# Tests that wait, or that repeat others: an emulated JVM takes seconds to start.
+LEFT_OUT = "slow|repeats"
+
+
+def run(results: Path, names: list[str]) -> int:
+    """Returns the exit code. The notes say what cannot be run here."""
+    notes = results / "notes"
+    lock.shared()
+    try:
+        platforms.setup_emulators()
+    except Failure as failure:
+        notes.write_text(f"the emulators cannot be installed: {failure}\n")
+    try:
+        platforms.fetch.fetch("zig")
+    except Failure as failure:
+        notes.write_text(f"nothing was built, as zig cannot be fetched: {failure}\n")
+        return 0
+    platforms.build_platforms(names)
+    code, java = 0, {}
+    with notes.open("a") as file:
+        for name in names:
+            reason = platforms.unavailable_reason(name)
+            if reason is None:
+                try:
+                    code = run_shim(name, results) or code
+                    java[name] = platforms.java_command(name)
+                    file.writelines(describe(name, results / f"{name}.xml"))
+                except Failure as failure:
+                    reason = f"its JRE cannot be fetched: {failure}"
+            if reason:
+                file.write(f"{name}: not run: {reason}\n")
+    # The tests run scenes, which lock the outputs by themselves.
+    lock.release()
+    environment = {**platforms.emulator_environment(), "COLLEKTIVE_CROSS": str(platforms.CROSS), "COLLEKTIVE_PLATFORMS": " ".join(names),
+                   "COLLEKTIVE_JAVA_COMMANDS": json.dumps(java), "COLLEKTIVE_JDK": str(jdk.find_jdk())}
+    command = [sys.executable, "-I", "-B", "-m", "pytest", "-c", ROOT / "scripts/tests/pytest.ini", "--junitxml", results / "pytest.xml",
+               Path(__file__).parent]
+    return processes.call(command, env=environment) or code
+
+
+def run_shim(name: str, results: Path) -> int:
+    """Runs the tests of a platform's shim with its JRE; returns CTest's exit code."""
+    jre = platforms.runnable_jre(name)
+    environment = {**platforms.emulator_environment(), "CLK_TEST_JAVA_HOME": str(jre)}
+    if name == "win-x64":
+        subprocess.run([platforms.wine() or "wine", "wineboot", "-i"], env=environment, check=True)
+    return processes.call(["ctest", "--test-dir", platforms.CROSS / name, "--output-on-failure", "-j", "2", "-LE", LEFT_OUT,
+                           "--output-junit", results / f"{name}.xml"], env=environment)
+
+
+def describe(name: str, report: Path) -> list[str]:
+    """Returns how many tests ran, and why each of the others was skipped."""
+    skipped = junit.read_skipped(str(report))
+    ran = len(junit.read(str(report)))
+    return [f"{name}: {ran} tests ran, {len(skipped)} were skipped\n", *(f"  {test}: {reason}\n" for test, reason in skipped.items())]
+
+
+if __name__ == "__main__":
+    sys.exit(run(Path(sys.argv[1]), sys.argv[2:]))

@@ -1,0 +1,40 @@
+"""The case study's recorded frames on the JVM of each platform that can be run here."""
+import json
+import os
+import subprocess
+import tempfile
+
+import pytest
+
+from build.places import BUILD, COLLEKTIVE, ROOT
+
+TOOLS = os.path.join(ROOT, "jvm-host/tools/target/collektive-tools.jar")
+HOST = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
+# By platform: the words that run its java here.
+JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
+
+
+@pytest.fixture(scope="module")
+def record():
+    sample = os.path.join(ROOT, "unity/Samples~/GradientAscent")
+    with open(os.path.join(sample, "scenario.json")) as file:
+        scenario = json.load(file)
+    scenario |= {"scripts": sample, "schema": os.path.join(sample, scenario["schema"]), "outputs": {"record": True}, "seconds": 5}
+    scenario["programs"] = os.path.normpath(os.path.join(sample, scenario["programs"]))
+    scenario["fields"] = {**scenario.get("fields", {}), "nodes": 60}
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scenario.json"), "w") as file:
+            json.dump(scenario, file)
+        subprocess.run([COLLEKTIVE, "run", os.path.join(folder, "scenario.json"), "--out", os.path.join(folder, "out")], check=True)
+        yield os.path.join(folder, "out/run.clkrec")
+
+
+@pytest.mark.parametrize("platform", JAVA)
+def test_replayed_there_each_tick_has_the_digest_of_the_record(platform, record) -> None:
+    separator = ";" if platform.startswith("win") else ":"
+    command = [*JAVA[platform], "-cp", TOOLS + separator + HOST, "org.collektive.tools.record.RecordsKt", "replay", record, "--trust"]
+    environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all"}
+    result = subprocess.run(command, capture_output=True, text=True, env=environment)
+    print(result.stdout, result.stderr)
+    assert result.returncode == 0
+    assert "every digest is that of the record" in result.stdout

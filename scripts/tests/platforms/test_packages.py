@@ -1,0 +1,53 @@
+"""What ./collektive package --all publishes: its size, and that it can be made again. Needs the native libraries of all platforms."""
+import hashlib
+import os
+import tarfile
+from pathlib import Path
+
+import pytest
+
+from build import package
+from build.jdk import feature_version, find_jdk
+from build.places import BUILD
+
+# Those that were built.
+PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
+MEGABYTE = 1_000_000
+
+pytestmark = pytest.mark.skipif(len(PLATFORMS) < 5, reason="only ./collektive test platforms builds all")
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.fixture(scope="module")
+def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    package.build_parts(all_platforms=True)
+    return package.core(tmp_path_factory.mktemp("work"), tmp_path_factory.mktemp("core"), all_platforms=True)
+
+
+def test_the_package_of_all_platforms_has_less_than_15_mb(core: Path) -> None:
+    assert os.path.getsize(core) < 15 * MEGABYTE
+
+
+def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core: Path) -> None:
+    with tarfile.open(core) as archive:
+        names = {name.removeprefix("package/unity/") for name in archive.getnames()}
+    for platform in PLATFORMS:
+        library = {"win": "collektive_shim.dll", "mac": "libcollektive_shim.dylib"}.get(platform[:3], "libcollektive_shim.so")
+        assert {f"Runtime/Plugins/{platform}/{library}", f"Runtime/Plugins/{platform}/{library}.meta"} <= names
+    assert {"Tools~/linux-x64/flatc", "Tools~/win-x64/flatc.exe", "Tools~/mac-arm64/flatc"} <= names
+
+
+def test_the_same_sources_give_the_same_bytes(core: Path, tmp_path: Path) -> None:
+    assert digest(package.core(tmp_path / "work", tmp_path, all_platforms=True)) == digest(core)
+
+
+@pytest.mark.skipif(feature_version(find_jdk()) != 25, reason="only a JDK 25 links JVMs of version 25")
+def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path: Path) -> None:
+    archives = []
+    for time in "first", "second":
+        (BUILD / "stamp/cut-linux-arm64").unlink(missing_ok=True)
+        archives.append(digest(package.jvm(tmp_path / time, tmp_path / time, "linux-arm64")))
+    assert archives[0] == archives[1]

@@ -1,0 +1,79 @@
+"""What a start with a JVM of another platform, or at an unlucky path, tells: the native libraries that can be run here, and real JVMs."""
+import json
+import os
+import subprocess
+
+import pytest
+
+from build.places import BUILD
+
+CROSS = os.environ["COLLEKTIVE_CROSS"]
+# By platform that can be run here: the words that run its java.
+JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
+NAMES = {"win-x64": "Windows on x86_64", "linux-x64": "Linux on x86_64", "linux-arm64": "Linux on aarch64"}
+HERE = os.environ["COLLEKTIVE_JDK"]
+# In the code page of no Windows, as one of its characters is Japanese and one German.
+FOREIGN = "Programmgröße 場"
+
+
+def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
+    """Starts a JVM by the platform's native library: the exit code, 0 for a start, and what it tells."""
+    program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
+    environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}
+    result = subprocess.run([*JAVA[platform][:-1], program, case], env=environment, cwd=os.path.dirname(program), stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, timeout=120)
+    return result.returncode, result.stdout.decode(errors="replace")
+
+
+def home_of(platform):
+    """The same as the suite of the library's own tests has: on arm64 with a command that runs here."""
+    made = os.path.join(CROSS, "jre-" + platform)
+    return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
+
+
+def without_release(home, folder):
+    """The same JVM, which no longer says of what platform it is."""
+    made = os.path.join(folder, "home")
+    os.mkdir(made)
+    for name in os.listdir(home):
+        if name != "release":
+            os.symlink(os.path.join(home, name), os.path.join(made, name))
+    return made
+
+
+def others(platform):
+    """JVMs of other platforms that are here."""
+    return ([] if platform == "linux-x64" else [HERE]) + [home_of(other) for other in JAVA if other != platform]
+
+
+@pytest.mark.parametrize("platform", JAVA)
+def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform, tmp_path) -> None:
+    for number, home in enumerate(others(platform)):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        for place in (home, without_release(home, folder)):
+            code, text = start(platform, place)
+            print(text)
+            assert code == 1
+            assert "CLK_JVM_NOT_FOUND" in text
+            assert NAMES[platform] in text.split("last error:")[1]
+
+
+@pytest.mark.parametrize("platform", [platform for platform in JAVA if platform == "win-x64"])
+def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, tmp_path) -> None:
+    home = tmp_path / FOREIGN
+    home.symlink_to(home_of(platform))
+    code, text = start(platform, str(home))
+    print(text)
+    assert code == 1
+    assert "the code page of Windows cannot express" in text and FOREIGN in text and "use a path of plain ASCII" in text
+
+
+@pytest.mark.parametrize("platform", [platform for platform in JAVA if platform != "win-x64"])
+def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform, tmp_path) -> None:
+    home = tmp_path / FOREIGN
+    home.symlink_to(home_of(platform))
+    assert start(platform, str(home), LC_ALL="C.UTF-8")[0] == 0
+    code, text = start(platform, str(home), LC_ALL="C")
+    assert code == 1
+    assert "the locale of the process cannot express" in text and "set LC_ALL=C.UTF-8" in text

@@ -1,0 +1,37 @@
+"""The site's page of errors has all that there are, each with what happened and what to do."""
+import re
+
+from build.site import errors
+from build.site.sources import text
+
+
+def test_each_code_of_the_header_has_what_to_do() -> None:
+    assert [name for name, *_ in errors.codes()] == list(errors.NEXT)
+
+
+def test_the_errors_of_csharp_are_those_of_the_header() -> None:
+    named = {number: name.replace("_", "").lower() for name, number, _ in errors.codes()}
+    assert {number: name.lower() for number, name in errors.bridge_errors().items()} == named
+    assert len(named) == len(re.findall(r"(?m)^ +\w+ = -", text("unity/Runtime/Bridge/BridgeException.cs")))
+
+
+def test_each_check_of_the_compiler_plugin_says_when_and_what_to_do() -> None:
+    found = {name: doc for name, _, doc in errors.checks()}
+    source = text("jvm-host/compiler-plugin/src/main/kotlin/org/collektive/compiler/checks/AggregateDiagnostics.kt")
+    assert sorted(found) == sorted(re.findall(r"\bval ([A-Z_]{4,}) by ", source))
+    assert [name for name, doc in found.items() if doc.count(". ") < 1] == []
+
+
+def test_each_exit_code_has_a_meaning() -> None:
+    found = dict(errors.exit_codes())
+    # Those whose codes say more than that something failed.
+    assert {"", "run", "repeat", "sweep", "replay", "diff"} <= found.keys()
+    assert [meaning for meanings in found.values() for meaning in meanings if not re.match(r"(\d+|any) \S", meaning)] == []
+
+
+def test_the_page_shows_them() -> None:
+    page = errors.errors()
+    shown = re.findall(r"(?m)^\| .*", page)
+    assert page.count("| next tick |") > 20
+    for name in [*(f"CLK_{name}" for name in errors.NEXT), *errors.bridge_errors().values(), *(name for name, *_ in errors.checks()), "replay"]:
+        assert any(f"`{name}`" in row for row in shown), name

@@ -1,0 +1,77 @@
+"""The build graph: builds what changed, starts over after an interruption, and does nothing otherwise."""
+import time
+
+import pytest
+from checkout import Checkout
+
+CMAKE = """
+cmake_minimum_required(VERSION 3.25)
+project(it NONE)
+add_custom_command(OUTPUT out COMMAND sh "${PROJECT_SOURCE_DIR}/step" "${PROJECT_SOURCE_DIR}"
+  DEPENDS "${PROJECT_SOURCE_DIR}/in" VERBATIM)
+add_custom_target(thing DEPENDS out)
+add_custom_target(broken COMMAND sh -c "echo this is why; exit 1" VERBATIM)
+"""
+STEP = 'echo made >>"$1/made" && cat "$1/gate" && cp "$1/in" out'
+BUILD = "fetch.BASE = ()\ntry: graph.build('{}')\nexcept Failure as failure: sys.exit(f'collektive: {{failure}}')\n"
+THING = BUILD.format("thing")
+WAITING = "waiting for another collektive command"
+
+
+@pytest.fixture
+def project(checkout: Checkout) -> Checkout:
+    (checkout.root / "CMakeLists.txt").write_text(CMAKE)
+    (checkout.root / "in").write_text("one")
+    (checkout.root / "step").write_text(STEP)
+    return checkout
+
+
+def test_what_changed_is_built_and_nothing_else(project: Checkout) -> None:
+    for text in ["one", "one", "two", "two"]:
+        if (project.root / "in").read_text() != text:
+            time.sleep(0.02)
+            (project.root / "in").write_text(text)
+        assert project.run(THING).returncode == 0
+        assert (project.root / "build/cmake/out").read_text() == text
+    assert project.made() == ["made", "made"]
+
+
+def test_a_build_with_nothing_to_do_waits_for_no_run(project: Checkout) -> None:
+    assert project.run(THING).returncode == 0
+    project.close_gate()
+    use = project.start("lock.shared(); wait_at_gate()")
+    with open(project.root / "gate", "w"):
+        assert project.run(THING).stderr == ""
+        (project.root / "in").write_text("two")
+        build = project.start(THING)
+        assert build.stderr is not None
+        assert WAITING in build.stderr.readline()
+    assert use.wait() == 0
+    project.open_gate()
+    assert build.wait() == 0
+
+
+def test_a_build_that_was_killed_starts_over(project: Checkout) -> None:
+    project.close_gate()
+    process = project.start(THING)
+    with open(project.root / "gate", "w"):
+        project.kill(process)
+    project.open_gate()
+    assert project.run(THING).returncode == 0
+    assert project.made() == ["made", "made"]
+    assert (project.root / "build/cmake/out").read_text() == "one"
+
+
+def test_an_error_is_shown_and_ends_the_command(project: Checkout) -> None:
+    result = project.run(BUILD.format("broken"))
+    assert result.returncode == 1
+    assert "this is why" in result.stderr
+    assert result.stderr.endswith("collektive: the build failed; the messages are above\n")
+
+
+def test_a_checkout_that_was_moved_is_configured_anew(project: Checkout) -> None:
+    assert project.run(THING).returncode == 0
+    project.root = project.root.rename(project.root.with_name("moved"))
+    result = project.run(THING)
+    assert result.returncode == 0, result.stderr
+    assert project.made() == ["made", "made"]

@@ -1,0 +1,72 @@
+"""The lock on the outputs of a checkout: commands that change them wait for all others, and report that."""
+import subprocess
+
+from checkout import Checkout
+
+WAITING = "waiting for another collektive command"
+USE = "lock.shared(); wait_at_gate()"
+CHANGE = "lock.exclusive(); wait_at_gate(); print('done')"
+
+
+def read_error(process: subprocess.Popen[str]) -> str:
+    assert process.stderr is not None
+    return str(process.stderr.readline())
+
+
+def test_a_second_command_waits_for_the_first_that_changes_the_outputs_and_reports_it(checkout: Checkout) -> None:
+    checkout.close_gate()
+    first = checkout.start(CHANGE)
+    with open(checkout.root / "gate", "w"):  # returns when the first waits at the gate
+        second = checkout.start("lock.exclusive(); print('done')")
+        assert WAITING in read_error(second)
+        assert second.poll() is None
+    assert first.wait() == 0
+    output, errors = second.communicate()
+    assert (second.returncode, output, errors) == (0, "done\n", "")
+
+
+def test_commands_that_change_nothing_run_at_once(checkout: Checkout) -> None:
+    checkout.close_gate()
+    first = checkout.start(USE)
+    with open(checkout.root / "gate", "w"):
+        assert checkout.run("lock.shared()").stderr == ""
+    assert first.wait() == 0
+
+
+def test_a_command_that_changes_outputs_lets_others_in_when_it_only_uses_them(checkout: Checkout) -> None:
+    checkout.close_gate()
+    first = checkout.start("lock.exclusive(); lock.shared(); wait_at_gate()")
+    with open(checkout.root / "gate", "w"):
+        assert checkout.run("lock.shared()").stderr == ""
+    assert first.wait() == 0
+
+
+def test_clean_waits_for_a_command_that_uses_the_outputs(checkout: Checkout) -> None:
+    checkout.close_gate()
+    (checkout.root / "build").mkdir()
+    first = checkout.start(USE)
+    with open(checkout.root / "gate", "w"):
+        second = checkout.start_command("clean")
+        assert WAITING in read_error(second)
+        assert (checkout.root / "build").exists()
+    assert (first.wait(), second.wait()) == (0, 0)
+    assert not (checkout.root / "build").exists()
+
+
+def test_a_run_keeps_the_lock_of_a_command_that_was_killed(checkout: Checkout) -> None:
+    checkout.close_gate()
+    first = checkout.start("lock.shared(); processes.call([sys.executable, '-c', f'open({str(root / \"gate\")!r}).read()'])")
+    with open(checkout.root / "gate", "w"):
+        first.kill()
+        first.wait()
+        second = checkout.start("lock.exclusive()")
+        assert WAITING in read_error(second)
+    assert second.wait() == 0
+
+
+def test_a_released_lock_is_free(checkout: Checkout) -> None:
+    checkout.close_gate()
+    first = checkout.start("lock.exclusive(); lock.release(); wait_at_gate()")
+    with open(checkout.root / "gate", "w"):
+        assert checkout.run("lock.exclusive()").stderr == ""
+    assert first.wait() == 0

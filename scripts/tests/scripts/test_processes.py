@@ -1,0 +1,81 @@
+"""Signals to a command reach all of its processes, and no process is left when it ends."""
+import signal
+import time
+from pathlib import Path
+
+import pytest
+from checkout import Checkout
+
+# A child of the group's first process, which writes its process id.
+CHILD = "processes.call([sys.executable, '-c', 'import os, sys, time; open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
+SLEEP = CHILD.format("time.sleep(600)")
+
+
+def attended(body: str) -> str:
+    return f"sys.exit(processes.attended(lambda: {body}))"
+
+
+def child_of(checkout: Checkout) -> int:
+    """Returns the process id of the child when it runs."""
+    end = time.monotonic() + 60
+    file = checkout.root / "pid"
+    while not (file.exists() and file.read_text()):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    return int(file.read_text())
+
+
+def ends(pid: int) -> bool:
+    """Waits until a process is gone, which may be waited for by nobody."""
+    end = time.monotonic() + 20
+    while time.monotonic() < end:
+        status = Path(f"/proc/{pid}/stat")
+        try:
+            if status.read_text().rpartition(")")[2].split()[0] == "Z":
+                return True
+        except OSError:
+            return True
+        time.sleep(0.02)
+    return False
+
+
+@pytest.mark.parametrize("code", [0, 3])
+def test_the_exit_code_is_that_of_the_command(checkout: Checkout, code: int) -> None:
+    assert checkout.run(attended(str(code))).returncode == code
+
+
+@pytest.mark.parametrize("number, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
+def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, number: signal.Signals, code: int) -> None:
+    process = checkout.start(attended(SLEEP))
+    child = child_of(checkout)
+    process.send_signal(number)
+    assert process.wait(20) == code
+    assert ends(child)
+
+
+def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> None:
+    assert checkout.run(attended("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
+
+
+def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
+    process = checkout.start(attended(SLEEP))
+    child = child_of(checkout)
+    process.kill()
+    process.wait()
+    assert ends(child)
+
+
+def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Checkout) -> None:
+    body = CHILD.format("import signal; signal.signal(signal.SIGINT, lambda *_: (time.sleep(0.5), os._exit(0))); time.sleep(600)")
+    process = checkout.start(attended(body))
+    child = child_of(checkout)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) == 0
+    assert ends(child)
+
+
+def test_a_command_ends_after_the_last_of_its_processes(checkout: Checkout) -> None:
+    began = time.monotonic()
+    assert checkout.run(attended("__import__('subprocess').Popen(['sleep', '2']) and 0")).returncode == 0
+    assert time.monotonic() - began >= 2

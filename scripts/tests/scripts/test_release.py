@@ -1,0 +1,33 @@
+"""What a release is made of: notes, metadata, bill of materials."""
+import pytest
+
+from build import manifest, release
+from build.console import Failure
+from build.places import ROOT
+
+CHANGES = "# Changelog\n\n## [Unreleased]\n\n## [1.1.0] - 2026-01-02\n\n### Added\n\n- More.\n\n## [1.0.0]\n\n- All.\n"
+
+
+def test_the_notes_are_the_section_of_the_version() -> None:
+    assert release.notes(CHANGES, "1.1.0") == "### Added\n\n- More.\n"
+    assert release.notes(CHANGES, "1.0.0") == "- All.\n"
+
+
+@pytest.mark.parametrize("version", ["Unreleased", "1.2.0", "1.1"])
+def test_a_version_without_a_section_has_no_notes(version) -> None:
+    with pytest.raises(Failure, match="has no section"):
+        release.notes(CHANGES, version)
+
+
+def test_openupm_builds_from_the_tags_with_the_packages_content() -> None:
+    made = release.openupm("https://example.org/owner/repository")
+    assert (made["name"], made["gitTagPrefix"], made["hunter"]) == (manifest.read(ROOT)["name"], "upm/", "owner")
+
+
+def test_the_bill_names_what_is_not_ours_and_the_package_as_a_whole() -> None:
+    maven = {"metadata": {"component": {"name": "parent"}}, "components": [
+        {"group": "org.collektive", "name": "host", "bom-ref": "host"}, {"group": "org.slf4j", "name": "slf4j-api", "bom-ref": "slf4j"}]}
+    bill = release.complete(maven, manifest.read(ROOT), release.fetched("25.1", "0.6.0", "25"))
+    assert [component["name"] for component in bill["components"]] == ["slf4j-api", "flatbuffers", "openjdk"]
+    assert bill["metadata"]["component"]["version"] == manifest.read(ROOT)["version"]
+    assert bill["dependencies"] == [{"ref": "org.collektive.unity", "dependsOn": ["slf4j"]}]

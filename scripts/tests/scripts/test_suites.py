@@ -1,0 +1,211 @@
+"""Suites that end in all ways, and what `./collektive test` makes of their results."""
+import subprocess
+import sys
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from checkout import Checkout
+
+from build.console import Failure
+from build.places import COLLEKTIVE, ROOT
+from commands import test as command
+from commands.test import Suite
+from tests import junit, results
+
+GOOD = '<testsuite><testcase classname="a" name="one"/><testcase classname="a" name="two"/></testsuite>'
+BAD = '<testsuites><testsuite><testcase name="one"/><testcase name="two"><failure message="no">at line 3</failure></testcase></testsuite></testsuites>'
+PROJECT = """
+cmake_minimum_required(VERSION 3.25)
+project(it NONE)
+enable_testing()
+set(COLLEKTIVE_BUILD "${PROJECT_SOURCE_DIR}/build")
+set(COLLEKTIVE_PYTHON "%s")
+include(cmake/Suite.cmake)
+suite(good it LABELS all NEEDS setup:thing COMMAND cp good.xml RESULTS/results.xml)
+suite(bad it LABELS quick all COMMAND sh -c "cp bad.xml \\"$1\\" && exit 1" sh RESULTS/results.xml)
+suite(without-fixture it LABELS all NEEDS build:broken COMMAND cp good.xml RESULTS/results.xml)
+suite(endless it LABELS extra TIMEOUT 2 COMMAND sh -c "sleep 613 & sleep 613")
+suite(crash it LABELS extra COMMAND sh -c "cp good.xml \\"$1\\" && kill -SEGV $$" sh RESULTS/results.xml)
+suite(missing it LABELS extra COMMAND nonesuch)
+suite(needs-nunit it LABELS all NUNIT COMMAND cp good.xml RESULTS/results.xml)
+"""
+
+
+def counts(cases: list[junit.Case]) -> tuple[int, int]:
+    """Returns how many tests passed and failed."""
+    failed = sum(bool(case.failure) for case in cases)
+    return len(cases) - failed, failed
+
+
+@pytest.mark.parametrize("files, failure, expected", [
+    ({"results.xml": GOOD}, "", (2, 0)),
+    ({"results.xml": BAD}, "Failed", (1, 1)),
+    ({"results.xml": GOOD, "more.xml": BAD}, "Failed", (3, 1)),
+], ids=["all pass", "one fails", "two files"])
+def test_a_suite_counts_by_the_results_that_it_wrote(tmp_path: Path, files: dict[str, str], failure: str, expected: tuple[int, int]) -> None:
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    assert counts(results.read(tmp_path, failure)) == expected
+
+
+@pytest.mark.parametrize("files, failure, expected", [
+    ({}, "", (0, 1)),
+    ({}, "Failed", (0, 1)),
+    ({"results.xml": GOOD}, "Timeout", (2, 1)),
+    ({"results.xml": GOOD, "cut.xml": "<testsuite><testca"}, "", (2, 1)),
+    ({"results.xml": "<html/>"}, "", (0, 1)),
+    ({"results.xml": "<testsuite/>"}, "", (0, 1)),
+    ({"output": "7 passed, 0 failed"}, "", (0, 1)),
+], ids=["no file", "no file and a failure", "failure after its results", "file cut short", "file of something else", "no test", "only a line"])
+def test_a_suite_without_whole_results_or_with_a_bad_end_is_a_failure(tmp_path: Path, files: dict[str, str], failure: str,
+                                                                       expected: tuple[int, int]) -> None:
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    assert counts(results.read(tmp_path, failure)) == expected
+
+
+def test_a_suite_that_could_run_nothing_says_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "it").mkdir()
+    (tmp_path / "it/notes").write_text("no emulator\n")
+    assert results.read(tmp_path / "it", "") == []
+    assert results.verdict({"it": []}, tmp_path) == 0
+    assert "no emulator" in capsys.readouterr().err
+    assert counts(results.read(tmp_path / "it", "Failed")) == (0, 1)
+
+
+def test_failed_tests_are_named_and_the_last_line_is_the_sum(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert results.verdict({"it": [junit.Case("one"), junit.Case("two", "no\nat line 3")], "other": [junit.Case("three")]}, tmp_path) == 1
+    output = capsys.readouterr()
+    assert "FAILED it: two: no\n" in output.err
+    assert output.out == "2 passed, 1 failed\n"
+    assert results.verdict({"it": [junit.Case("one")]}, tmp_path, skipped=2) == 0
+    assert capsys.readouterr().out == "1 passed, 0 failed, 2 skipped\n"
+
+
+def test_skipped_tests_do_not_count(tmp_path: Path) -> None:
+    path = tmp_path / "results.xml"
+    path.write_text('<testsuite><testcase name="one"><skipped/></testcase><testcase name="two"/></testsuite>')
+    assert [case.name for case in junit.read(str(path))] == ["two"]
+
+
+def test_tests_without_a_suite_count(tmp_path: Path) -> None:
+    path = tmp_path / "results.xml"
+    path.write_text('<testsuites><testcase name="one"/><testsuite><testsuite><testcase name="two"/></testsuite></testsuite></testsuites>')
+    assert [case.name for case in junit.read(str(path))] == ["one", "two"]
+
+
+def test_what_is_written_can_be_read(tmp_path: Path) -> None:
+    cases = [junit.Case("it's <fine>"), junit.Case("it is not", "because \x1b[31m& more\nlines", 1.5)]
+    path = str(tmp_path / "new" / "results.xml")
+    junit.write(path, "suite", cases)
+    good, bad = junit.read(path)
+    assert (good.name, good.failure) == ("suite.it's <fine>", "")
+    assert (bad.failure, bad.seconds) == ("because ?[31m& more", 1.5)
+
+
+def test_the_results_of_ctest_are_read(tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(textwrap.dedent("""\
+        cmake_minimum_required(VERSION 3.25)
+        project(it NONE)
+        enable_testing()
+        add_test(NAME good COMMAND true)
+        add_test(NAME bad COMMAND false)
+        add_test(NAME crash COMMAND sh -c "kill -SEGV $$")
+        add_test(NAME missing COMMAND nonesuch)
+        """))
+    subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path], check=True, capture_output=True)
+    subprocess.run(["ctest", "--test-dir", tmp_path, "--output-junit", tmp_path / "results.xml"], capture_output=True)
+    assert {case.name.split(".")[-1]: bool(case.failure) for case in junit.read(str(tmp_path / "results.xml"))} == {
+        "good": False, "bad": True, "crash": True, "missing": True}
+
+
+@pytest.fixture
+def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, tuple[int, int]]]:
+    """Runs suites of a small project; returns how many tests of each passed and failed."""
+    root = checkout.root
+    (root / "CMakeLists.txt").write_text(PROJECT % sys.executable)
+    (root / "cmake").mkdir()
+    (root / "cmake/Suite.cmake").write_text((ROOT / "cmake/Suite.cmake").read_text())
+    (root / "collektive").write_text("#!/bin/sh\ntest $2 != broken\n")
+    (root / "good.xml").write_text(GOOD)
+    (root / "bad.xml").write_text(BAD)
+    subprocess.run(["cmake", "-S", root, "-B", root / "build/cmake"], check=True, capture_output=True)
+    monkeypatch.setattr(command, "GRAPH", root / "build/cmake")
+    monkeypatch.setattr(command, "RESULTS", root / "build/results")
+
+    def run(*names: str) -> dict[str, tuple[int, int]]:
+        failures = command.run_suites(names)
+        return {name: counts(results.read(root / "build/results" / name, failures.get(name, "did not run"))) for name in names}
+    return run
+
+
+def test_suites_run_with_their_fixtures_and_within_their_time(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
+    assert project("good", "bad", "without-fixture") == {"good": (2, 0), "bad": (1, 1), "without-fixture": (0, 1)}
+    assert project("endless", "crash", "missing") == {"endless": (0, 1), "crash": (2, 1), "missing": (0, 1)}
+    # The time limit ends all of a suite.
+    assert subprocess.run(["pgrep", "-fx", "sleep 613"], stdout=subprocess.PIPE, text=True).stdout == ""
+
+
+def test_the_suites_of_a_project_are_found_with_their_labels(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
+    suites = {suite.name: suite for suite in command.declared()}
+    assert set(suites) == {"good", "bad", "without-fixture", "endless", "crash", "missing", "needs-nunit"}
+    assert suites["bad"] == Suite("bad", frozenset({"it", "quick", "all"}))
+    assert suites["needs-nunit"].is_disabled
+
+
+SUITES = [Suite("lint", frozenset({"lint", "quick", "all"})), Suite("jvm", frozenset({"jvm", "all"})), Suite("jvm-quick", frozenset({"jvm", "quick"})),
+          Suite("unity", frozenset({"csharp", "quick", "all"})), Suite("csharp-on-17", frozenset({"csharp", "all"})),
+          Suite("csharp-slow-on-17", frozenset({"csharp", "extra"})), Suite("sanitized-on-17", frozenset({"sanitized", "extra"}))]
+
+
+@pytest.mark.parametrize("words, names", [
+    (["all"], ["lint", "jvm", "unity", "csharp-on-17"]),
+    (["quick"], ["lint", "jvm-quick", "unity"]),
+    (["csharp", "lint"], ["lint", "unity", "csharp-on-17"]),
+    (["jvm"], ["jvm"]),
+    (["csharp-slow-on-17", "jvm-quick"], ["jvm-quick", "csharp-slow-on-17"]),
+    (["sanitized"], ["sanitized-on-17"]),
+])
+def test_suites_are_chosen_by_run_area_and_name(words: list[str], names: list[str]) -> None:
+    assert [suite.name for suite in command.choose(SUITES, words)] == names
+
+
+def test_an_unknown_suite_is_named_with_those_that_are_known() -> None:
+    with pytest.raises(Failure, match="unknown suite 'nonesuch'; known: lint jvm csharp sanitized, and in parts: csharp-on-17 "):
+        command.choose(SUITES, ["lint", "nonesuch"])
+
+
+def test_suites_without_nunit_are_left_out_unless_nothing_else_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+    suites = [*SUITES[:1], *(suite._replace(is_disabled=True) for suite in SUITES[3:5])]
+    assert [suite.name for suite in command.choose(suites, ["all"])] == ["lint"]
+    assert "skipped unity, csharp-on-17: this system has no package of NUnit 2.6" in capsys.readouterr().err
+    with pytest.raises(Failure, match="no package of NUnit"):
+        command.choose(suites, ["csharp"])
+
+
+@pytest.fixture(scope="module")
+def declared() -> list[Suite]:
+    """The suites of this checkout, whose graph the suite `scripts` has configured."""
+    return command.declared()
+
+
+def test_a_quick_run_has_most_suites_on_one_jdk(declared: list[Suite]) -> None:
+    names = [suite.name for suite in command.choose(declared, ["quick"])]
+    assert {"lint", "scripts", "jvm-quick", "assets", "acceptance-quick"} <= set(names)
+    assert len([name for name in names if name.startswith("shim-on-")]) == 1
+    assert not {"acceptance-rest", "page", "bench", "exits", "jvm"} & set(names)
+
+
+def test_a_whole_run_has_every_suite_of_a_quick_one(declared: list[Suite]) -> None:
+    quick, whole = ({suite.name for suite in command.choose(declared, [run])} for run in ("quick", "all"))
+    assert quick - whole == {"jvm-quick"}
+
+
+def test_each_area_is_described_in_the_help(declared: list[Suite]) -> None:
+    text = subprocess.run([COLLEKTIVE, "test", "--help"], capture_output=True, text=True, check=True).stdout
+    areas = {area for suite in declared for area in suite.labels - command.RUNS}
+    assert areas >= {"lint", "scripts", "jvm", "stress", "shim", "platforms", "csharp", "assets", "faults", "exits", "soak", "roundtrip", "page", "site",
+                     "acceptance", "experiments", "chaos", "fuzz", "bench", "gradle"}
+    assert [area for area in areas if area.removesuffix("d") not in text] == []

@@ -1,0 +1,74 @@
+"""A version that several files must name is the same in all of them."""
+import fnmatch
+import json
+import os
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+from build import fetch, version
+from build.places import BUILD, ROOT
+
+POM = "{http://maven.apache.org/POM/4.0.0}"
+
+
+def text(path):
+    with open(os.path.join(ROOT, path)) as file:
+        return file.read()
+
+
+def pom(path):
+    return ElementTree.fromstring(text(path))
+
+
+@pytest.mark.parametrize("pattern", version.NAMED)
+def test_each_file_that_names_the_products_version_has_it(pattern) -> None:
+    files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
+    assert files
+    for path in files:
+        assert set(re.findall(version.NAMED[pattern], text(path))) == {version.product()}, f"{path}: run scripts/build/version.py {version.product()}"
+
+
+def test_the_shim_has_the_products_version() -> None:
+    assert f"#define CLK_VERSION {version.packed(version.product())}\n" in text(version.SHIM)
+
+
+def test_no_other_file_names_it() -> None:
+    listed = subprocess.run(["git", "-C", ROOT, "grep", "-lF", version.product()], capture_output=True, text=True).stdout.split("\n")
+    known = {path for path, _ in version.files()}
+    # The changelog names all versions, and other software may have the same one.
+    others = re.compile(r"CHANGELOG\.md|THIRD-PARTY\.md|.*package-lock\.json|.*Cargo\.lock|.*requirements\.txt|")
+    assert [path for path in listed if path not in known and not others.fullmatch(path)] == []
+
+
+def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with() -> None:
+    with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
+        assert f'"flatbuffers", "{json.load(file)["version"]}"' in text("unity/Headless~/Player/Manifest.cs")
+
+
+def third_party(name):
+    """The version in the row of THIRD-PARTY.md about a name."""
+    row = re.search(rf"(?m)^\|[^|]*(?<![\w@/-]){re.escape(name)}(?![\w-])[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))
+    return row and row[1]
+
+
+def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None:
+    with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
+        flatbuffers = json.load(file)["version"]
+    crate = re.search(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))[1]
+    physx = re.search(r'physx-sys = "=([^"]+)"', text("tools/physx/Cargo.toml"))[1]
+    with open(os.path.join(BUILD, "physx/physx/physx/include/foundation/PxPhysicsVersion.h")) as file:
+        physx_version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
+    assert third_party("PhysX") == f"{physx_version} ({physx})"
+    assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
+    for tools in ["npm", "site"]:
+        for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
+            assert third_party(name) == wanted, name
+    experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]
+    for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", *experiments]:
+        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
+            assert third_party(name) == wanted, name
+    assert third_party("actionlint") == fetch.ACTIONLINT
+    assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")

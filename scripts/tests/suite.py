@@ -1,0 +1,24 @@
+"""Runs a suite: `suite.py RESULTS [--lock] -- COMMAND...`.
+
+RESULTS becomes a folder. With --lock the outputs of the build are locked for use until the suite ends. The command runs in a process group of its
+own: when CTest kills this process after the suite's time limit, all of the suite ends.
+"""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import lock, processes
+
+
+def main(words: list[str]) -> int:
+    """Returns the exit code of the command."""
+    options, command = words[1:words.index("--")], words[words.index("--") + 1:]
+    Path(words[0]).mkdir(parents=True, exist_ok=True)
+    if "--lock" in options:
+        lock.shared()
+    return processes.attended(lambda: processes.call(command))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

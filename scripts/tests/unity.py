@@ -1,0 +1,33 @@
+"""Runs the package's own tests, which Unity's test framework runs in the editor: `unity.py RESULTS`."""
+import shutil
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import jdk, managed, processes
+from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, ROOT, SAMPLES_JAR
+
+ASSEMBLIES = ("Collektive.Unity.Tests", "Collektive.Unity.PublicApi.Tests", "Collektive.Unity.Editor.Tests")
+
+
+def run(results: Path) -> int:
+    """Returns the exit code of the last assembly that failed."""
+    # As in a project with the package: its jars, and a JVM.
+    project = results / "project"
+    jars = project / "Packages/org.collektive.unity/unity/Jvm~"
+    shutil.rmtree(project, ignore_errors=True)
+    jars.mkdir(parents=True)
+    for jar in (HOST_JAR, LIBRARY_JAR, ADAPTER_JAR):
+        (jars / jar.name).symlink_to(jar)
+    (jars / "collektive-samples.jar").symlink_to(SAMPLES_JAR)
+    environment = {**managed.environment("mono-sgen"), "COLLEKTIVE_ROOT": str(ROOT), "JAVA_HOME": str(jdk.find_jdk())}
+    code = 0
+    for name in ASSEMBLIES:
+        command = managed.command("mono-sgen", CSHARP / "Collektive.TestRunner.exe", "--results", results / f"{name}.xml", CSHARP / f"{name}.dll")
+        code = processes.call(command, env=environment, cwd=project) or code
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(run(Path(sys.argv[1])))
