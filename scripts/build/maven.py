@@ -37,9 +37,9 @@ class Module:
         self._pom = ElementTree.parse(self.folder / "pom.xml").getroot()
 
     def upstream(self, tests: bool) -> list["Module"]:
-        """Returns the modules that this one depends on, or that only its tests depend on."""
+        """Returns the modules that this one and its plugins depend on, or that only its tests depend on."""
         found = []
-        for dependency in self._pom.findall("m:dependencies/m:dependency", NAMESPACE):
+        for dependency in self._pom.findall(".//m:dependency", NAMESPACE):
             name = dependency.findtext("m:artifactId", "", NAMESPACE)
             if name in self._modules and (dependency.findtext("m:scope", "", NAMESPACE) == "test") == tests:
                 found.append(self._modules[name])

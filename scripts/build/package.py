@@ -60,7 +60,7 @@ def _stage(content: Path, all_platforms: bool) -> None:
     for jar in (places.HOST_JAR, places.LIBRARY_JAR, places.ADAPTER_JAR):
         _copy(jar, jars / jar.name)
     _copy(places.SAMPLES_JAR, jars / "collektive-samples.jar")
-    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "org/collektive/links/Links.kt"):
+    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "Links.kt"):
         _copy(file, tools / file.name)
     _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
     _strip(places.FLATC, tools / "linux-x64/flatc")

@@ -27,7 +27,7 @@ SAMPLES_JAR = JVM / "programs/target/collektive-programs.jar"
 BENCH_JAR = JVM / "bench/target/collektive-bench.jar"
 GENERATOR_JAR = JVM / "generator/target/collektive-generator.jar"
 # The links of the built-in runtime's library, compiled with the programs when they run on another runtime.
-LINKS = JVM / "links/src/main/kotlin"
+LINKS = JVM / "stdlib/src/main/kotlin/org/collektive/links"
 PLAYER = CSHARP / "Collektive.Player.exe"
 
 

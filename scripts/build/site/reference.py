@@ -143,11 +143,11 @@ def simple(signature: str) -> str:
 PUBLIC = re.compile(r"^(\s*)(?:@\w+(?:\([^)]*\))?\s+)*public\s+(?!(?:final |open )?override\b|companion object)(.*)")
 
 
-def kotlin(module: str, about: str) -> Callable[[], str]:
+def kotlin(module: str, about: str, packages: str = "") -> Callable[[], str]:
     """A page of a module's public declarations, from its sources: in explicit API mode they say `public`."""
     def make() -> str:
         page = f"# Kotlin API: {module}\n\n{about}\n"
-        for path in sorted((JVM / module / "src/main/kotlin").rglob("*.kt")):
+        for path in sorted((JVM / module / "src/main/kotlin" / packages).rglob("*.kt")):
             source = path.read_text()
             found = list(declarations(source.splitlines()))
             if found:
@@ -209,10 +209,9 @@ PAGES: dict[str, Callable[[], str]] = {
     "errors": errors,
     "csharp-unity": csharp("Collektive.Unity"),
     "csharp-bridge": csharp("Collektive.Bridge"),
-    "kotlin-api": kotlin("api", "What a program sees beside the DSL: its annotation, its device, its parameters."),
-    "kotlin-links": kotlin("links", "What a program knows of its links."),
+    "kotlin-api": kotlin("api", "What a program sees beside the DSL: its annotation, its device, its parameters.", "org/collektive/api"),
     "kotlin-dsl": kotlin("dsl", "Collektive's DSL: the primitives and fields, and what hosts of programs use."),
-    "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library, without the lifted operators, which are those of Kotlin's library for fields."),
+    "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library and the properties of links, without the lifted operators of Kotlin's library."),
     "kotlin-testing": kotlin("testing", "For tests of programs: `Tools~/collektive-testing.jar`."),
     "c-header": c_header,
 }

@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Editor
             Copy("build/flatc", "Tools~/linux-x64/flatc");
             Copy("jvm-host/generator/target/collektive-generator.jar", "Tools~/collektive-generator.jar");
             Copy("jvm-host/compiler-plugin/target/compiler-plugin-0.2.0.jar", "Tools~/collektive-compiler-plugin.jar");
-            Copy("jvm-host/links/src/main/kotlin/org/collektive/links/Links.kt", "Tools~/Links.kt");
+            Copy("jvm-host/stdlib/src/main/kotlin/org/collektive/links/Links.kt", "Tools~/Links.kt");
             foreach (var jar in new[] { "host", "library", "adapter" })
                 Copy("jvm-host/host/target/collektive-" + jar + ".jar", "Jvm~/collektive-" + jar + ".jar");
         }

@@ -6,6 +6,7 @@ import java.nio.file.Path
 /**
  * The generator's command line.
  *
+ * @property schemas the users' schemas, at least one.
  * @property include the folder that contains `types.fbs`.
  * @property csharp the output folder for C#; `null` generates none.
  * @property jvm the output folder for Java and Kotlin; `null` generates none.
@@ -14,7 +15,7 @@ import java.nio.file.Path
  */
 internal class Arguments(
     val flatc: Path,
-    val schema: Path,
+    val schemas: List<Path>,
     val include: Path,
     val csharp: Path?,
     val jvm: Path?,
@@ -22,31 +23,34 @@ internal class Arguments(
 ) {
     companion object {
         const val USAGE: String =
-            "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs --include FOLDER " +
+            "usage: java -jar collektive-generator.jar --flatc FILE --schema FILE.fbs [--schema FILE.fbs]... --include FOLDER " +
                 "[--csharp FOLDER] [--jvm FOLDER] [--layouts FOLDER]"
 
         private val options = setOf("--flatc", "--schema", "--include", "--csharp", "--jvm", "--layouts")
 
         fun parse(words: Array<String>): Arguments {
-            val values = HashMap<String, Path>()
+            val values = HashMap<String, List<Path>>()
             for (i in words.indices step 2) {
                 val option = words[i]
                 if (option !in options) throw GeneratorException("unknown option $option\n$USAGE")
                 val value = words.getOrNull(i + 1) ?: throw GeneratorException("$option needs a value\n$USAGE")
-                if (values.put(option, Path.of(value)) != null) throw GeneratorException("$option is given twice\n$USAGE")
+                val others = values[option].orEmpty()
+                if (others.isNotEmpty() && option != "--schema") throw GeneratorException("$option is given twice\n$USAGE")
+                values[option] = others.plusElement(Path.of(value))
             }
 
             fun required(option: String) = values[option] ?: throw GeneratorException("$option is missing\n$USAGE")
+            fun optional(option: String) = values[option]?.single()
             val arguments = Arguments(
-                required("--flatc"),
+                required("--flatc").single(),
                 required("--schema"),
-                required("--include"),
-                values["--csharp"],
-                values["--jvm"],
-                values["--layouts"],
+                required("--include").single(),
+                optional("--csharp"),
+                optional("--jvm"),
+                optional("--layouts"),
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
-            if (!Files.isRegularFile(arguments.schema)) throw GeneratorException("no schema file at ${arguments.schema}")
+            arguments.schemas.find { !Files.isRegularFile(it) }?.let { throw GeneratorException("no schema file at $it") }
             if (!Files.isRegularFile(arguments.include.resolve(CORE_TYPES))) {
                 throw GeneratorException("no $CORE_TYPES in ${arguments.include}: --include names the folder that holds it")
             }

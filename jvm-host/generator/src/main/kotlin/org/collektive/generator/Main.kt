@@ -7,7 +7,7 @@ import kotlin.io.path.ExperimentalPathApi
 import kotlin.io.path.deleteRecursively
 import kotlin.system.exitProcess
 
-/** Generates code of a user's schema for C# and the JVM; see [Arguments.USAGE]. On an error it prints a message and exits with code 1. */
+/** Generates code of users' schemas for C# and the JVM; see [Arguments.USAGE]. On an error it prints a message and exits with code 1. */
 public fun main(arguments: Array<String>) {
     try {
         generate(Arguments.parse(arguments))
@@ -22,16 +22,17 @@ public fun main(arguments: Array<String>) {
 
 @OptIn(ExperimentalPathApi::class)
 internal fun generate(arguments: Arguments) {
-    val work = Files.createTempDirectory("collektive-generator")
-    try {
-        generate(arguments, work)
-    } finally {
-        work.deleteRecursively()
+    for (schema in arguments.schemas) {
+        val work = Files.createTempDirectory("collektive-generator")
+        try {
+            generate(arguments, schema.toAbsolutePath().normalize(), work)
+        } finally {
+            work.deleteRecursively()
+        }
     }
 }
 
-private fun generate(arguments: Arguments, work: Path) {
-    val file = arguments.schema.toAbsolutePath().normalize()
+private fun generate(arguments: Arguments, file: Path, work: Path) {
     val include = arguments.include.toAbsolutePath().normalize()
     val flatc = Flatc(arguments.flatc.toAbsolutePath(), listOf(include, file.parent))
     // What is no text, flatc answers with its usage.

@@ -15,7 +15,8 @@ internal object GenerateEach {
         val (flatc, include, folder) = arguments.map(Path::of)
         for (case in folder.resolve("cases").listDirectoryEntries().filter { it.isDirectory() }.sortedBy { it.name }) {
             val schema = case.listDirectoryEntries("*.fbs").single()
-            val (outcome, text) = outcome { generate(Arguments(flatc, schema, include, folder.resolve("csharp"), folder.resolve("jvm"))) }
+            val given = Arguments(flatc, listOf(schema), include, folder.resolve("csharp"), folder.resolve("jvm"))
+            val (outcome, text) = outcome { generate(given) }
             println("${case.name}\t$outcome\t${text.replace('\n', ' ').replace('\t', ' ')}")
         }
     }

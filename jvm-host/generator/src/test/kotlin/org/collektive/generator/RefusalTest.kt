@@ -233,6 +233,16 @@ internal class RefusalTest {
         assertContains(message("--flatc", flatc, "--schema", schema, "--include", "x"), "no types.fbs in x")
     }
 
+    @Test
+    fun `a command line may name several schemas, of which each must exist`() {
+        val (first, second) = Workshop.files(Workshop.testSchemas).filter { it.toString().endsWith(".fbs") }
+        val include = Workshop.root.resolve("schema").toString()
+        val words = arrayOf("--flatc", "${Workshop.flatc}", "--include", include, "--schema", "$first", "--schema")
+        assertEquals(listOf(first, second), Arguments.parse(words + "$second").schemas)
+        val failure = assertFailsWith<GeneratorException> { Arguments.parse(words + "gone.fbs") }
+        assertContains(failure.message.orEmpty(), "no schema file at gone.fbs")
+    }
+
     private fun user(before: String, fields: String) = "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }"
 
     private fun refusal(text: String): String = assertFailsWith<GeneratorException> { Workshop.generate(text) }.message.orEmpty()

@@ -26,7 +26,7 @@ internal object Workshop {
 
     /** Generates code into the folders `csharp` and `jvm` of [output]. */
     fun generate(schema: Path, output: Path) {
-        generate(Arguments(flatc, schema, root.resolve("schema"), output.resolve("csharp"), output.resolve("jvm")))
+        generate(Arguments(flatc, listOf(schema), root.resolve("schema"), output.resolve("csharp"), output.resolve("jvm")))
     }
 
     fun files(folder: Path): List<Path> = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }

@@ -1,8 +1,6 @@
 package org.collektive.conformance.api
 
 import java.io.File
-import java.net.URLClassLoader
-import java.util.jar.JarFile
 import kotlin.metadata.ClassKind
 import kotlin.metadata.KmClass
 import kotlin.metadata.KmClassifier
@@ -34,18 +32,15 @@ internal class Declarations {
 
     /** Reads the folder or jar [place]. */
     fun read(place: File) {
-        val loader = URLClassLoader(arrayOf(place.toURI().toURL()), javaClass.classLoader)
-        for (name in classFiles(place)) {
-            val type = loader.loadClass(name.removeSuffix(".class").replace('/', '.'))
-            val header = type.getAnnotation(Metadata::class.java) ?: continue
-            when (val found = KotlinClassMetadata.readStrict(header)) {
-                is KotlinClassMetadata.Class -> read(found.kmClass)
+        for ((type, metadata) in compiledKotlin(place)) {
+            when (metadata) {
+                is KotlinClassMetadata.Class -> read(metadata.kmClass)
 
                 is KotlinClassMetadata.FileFacade -> {
                     val owner = type.packageName
-                    found.kmPackage.functions.filter { it.visibility == Visibility.PUBLIC }.forEach { add(owner, it, emptyMap()) }
-                    found.kmPackage.properties.filter { it.visibility == Visibility.PUBLIC }.forEach { add(owner, it, emptyMap()) }
-                    for (alias in found.kmPackage.typeAliases.filter { it.visibility == Visibility.PUBLIC }) {
+                    metadata.kmPackage.functions.filter { it.visibility == Visibility.PUBLIC }.forEach { add(owner, it, emptyMap()) }
+                    metadata.kmPackage.properties.filter { it.visibility == Visibility.PUBLIC }.forEach { add(owner, it, emptyMap()) }
+                    for (alias in metadata.kmPackage.typeAliases.filter { it.visibility == Visibility.PUBLIC }) {
                         val names = named(alias.typeParameters, "A")
                         add("alias", owner, alias.name, "${parameters(alias.typeParameters, names)} = ${text(alias.expandedType, names)}")
                     }
@@ -58,11 +53,6 @@ internal class Declarations {
 
     /** All declarations read so far. */
     fun all(): Set<String> = lines
-
-    private fun classFiles(place: File): List<String> = when {
-        place.isFile -> JarFile(place).use { jar -> jar.entries().toList().map { it.name } }
-        else -> place.walk().map { it.relativeTo(place).invariantSeparatorsPath }.toList()
-    }.filter { it.endsWith(".class") && !it.startsWith("META-INF") }
 
     private fun read(type: KmClass) {
         if (type.visibility != Visibility.PUBLIC) return
@@ -79,10 +69,12 @@ internal class Declarations {
         type.properties.filter { it.visibility == Visibility.PUBLIC }.forEach { add(owner, it, names) }
     }
 
+    @OptIn(ExperimentalContextParameters::class)
     private fun add(owner: String, function: KmFunction, outer: Map<Int, String>) {
         val names = outer + named(function.typeParameters, "T")
         val receiver = function.receiverParameterType?.let { text(it, names) + "." }.orEmpty()
-        val head = listOf(parameters(function.typeParameters, names), receiver + values(function.valueParameters, names))
+        val context = function.contextParameters.takeIf { it.isNotEmpty() }?.let { "context" + values(it, names) }.orEmpty()
+        val head = listOf(context, parameters(function.typeParameters, names), receiver + values(function.valueParameters, names))
         val signature = head.filter { it.isNotEmpty() }.joinToString(" ") + ": " + text(function.returnType, names)
         val modifiers = listOfNotNull("operator".takeIf { function.isOperator }, "infix".takeIf { function.isInfix })
         add("fun", owner, function.name, signature, modifiers.joinToString(" "))

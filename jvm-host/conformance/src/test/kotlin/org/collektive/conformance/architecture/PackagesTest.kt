@@ -1,4 +1,4 @@
-package org.collektive.architecture
+package org.collektive.conformance.architecture
 
 import com.tngtech.archunit.core.domain.JavaClasses
 import com.tngtech.archunit.core.importer.ClassFileImporter
@@ -12,8 +12,7 @@ import kotlin.test.assertTrue
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {
-        val names =
-            listOf("spi", "alignment", "runtime", "mailbox", "compiler", "api", "engine", "generator", "frames", "testing", "host", "tools")
+        val names = "alignment api compiler engine frames generator host links mailbox runtime spi testing tools".split(' ')
         for (name in names) {
             assertTrue(classes.any { it.packageName.startsWith("org.collektive.$name") }, name)
         }
@@ -32,6 +31,17 @@ class PackagesTest {
             "it.unibo..",
         )
         .should().dependOnClassesThat().resideInAPackage("com.google.flatbuffers..").check(classes)
+
+    @Test
+    fun `the DSL and its library use none of the API beside it, but for the links`() = noClasses()
+        .that().resideInAnyPackage("it.unibo.collektive.(aggregate|networking|path|state|stdlib)..", "org.collektive.alignment..")
+        .should().dependOnClassesThat().resideInAnyPackage("org.collektive.api..", "org.collektive.spi..", "org.collektive.links..")
+        .check(classes)
+
+    @Test
+    fun `runtimes use nothing of the API for program authors beside the DSL`() = noClasses()
+        .that().resideInAnyPackage("org.collektive.runtime..", "org.collektive.mailbox..", "org.collektive.spi..")
+        .should().dependOnClassesThat().resideInAPackage("org.collektive.api..").check(classes)
 
     @Test
     fun `only frames and generated code write FlatBuffers`() = noClasses()

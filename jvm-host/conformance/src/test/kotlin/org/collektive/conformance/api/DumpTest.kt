@@ -1,8 +1,6 @@
-package org.collektive.host
+package org.collektive.conformance.api
 
 import it.unibo.collektive.Collektive
-import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.stdlib.util.Maybe
 import org.collektive.api.Program
 import org.collektive.schema.Vector3
 import org.collektive.testing.TestNetwork
@@ -12,10 +10,8 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.TestFactory
 import org.junit.jupiter.api.io.TempDir
 import java.io.File
-import java.net.URLClassLoader
 import java.nio.file.Path
 import java.util.ServiceLoader
-import java.util.jar.JarFile
 import kotlin.io.path.Path
 import kotlin.io.path.copyTo
 import kotlin.io.path.createParentDirectories
@@ -28,8 +24,8 @@ import kotlin.metadata.visibility
 import kotlin.reflect.KClass
 import kotlin.test.fail
 
-/** The API for programs changes only together with its dump, `jvm-host/MODULE/api/MODULE.api`. */
-internal class PublicApiTest {
+/** Compares the API of modules for programs with `jvm-host/MODULE/api/MODULE.api`. For `dsl` and `stdlib`, see [PublicApiTest]. */
+internal class DumpTest {
     @TempDir
     lateinit var folder: Path
 
@@ -54,29 +50,16 @@ internal class PublicApiTest {
     }
 
     /** Inline functions with reified types: they are API of Kotlin but not of the JVM, so the dump omits them. */
-    private fun reified(place: File): String {
-        val loader = URLClassLoader(arrayOf(place.toURI().toURL()), javaClass.classLoader)
-        val names = if (place.isFile) {
-            JarFile(place).use { jar ->
-                jar.entries().toList().map { it.name }
-            }
-        } else {
-            place.walk().map { it.relativeTo(place).path }.toList()
-        }
-        return names.filter { it.endsWith("Kt.class") }.sorted().joinToString("") { name ->
-            val facade = loader.loadClass(name.removeSuffix(".class").replace('/', '.')).getAnnotation(Metadata::class.java)
-            val functions = (KotlinClassMetadata.readStrict(facade) as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
-            functions.filter { it.visibility == Visibility.PUBLIC && it.typeParameters.any { type -> type.isReified } }
-                .map { "inline fun ${name.substringBeforeLast('/')}/${it.signature}\n" }.sorted().joinToString("")
-        }
+    private fun reified(place: File): String = compiledKotlin(place).joinToString("") { (type, metadata) ->
+        (metadata as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
+            .filter { it.visibility == Visibility.PUBLIC && it.typeParameters.any { parameter -> parameter.isReified } }
+            .map { "inline fun ${type.packageName.replace('.', '/')}/${it.signature}\n" }.sorted().joinToString("")
     }
 
     private companion object {
         /** The modules that programs use, each with one of its classes. */
         val MODULES = mapOf(
-            "dsl" to Field::class,
             "runtime" to Collektive::class,
-            "stdlib" to Maybe::class,
             "api" to Program::class,
             "frames" to Vector3::class,
             "testing" to TestNetwork::class,
@@ -97,6 +80,6 @@ internal class PublicApiTest {
         )
 
         const val UPDATE =
-            "mvn -f jvm-host/pom.xml -pl host -am package -Dtest=PublicApiTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
+            "mvn -f jvm-host/pom.xml -pl conformance -am package -Dtest=DumpTest -Dsurefire.failIfNoSpecifiedTests=false -Dapi.update=true"
     }
 }
