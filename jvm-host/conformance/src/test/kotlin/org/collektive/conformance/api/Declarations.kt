@@ -55,7 +55,8 @@ internal class Declarations {
     fun all(): Set<String> = lines
 
     private fun read(type: KmClass) {
-        if (type.visibility != Visibility.PUBLIC) return
+        // The serialization plugin generates these.
+        if (type.visibility != Visibility.PUBLIC || type.name.endsWith(".\$serializer")) return
         val owner = type.name.replace('/', '.')
         val names = named(type.typeParameters, "C")
         val supers = type.supertypes.map { text(it, names) }
