@@ -4,7 +4,8 @@
 
 Maven has no incremental build of several modules that is sound: Kotlin's own does not see that another module has changed. So this script
 compares the inputs of each module with those of its last build: its sources, its POM, the files that the POM names, and the modules that it
-depends on. An unchanged module carries a mark, by which a profile of the parent POM skips its steps; the output of a changed one is removed first.
+depends on. An unchanged module carries a mark while Maven runs, by which a profile of the parent POM skips its steps; the output of a changed one is
+removed first.
 """
 import hashlib
 import re
@@ -12,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -71,7 +73,6 @@ class Module:
             return False
         if _stored(target / "tests.key") != self.tests_key:
             shutil.rmtree(target / "test-classes", ignore_errors=True)
-            (target / TESTS_MARK).unlink(missing_ok=True)
             return True
         (target / TESTS_MARK).touch()
         return False
@@ -81,10 +82,26 @@ class Module:
         target = self.folder / "target"
         target.mkdir(exist_ok=True)
         (target / "main.key").write_text(self.main_key)
-        (target / MAIN_MARK).touch()
         if tests:
             (target / "tests.key").write_text(self.tests_key)
-            (target / TESTS_MARK).touch()
+
+
+def run(modules: Iterable[Module], words: Sequence[str], tests: bool) -> tuple[int, list[Module]]:
+    """Runs Maven on modules, of which it skips the steps of unchanged ones; returns its exit code and the changed modules.
+
+    The marks are removed afterwards, so that a call of Maven by hand compiles everything.
+    """
+    modules = list(modules)
+    try:
+        changed = [module for module in modules if module.prepare(tests)]
+        if not changed and "package" in words:
+            return 0, []
+        names = ",".join(module.name for module in modules)
+        return subprocess.run(["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", names, *words]).returncode, changed
+    finally:
+        for module in modules:
+            for mark in (MAIN_MARK, TESTS_MARK):
+                (module.folder / "target" / mark).unlink(missing_ok=True)
 
 
 def read_modules() -> dict[str, Module]:
@@ -120,11 +137,7 @@ def package(names: list[str], tests: bool) -> int:
             shutil.rmtree(module.folder / "target", ignore_errors=True)
     STARTED.parent.mkdir(parents=True, exist_ok=True)
     STARTED.touch()
-    changed = [module for module in chosen if module.prepare(tests)]
-    code = 0
-    if changed:
-        options = ["-DskipTests" if tests else "-Dmaven.test.skip=true", "-pl", ",".join(module.name for module in chosen)]
-        code = subprocess.run(["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "package", *options]).returncode
+    code, changed = run(chosen, ["package", "-DskipTests" if tests else "-Dmaven.test.skip=true"], tests)
     if code == 0:
         for module in changed:
             module.record(tests)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import lock, processes
+from build import lock, maven
 from build.places import JVM
 
 
@@ -14,7 +14,7 @@ def run(results: Path, options: list[str]) -> int:
     lock.exclusive()
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         report.unlink()
-    code = processes.call(["mvn", "-B", "-ntp", "-q", "-T", "2", "-f", JVM / "pom.xml", "test", "-Dmaven.test.failure.ignore=true", *options])
+    code, _ = maven.run(maven.read_modules().values(), ["test", "-Dmaven.test.failure.ignore=true", *options], tests=True)
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         shutil.copy(report, results / f"{report.parts[-4]}-{report.name}")
     return code
