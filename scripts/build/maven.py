@@ -92,6 +92,8 @@ def run(modules: Iterable[Module], words: Sequence[str], tests: bool) -> tuple[i
     The marks are removed afterwards, so that a call of Maven by hand compiles everything.
     """
     modules = list(modules)
+    # A build that was killed may have left some.
+    _unmark(modules)
     try:
         changed = [module for module in modules if module.prepare(tests)]
         if not changed and "package" in words:
@@ -99,9 +101,13 @@ def run(modules: Iterable[Module], words: Sequence[str], tests: bool) -> tuple[i
         names = ",".join(module.name for module in modules)
         return subprocess.run(["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", names, *words]).returncode, changed
     finally:
-        for module in modules:
-            for mark in (MAIN_MARK, TESTS_MARK):
-                (module.folder / "target" / mark).unlink(missing_ok=True)
+        _unmark(modules)
+
+
+def _unmark(modules: Iterable[Module]) -> None:
+    for module in modules:
+        for mark in (MAIN_MARK, TESTS_MARK):
+            (module.folder / "target" / mark).unlink(missing_ok=True)
 
 
 def read_modules() -> dict[str, Module]:
