@@ -5,7 +5,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from typing import Any
 
@@ -94,7 +93,7 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
                                       "name another folder with --out, or undo the change")
             return
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
-        command = [sys.executable, "-I", script, os.path.abspath(scenario), os.path.abspath(work)]
+        command = ["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work)]
         if subprocess.run(command + (["--trust-jvm"] if trust else [])).returncode != 0:
             raise ExperimentError("the scenario could not be built; see above")
         os.rename(work, bundle)
