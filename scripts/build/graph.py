@@ -2,6 +2,7 @@
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 from build import fetch, jdk, lock, processes
 from build.console import Failure, logged
@@ -43,7 +44,8 @@ def _arguments() -> list[str]:
         f"-DCMAKE_CXX_FLAGS={prefix_map}",
         f"-DCOLLEKTIVE_JAVA_HOME={jdk.find_jdk()}",
         f"-DCOLLEKTIVE_TEST_JDKS={';'.join(map(str, jdk.test_jdks()))}",
-        f"-DCOLLEKTIVE_PYTHON={sys.executable}",
+        # Not that of a virtual environment, which may start a command, too.
+        f"-DCOLLEKTIVE_PYTHON={Path(sys.executable).resolve()}",
         f"-DCOLLEKTIVE_NUNIT={NUNIT if NUNIT.exists() else ''}",
     ]
 
@@ -54,7 +56,9 @@ def _is_configured() -> bool:
 
 
 def _configure() -> None:
-    # CMake refuses a tree of a checkout that was moved.
-    shutil.rmtree(GRAPH, ignore_errors=True)
+    cache = GRAPH / "CMakeCache.txt"
+    if not cache.exists() or f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n" not in cache.read_text():
+        # CMake refuses a tree of a checkout that was moved.
+        shutil.rmtree(GRAPH, ignore_errors=True)
     logged("configure", ["cmake", *_arguments()])
     (GRAPH / "arguments").write_text("\n".join(_arguments()))

@@ -54,14 +54,18 @@ def attended(main: Callable[[], int]) -> int:
 
 
 def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cwd: Path | None = None, stdout: int | None = None) -> int:
-    """Runs a command and returns its exit code; a signal to the group interrupts the command, not the waiting for it."""
+    """Runs a command and returns its exit code, or 128 plus the number of the signal that ended it.
+
+    A signal to the group interrupts the command, not the waiting for it.
+    """
     global _waiting
     _waiting = True
     # What was printed so far comes before the command's output.
     sys.stdout.flush()
     try:
         # The checkout's lock is inherited.
-        return subprocess.Popen(command, env=env, cwd=cwd, stdout=stdout, close_fds=False).wait()
+        code = subprocess.Popen(command, env=env, cwd=cwd, stdout=stdout, close_fds=False).wait()
+        return code if code >= 0 else 128 - code
     finally:
         _waiting = False
 
