@@ -4,7 +4,7 @@ set(ROSLYN "${COLLEKTIVE_BUILD}/roslyn")
 collektive_python(csc build/csharp.py)
 
 collektive_step(roslyn OUTPUT "${ROSLYN}/roslyn.exe"
-  COMMAND ${csc} --roslyn DEPENDS scripts/build/csharp.py tools/roslyn/Roslyn.cs "${COLLEKTIVE_BUILD}/stamp/npm")
+  BYPRODUCTS "${ROSLYN}/Newtonsoft.Json.dll" COMMAND ${csc} --roslyn DEPENDS scripts/build/csharp.py tools/roslyn/Roslyn.cs "${COLLEKTIVE_BUILD}/stamp/npm")
 
 # assembly(NAME SOURCES DIR-OR-FILE... [REFERENCES NAME...] [OPTIONS WORD...] [DEPENDS TARGET...]): references are names of our assemblies or paths.
 function(assembly NAME)
@@ -45,7 +45,7 @@ collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
   DEPENDS flatc schema/types.fbs schema/frame.fbs)
 
-library("${ROSLYN}/Newtonsoft.Json.dll" "${ROSLYN}/roslyn.exe")
+library("${ROSLYN}/Newtonsoft.Json.dll")
 # Mono has it in a place of its own.
 library(/usr/lib/mono/4.5/Mono.Posix.dll)
 assembly(Collektive.FlatBuffers.dll SOURCES "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"
