@@ -17,10 +17,8 @@ function(jvm_step TARGET COMMENT)
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 
-# What runs scenes, with the samples; all modules; the tests of all modules.
+# What runs scenes, with the samples; all modules; the tests of all modules. Each uses the terminal, so Ninja runs one at a time.
 jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
 jvm_step(jvm_modules "all modules of the JVM side")
-add_dependencies(jvm_modules jvm)
 file(GLOB tests "${JVM}/*/src")
 jvm_step(jvm_tests "tests of the JVM side" WORDS --tests FOLDERS ${tests})
-add_dependencies(jvm_tests jvm_modules)
