@@ -89,7 +89,8 @@ def _minutes(text: str) -> str:
 def run(arguments: argparse.Namespace) -> int:
     values = {name: getattr(arguments, name) for name in LONG_RUNS if getattr(arguments, name) is not None}
     if arguments.suites and (values or arguments.run_of):
-        raise Failure(f"test: '{arguments.suites[0]}' cannot be combined with an option: --{next(iter(values), 'quick')} takes no suites")
+        chosen = f"--{next(iter(values))}" if values else "--quick" if arguments.run_of == ["quick"] else "--sanitize"
+        raise Failure(f"test: '{arguments.suites[0]}' cannot be combined with an option: {chosen} takes no suites")
     for name, value in values.items():
         return run_long(LONG_RUNS[name], [value] if isinstance(value, str) else value)
     if arguments.suites[:1] == ["bare"]:

@@ -93,10 +93,10 @@ class Outputs(Project):
         for out in ["file", "file/below", "x" * 300, "dangling"]:
             result = self.run_it(out=out)
             self.assertEqual(result.returncode, 1)
-            self.assertRegex(last_error(result), "the outputs have no place: .*; name another folder with --out", out)
+            self.assertRegex(last_error(result), "cannot create the output folder .*; name another folder with --out", out)
         read_only = collektive("run", self.path("project", "lamps.json"), "--out", "/proc/results")
         self.assertEqual(read_only.returncode, 1)
-        self.assertRegex(last_error(read_only), "^collektive: the outputs ")
+        self.assertRegex(last_error(read_only), "^collektive: cannot create the output folder ")
 
     def test_the_default_folder_is_named_by_the_seed_that_is_used(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "seed": 77')

@@ -14,7 +14,7 @@ import pytest
 from command import collektive, jdk, last_error
 
 from build import metas
-from build.places import ROOT
+from build.places import BUILD, ROOT
 
 
 class InstalledProject:
@@ -84,6 +84,11 @@ class ThePackage(Packaged):
                  "Tools~/Links.kt", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
                  "Tools~/collektive-testing.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
         wanted |= {"unity/" + path for path in built}
+        for code in (BUILD / "generated/bridge").rglob("*.cs"):
+            wanted.add(f"unity/Runtime/Bridge/Generated/{code.relative_to(BUILD / 'generated/bridge')}")
+        for code in (BUILD / "generated/samples").rglob("*.cs"):
+            sample, *parts = code.relative_to(BUILD / "generated/samples").parts
+            wanted.add("/".join(["unity/Samples~", sample, "Generated", *parts]))
         wanted |= {path + ".meta" for path in metas.assets(self.root)}
         extra = [path for path in self.packed() - wanted if not re.match(r"Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
         self.assertEqual(extra, [])

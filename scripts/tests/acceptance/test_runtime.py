@@ -156,7 +156,7 @@ class Runtimes(Project):
         self.switch()
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
-        self.refused(f"{plugin} is no plugin of the Kotlin compiler")
+        self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
         # As a plugin for a compiler with another interface.
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be made for another version of it")
