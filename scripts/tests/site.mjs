@@ -5,7 +5,7 @@ import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { launch } from '../../../unity/Headless~/Replay/browser.mjs';
+import { launch } from '../../unity/Headless~/Replay/browser.mjs';
 
 const WIDTHS = [390, 820, 1440];
 const PICTURED = ['index.html', 'way-of-a-tick.html', 'tutorial-first-swarm.html', 'reference/csharp-unity.html'];
