@@ -215,7 +215,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun answer(node: Node, data: RoundData, worker: Int, index: Int): Any {
         if (isSequential) node.incoming.take(transmitters[worker])
         node.incoming.advance(transmitters[worker])
-        val answer = node.runtime.round(node.incoming, node, data.sensors(worker, index)) ?: throw UnusableAnswer("the result is null")
+        val answer = node.round(data.sensors(worker, index)) ?: throw UnusableAnswer("the result is null")
         data.pack(worker, index, answer)?.let { throw UnusableAnswer(it) }
         node.send(node.runtime.commit(), clock.tick, clock.time)
         return answer

@@ -1,6 +1,7 @@
 package org.collektive.engine
 
 import org.collektive.api.Device
+import org.collektive.spi.RoundProgram
 
 /** A program that the engine runs. Called on many threads at once. */
 public interface NodeProgram {
@@ -8,11 +9,12 @@ public interface NodeProgram {
     public val name: String
 
     /**
-     * Runs one round of [device] and returns its answer; the engine counts `null` as a failure.
+     * Binds this program to one node. The runtime calls the result directly, with the node's sensors; it returns the node's answer, and
+     * the engine counts `null` as a failure.
      *
-     * @param aggregate the runtime's `Aggregate`, the receiver of the program.
+     * @param device the node's device, for use during its rounds.
      */
-    public fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any?
+    public fun on(device: RoundDevice): RoundProgram
 
     /** Describes [failure], which ended a round: what happened, then where. [place] is `null` when the runtime does not know it. */
     public fun describe(failure: Throwable, place: String?): String

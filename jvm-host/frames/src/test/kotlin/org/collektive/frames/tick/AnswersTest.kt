@@ -17,6 +17,7 @@ import org.collektive.frames.data.GlobalReader
 import org.collektive.frames.data.StructWriter
 import org.collektive.frames.data.View
 import org.collektive.runtime.AggregateRuntimes
+import org.collektive.spi.RoundProgram
 import org.junit.jupiter.api.Test
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
@@ -36,9 +37,9 @@ class AnswersTest {
     private val program = object : NodeProgram {
         override val name get() = "test"
 
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any {
+        override fun on(device: RoundDevice) = RoundProgram { _, _ ->
             check(device.id !in failing || device.id % 2 == 0)
-            return if (device.id in failing) "no answer" else Answer(device.id, now)
+            if (device.id in failing) "no answer" else Answer(device.id, now)
         }
 
         override fun describe(failure: Throwable, place: String?): String = failure.toString()

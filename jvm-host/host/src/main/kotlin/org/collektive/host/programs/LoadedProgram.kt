@@ -8,6 +8,7 @@ import org.collektive.engine.RoundDevice
 import org.collektive.host.jfr.ProgramRounds
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
+import org.collektive.spi.RoundProgram
 import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
@@ -30,13 +31,15 @@ internal class LoadedProgram(
 
     private val defaults = Parameters(info.parameters.associate { it.name to it.default })
 
-    override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? {
+    override fun on(device: RoundDevice): RoundProgram {
         val own: Device = device
-        val event = ProgramRounds.begin() ?: return function.invokeExact(aggregate, sensors, own)
-        try {
-            return function.invokeExact(aggregate, sensors, own)
-        } finally {
-            ProgramRounds.end(event, device, name, place)
+        return RoundProgram { aggregate, sensors ->
+            val event = ProgramRounds.begin() ?: return@RoundProgram function.invokeExact(aggregate, sensors, own)
+            try {
+                function.invokeExact(aggregate, sensors, own)
+            } finally {
+                ProgramRounds.end(event, device, name, place)
+            }
         }
     }
 
