@@ -196,5 +196,5 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "site-tools": ([TOOLS / "site", _PYTHON], _site_tools),
     "zig": ([TOOLS / "zig"], _zig),
 }
-# The build graph needs these to be configured.
-BASE = ("flatbuffers", "physx", "npm")
+# The build graph needs these.
+BASE = ("flatbuffers", "physx", "npm", "kotlinc")

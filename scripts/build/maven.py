@@ -3,11 +3,12 @@
 `maven.py STAMP [--tests] MODULE...` packages modules and those that they depend on, with their compiled tests on request, then touches STAMP.
 
 Maven has no incremental build of several modules that is sound: Kotlin's own does not see that another module has changed. So this script
-compares the inputs of each module with those of its last build: its sources, its POM, the files that the POM names, and the modules that it
-depends on. An unchanged module carries a mark while Maven runs, by which a profile of the parent POM skips its steps; the output of a changed one is
-removed first.
+compares the inputs of each module with those of its last build: its sources, its POM, the files that the POM names, and the ABI of the modules that
+it depends on, which Kotlin's build tools hash. A step that is not needed carries a mark while Maven runs, by which a profile of the parent POM skips
+it; the outputs of others are removed first.
 """
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -15,99 +16,192 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build.depfile import inputs
+from build.jdk import find_jdk
 from build.places import BUILD, JVM, ROOT
 
 PARENT = JVM / "pom.xml"
 NAMESPACE = {"m": "http://maven.apache.org/POM/4.0.0"}
 # Marks in a module's target/, which the parent POM's profiles look for.
-MAIN_MARK, TESTS_MARK = "main-unchanged", "tests-unchanged"
+MAIN_MARK, PACKAGE_MARK, TESTS_MARK = "main-unchanged", "package-unchanged", "tests-unchanged"
 STARTED = BUILD / "maven-started"
+WITHOUT_TESTS = "-Dmaven.test.skip=true"
+# Twice as fast for a few modules; many modules repay the second compiler.
+SHORT_CALL = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
+FEW = 3
 
 
 class Module:
-    """One module of the reactor and the hashes of its inputs."""
+    """One module of the reactor, and the hashes of its inputs, which its last build stored in target/."""
 
     def __init__(self, name: str, modules: "dict[str, Module]") -> None:
         self.name = name
         self.folder = JVM / name
+        self.target = self.folder / "target"
         self._modules = modules
-        self._pom = ElementTree.parse(self.folder / "pom.xml").getroot()
+        self._pom = (self.folder / "pom.xml").read_text()
 
-    def upstream(self, tests: bool) -> list["Module"]:
-        """Returns the modules that this one and its plugins depend on, or that only its tests depend on."""
+    @cached_property
+    def upstream(self) -> "list[Module]":
+        """All modules that this one and its plugins depend on."""
+        return _closure(self.direct(tests=False))
+
+    @cached_property
+    def upstream_of_tests(self) -> "list[Module]":
+        """This module and all that its tests depend on."""
+        return [self, *_closure([*self.upstream, *self.direct(tests=True)])]
+
+    def direct(self, tests: bool) -> "list[Module]":
+        """Returns the modules that this one and its plugins depend on directly, or that only its tests depend on."""
         found = []
-        for dependency in self._pom.findall(".//m:dependency", NAMESPACE):
+        for dependency in ElementTree.fromstring(self._pom).findall(".//m:dependency", NAMESPACE):
             name = dependency.findtext("m:artifactId", "", NAMESPACE)
             if name in self._modules and (dependency.findtext("m:scope", "", NAMESPACE) == "test") == tests:
                 found.append(self._modules[name])
         return found
 
     @cached_property
+    def build_key(self) -> str:
+        """A hash of all that the module's outputs depend on."""
+        return _hash([self.folder / "src/main", *self._named], [module.build_key for module in self.upstream])
+
     def main_key(self) -> str:
-        """Returns a hash of all that the module's jar depends on."""
-        text = (self.folder / "pom.xml").read_text()
-        named = [ROOT / path for path in re.findall(r"\$\{root}/([^<]+)", text)]
-        upstream = [module.main_key for module in self.upstream(tests=False)]
-        return _hash([PARENT, self.folder / "pom.xml", self.folder / "src/main", BUILD / "stamp/flatbuffers", *named], upstream)
+        """Returns a hash of all that the module's classes depend on, as the other modules are now."""
+        return _hash([self.folder / "src/main", *self._named], self._seen(self.upstream))
+
+    def tests_key(self) -> str:
+        """Returns a hash of all that the classes of its tests depend on, as the modules are now."""
+        sources = [path for path in sorted((self.folder / "src").glob("*")) if path.name != "main"]
+        fixtures = [(self.folder / path).resolve() for path in re.findall(r">(\.\./[\w-]+/src/[^<]+)<", self._pom)]
+        return _hash([*sources, *fixtures, *self._named], self._seen(self.upstream_of_tests))
+
+    def stored(self, name: str) -> str:
+        """Returns what the last build stored as target/NAME, or an empty text."""
+        file = self.target / name
+        return file.read_text() if file.exists() else ""
+
+    def store(self, name: str, text: str) -> None:
+        """Stores a text as target/NAME."""
+        (self.target / name).write_text(text)
+
+    def remove_main(self) -> None:
+        """Removes all outputs but the classes of tests."""
+        for path in self.target.glob("*"):
+            if path.is_dir() and path.name != "test-classes":
+                shutil.rmtree(path)
+            elif path.is_file() and path.name != "tests.key":
+                path.unlink()
+
+    def _seen(self, modules: "Iterable[Module]") -> list[str]:
+        return [module.build_key if module in self._tools else module.stored("abi") for module in modules]
 
     @cached_property
-    def tests_key(self) -> str:
-        """Returns a hash of all that the module's compiled tests depend on."""
-        sources = [path for path in sorted((self.folder / "src").glob("*")) if path.name != "main"]
-        fixtures = [(self.folder / path).resolve() for path in re.findall(r">(\.\./[\w-]+/src/[^<]+)<", (self.folder / "pom.xml").read_text())]
-        return _hash([*sources, *fixtures], [self.main_key, *(module.main_key for module in self.upstream(tests=True))])
+    def _tools(self) -> "list[Module]":
+        # Modules that run while this one is built: its plugins' dependencies, and those whose jars it names by a property of the parent.
+        plugins = ElementTree.fromstring(self._pom).iterfind(".//m:plugin//m:artifactId", NAMESPACE)
+        jars = re.findall(r"<([\w.]+)>\$\{root\}/jvm-host/([\w-]+)/target/", PARENT.read_text())
+        names = {element.text or "" for element in plugins} | {module for name, module in jars if f"${{{name}}}" in self._pom}
+        return _closure(self._modules[name] for name in names & self._modules.keys())
 
-    def prepare(self, tests: bool) -> bool:
-        """Marks what is unchanged and removes the outputs of what is not; returns whether anything has to be built."""
-        target = self.folder / "target"
-        if _stored(target / "main.key") != self.main_key:
-            shutil.rmtree(target, ignore_errors=True)
-            return True
-        (target / MAIN_MARK).touch()
-        if not tests:
-            return False
-        if _stored(target / "tests.key") != self.tests_key:
-            shutil.rmtree(target / "test-classes", ignore_errors=True)
-            return True
-        (target / TESTS_MARK).touch()
-        return False
-
-    def record(self, tests: bool) -> None:
-        """Stores the hashes after a successful build."""
-        target = self.folder / "target"
-        target.mkdir(exist_ok=True)
-        (target / "main.key").write_text(self.main_key)
-        if tests:
-            (target / "tests.key").write_text(self.tests_key)
+    @cached_property
+    def _named(self) -> list[Path]:
+        return [PARENT, self.folder / "pom.xml", BUILD / "stamp/flatbuffers", *(ROOT / path for path in re.findall(r"\$\{root\}/([^<]+)", self._pom))]
 
 
-def run(modules: Iterable[Module], words: Sequence[str], tests: bool) -> tuple[int, list[Module]]:
-    """Runs Maven on modules, of which it skips the steps of unchanged ones; returns its exit code and the changed modules.
+def package(names: list[str], tests: bool) -> int:
+    """Builds modules and returns Maven's exit code."""
+    modules = read_modules()
+    chosen = closure(names, modules)
+    if STARTED.exists():
+        # An interrupted build may have left half of an output.
+        for module in chosen:
+            shutil.rmtree(module.target, ignore_errors=True)
+    STARTED.parent.mkdir(parents=True, exist_ok=True)
+    STARTED.touch()
+    changed, code = _changed(chosen), 0
+    if any(changed.intersection(module.upstream) for module in chosen if module not in changed):
+        # Others are compiled only if they see the change.
+        code = run(closure([module.name for module in changed], modules), changed, ["package", WITHOUT_TESTS], tests=False)
+        changed = _changed(chosen)
+        changed.update(module for module in chosen if changed.intersection(module.upstream))
+    if code == 0:
+        code = run(chosen, changed, ["package", "-DskipTests" if tests else WITHOUT_TESTS], tests)
+    STARTED.unlink()
+    return code
+
+
+def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], tests: bool) -> int:
+    """Runs Maven on modules, of which it compiles those that changed, and returns its exit code.
 
     The marks are removed afterwards, so that a call of Maven by hand compiles everything.
     """
-    modules = list(modules)
+    packaged = [module for module in modules if module in changed or module.stored("build.key") != module.build_key]
+    tested = [module for module in modules if tests and (
+        changed.intersection(module.upstream_of_tests) or module.stored("tests.key") != module.tests_key())]
+    if not packaged and not tested and "package" in words:
+        return 0
     # A build that was killed may have left some.
     _unmark(modules)
+    for module in modules:
+        module.target.mkdir(exist_ok=True)
+        if module in changed:
+            module.remove_main()
+        else:
+            module.store(MAIN_MARK, "")
+        if module in packaged:
+            shutil.rmtree(module.target / "lib", ignore_errors=True)
+        else:
+            module.store(PACKAGE_MARK, "")
+        if module in tested:
+            shutil.rmtree(module.target / "test-classes", ignore_errors=True)
+            (module.target / "tests.key").unlink(missing_ok=True)
+        elif tests:
+            module.store(TESTS_MARK, "")
+    command = ["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", ",".join(module.name for module in modules), *words]
+    options = [os.environ.get("MAVEN_OPTS", ""), SHORT_CALL if max(len(changed), len(tested)) <= FEW else ""]
     try:
-        changed = [module for module in modules if module.prepare(tests)]
-        if not changed and "package" in words:
-            return 0, []
-        names = ",".join(module.name for module in modules)
-        return subprocess.run(["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", names, *words]).returncode, changed
+        code = subprocess.run(command, env={**os.environ, "MAVEN_OPTS": " ".join(options)}).returncode
     finally:
         _unmark(modules)
+    if code == 0 and "package" in words:
+        _store_abis([module for module in modules if module in changed and (module.target / "classes").exists()])
+        for module in modules:
+            if module in changed:
+                module.store("main.key", module.main_key())
+            if module in packaged:
+                module.store("build.key", module.build_key)
+            if module in tested:
+                module.store("tests.key", module.tests_key())
+    return code
+
+
+def _changed(modules: Iterable[Module]) -> set[Module]:
+    return {module for module in modules if module.stored("main.key") != module.main_key()}
+
+
+def _store_abis(modules: Sequence[Module]) -> None:
+    if not modules:
+        return
+    java: list[str | Path] = [find_jdk() / "bin/java", "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-cp", f"{BUILD}/kotlinc/*"]
+    command = [*java, Path(__file__).with_name("Abi.java"), *(module.target / "classes" for module in modules)]
+    printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    for module, part in zip(modules, printed.split(f"{JVM}/")[1:], strict=True):
+        module.store("abi", _hash([], [part]))
 
 
 def _unmark(modules: Iterable[Module]) -> None:
     for module in modules:
-        for mark in (MAIN_MARK, TESTS_MARK):
-            (module.folder / "target" / mark).unlink(missing_ok=True)
+        for mark in (MAIN_MARK, PACKAGE_MARK, TESTS_MARK):
+            (module.target / mark).unlink(missing_ok=True)
+
+
+def _closure(modules: Iterable[Module]) -> list[Module]:
+    return list(dict.fromkeys(chain.from_iterable([module, *module.upstream] for module in modules)))
 
 
 def read_modules() -> dict[str, Module]:
@@ -126,30 +220,12 @@ def closure(names: list[str], modules: dict[str, Module]) -> list[Module]:
     def add(module: Module) -> None:
         if module.name not in found:
             found[module.name] = module
-            for upstream in module.upstream(tests=False) + module.upstream(tests=True):
+            for upstream in module.direct(tests=False) + module.direct(tests=True):
                 add(upstream)
 
     for name in names or modules:
         add(modules[name])
     return list(found.values())
-
-
-def package(names: list[str], tests: bool) -> int:
-    """Builds modules and returns Maven's exit code."""
-    chosen = closure(names, read_modules())
-    if STARTED.exists():
-        # An interrupted build may have left half of an output.
-        for module in chosen:
-            shutil.rmtree(module.folder / "target", ignore_errors=True)
-    STARTED.parent.mkdir(parents=True, exist_ok=True)
-    STARTED.touch()
-    code, changed = run(chosen, ["package", "-DskipTests" if tests else "-Dmaven.test.skip=true"], tests)
-    if code == 0:
-        for module in changed:
-            module.record(tests)
-    # After an error only the modules without a stored hash are built again.
-    STARTED.unlink()
-    return code
 
 
 def _hash(paths: list[Path], texts: list[str]) -> str:
@@ -160,18 +236,14 @@ def _hash(paths: list[Path], texts: list[str]) -> str:
             if file.is_file():
                 digest.update(hashlib.sha256(file.read_bytes()).digest())
     for text in texts:
-        digest.update(text.encode())
+        digest.update(text.encode() + b"\0")
     return digest.hexdigest()
 
 
-def _stored(file: Path) -> str:
-    return file.read_text() if file.exists() else ""
-
-
 if __name__ == "__main__":
-    stamp, *words = sys.argv[1:]
-    with_tests = "--tests" in words
-    result = package([word for word in words if not word.startswith("--")], with_tests)
+    stamp, *arguments = sys.argv[1:]
+    with_tests = "--tests" in arguments
+    result = package([word for word in arguments if not word.startswith("--")], with_tests)
     if result == 0:
         Path(stamp).parent.mkdir(parents=True, exist_ok=True)
         Path(stamp).touch()

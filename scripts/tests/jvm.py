@@ -14,7 +14,8 @@ def run(results: Path, options: list[str]) -> int:
     lock.exclusive()
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         report.unlink()
-    code, _ = maven.run(maven.read_modules().values(), ["test", "-Dmaven.test.failure.ignore=true", *options], tests=True)
+    modules = list(maven.read_modules().values())
+    code = maven.run(modules, set(), ["test", "-Dmaven.test.failure.ignore=true", *options], tests=True)
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         shutil.copy(report, results / f"{report.parts[-4]}-{report.name}")
     return code

@@ -1,0 +1,85 @@
+"""The build of the JVM side compiles what changed, and what sees the change."""
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from build.places import BUILD, JVM
+from checkout import Checkout
+
+DEPENDENCY = "<dependencies><dependency><groupId>org.collektive</groupId><artifactId>lower</artifactId><version>0.2.0</version></dependency></dependencies>"
+LOWER = "lower/src/main/kotlin/Lower.kt"
+UPPER = "upper/src/main/kotlin/Upper.kt"
+
+
+class Modules:
+    """A checkout whose JVM side has two modules with tests: `upper` depends on `lower`."""
+
+    def __init__(self, checkout: Checkout) -> None:
+        self.root = checkout.root
+        self.jvm = checkout.root / "jvm-host"
+        (self.root / ".mvn").mkdir()
+        (self.root / "build").mkdir()
+        (self.root / "build/kotlinc").symlink_to(BUILD / "kotlinc")
+        parent = (JVM / "pom.xml").read_text()
+        (self.jvm / "pom.xml").write_text(
+            re.sub("<modules>.*</modules>", "<modules><module>lower</module><module>upper</module></modules>", parent, flags=re.DOTALL))
+        head = re.sub("</parent>.*", "</parent>", (JVM / "api/pom.xml").read_text(), flags=re.DOTALL)
+        for module, dependencies in ("lower", ""), ("upper", DEPENDENCY):
+            self.write(f"{module}/pom.xml", f"{head}<artifactId>{module}</artifactId>{dependencies}</project>")
+        self.write(LOWER, "public inline fun inlined(value: () -> Int): Int = value() + 1\npublic fun ordinary(): Int = 1\n")
+        self.write(UPPER, "public fun above(): Int = inlined { ordinary() }\n")
+        self.write("lower/src/test/kotlin/LowerTest.kt", "internal val below = ordinary()\n")
+        self.write("upper/src/test/kotlin/UpperTest.kt", "internal val higher = above()\n")
+
+    def write(self, path: str, text: str) -> None:
+        """Writes a file of the JVM side."""
+        (self.jvm / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.jvm / path).write_text(text)
+
+    def edit(self, path: str, old: str, new: str) -> None:
+        """Replaces a part of a file, which must occur in it."""
+        text = (self.jvm / path).read_text()
+        assert old in text
+        self.write(path, text.replace(old, new))
+
+    def build(self) -> set[str]:
+        """Builds and returns the names of the classes that were compiled."""
+        before = self._classes()
+        result = subprocess.run([sys.executable, "-I", self.root / "scripts/build/maven.py", self.root / "build/stamp", "--tests"],
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.output = result.stdout
+        after = self._classes()
+        return {path.stem for path in after if after[path] != before.get(path)} if result.returncode == 0 else {"an error"}
+
+    def _classes(self) -> dict[Path, int]:
+        return {path: os.stat(path).st_mtime_ns for path in self.jvm.rglob("*.class")}
+
+
+@pytest.fixture
+def modules(checkout: Checkout) -> Modules:
+    return Modules(checkout)
+
+
+def test_modules_are_compiled_when_they_or_what_they_see_changed(modules: Modules) -> None:
+    assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, modules.output
+    assert modules.build() == set(), "nothing changed"
+    modules.edit(LOWER, "ordinary(): Int = 1", "ordinary(): Int = 2")
+    assert modules.build() == {"LowerKt"}, "no other module sees the body of a function"
+    modules.edit(LOWER, "value() + 1", "value() + 2")
+    assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, "callers contain the body of an inline function"
+    modules.edit("lower/src/test/kotlin/LowerTest.kt", "below", "lowest")
+    assert modules.build() == {"LowerTestKt"}, "no other module sees tests"
+
+
+def test_an_error_is_found_again_until_it_is_mended(modules: Modules) -> None:
+    modules.build()
+    modules.edit(LOWER, "ordinary", "renamed")
+    modules.edit("lower/src/test/kotlin/LowerTest.kt", "ordinary", "renamed")
+    for _ in range(2):
+        assert modules.build() == {"an error"}
+        assert "Unresolved reference 'ordinary'" in modules.output
+    modules.edit(UPPER, "ordinary", "renamed")
+    assert modules.build() == {"UpperKt", "UpperTestKt", "LowerTestKt"}, modules.output
