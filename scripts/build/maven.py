@@ -21,6 +21,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from build import maven_repository
 from build.depfile import inputs
 from build.jdk import find_jdk
 from build.places import BUILD, JVM, ROOT
@@ -162,10 +163,14 @@ def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], t
             (module.target / "tests.key").unlink(missing_ok=True)
         elif tests:
             module.store(TESTS_MARK, "")
-    command = ["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", ",".join(module.name for module in modules), *words]
+    names = ",".join(module.name for module in modules)
+    command: list[str | Path] = ["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", names, *words]
     options = [os.environ.get("MAVEN_OPTS", ""), SHORT_CALL if max(len(changed), len(tested)) <= FEW else ""]
     try:
-        code = subprocess.run(command, env={**os.environ, "MAVEN_OPTS": " ".join(options)}).returncode
+        environment = {**os.environ, "MAVEN_OPTS": " ".join(options)}
+        code = subprocess.run(command, env=environment).returncode
+        if code != 0 and maven_repository.repair():
+            code = subprocess.run(command, env=environment).returncode
     finally:
         _unmark(modules)
     if code == 0 and "package" in words:

@@ -1,5 +1,12 @@
 """Fetched folders: filled once for what they depend on, started over after an interruption or an error."""
+import hashlib
+import re
+from pathlib import Path
+
+import pytest
 from checkout import Checkout
+
+from build.places import ROOT
 
 NOT_DONE = "try: fetch.once('thing', '1', lambda folder: logged('broken', ['false']))\nexcept Failure as failure: sys.exit(f'collektive: {failure}')"
 
@@ -81,3 +88,36 @@ def test_the_fingerprint_of_a_project_is_of_contents_and_of_places_in_the_folder
     (checkout.root / "data/a file").write_text("two")
     prints.append(fingerprint())
     assert len(set(prints)) == 3
+
+
+def test_a_damaged_download_is_fetched_again(checkout: Checkout) -> None:
+    client = "read -r stored <stored 2>/dev/null || stored=whole; echo $stored; test $stored = whole"
+    (checkout.root / "stored").write_text("damaged\n")
+    result = checkout.run(f"fetch._downloaded('crate', ['sh', '-c', {client!r}], (root / 'stored').unlink, cwd=root)")
+    assert result.returncode == 0, result.stderr
+    assert "crate: once more, without the stored downloads" in result.stderr
+
+
+def test_an_error_that_stays_ends_the_command(checkout: Checkout) -> None:
+    result = checkout.run("fetch._downloaded('crate', ['false'], lambda: None)")
+    assert "Failure: crate failed" in result.stderr
+
+
+def test_a_jar_that_differs_from_its_checksum_is_removed(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = checkout.root / "repository"
+    (repository / "org/it").mkdir(parents=True)
+    for name in "whole", "damaged", "local":
+        (repository / f"org/it/{name}.jar").write_text(name)
+    monkeypatch.setenv("MAVEN_OPTS", "-Xmx1g -Dmaven.repo.local=repository")
+    (repository / "org/it/whole.jar.sha1").write_text(hashlib.sha1(b"whole").hexdigest())
+    (repository / "org/it/damaged.jar.sha1").write_text(hashlib.sha1(b"as it was").hexdigest() + "  damaged.jar")
+    repair = "import os; os.chdir(root); from build import maven_repository; print(maven_repository.repair())"
+    assert checkout.run(repair).stdout == "True\n"
+    assert sorted(path.name for path in repository.rglob("*.jar")) == ["local.jar", "whole.jar"]
+    assert checkout.run(repair).stdout == "False\n"
+
+
+@pytest.mark.parametrize("requirements", sorted([*ROOT.glob("tools/*/requirements.txt"), *ROOT.glob("experiments/requirements*.txt")]))
+def test_each_requirement_has_hashes(requirements: Path) -> None:
+    for line in requirements.read_text().splitlines():
+        assert re.fullmatch(r"#.*|[\w.-]+==[\w.]+(?: --hash=sha256:[0-9a-f]{64})+", line), line

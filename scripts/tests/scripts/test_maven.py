@@ -6,10 +6,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from build.places import BUILD, JVM
 from checkout import Checkout
 
-DEPENDENCY = "<dependencies><dependency><groupId>org.collektive</groupId><artifactId>lower</artifactId><version>0.2.0</version></dependency></dependencies>"
+from build.places import BUILD, JVM
+
+DEPENDENCY = ("<dependencies><dependency><groupId>org.collektive</groupId><artifactId>lower</artifactId>"
+              "<version>${project.version}</version></dependency></dependencies>")
 LOWER = "lower/src/main/kotlin/Lower.kt"
 UPPER = "upper/src/main/kotlin/Upper.kt"
 

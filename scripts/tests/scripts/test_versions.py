@@ -68,7 +68,7 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None
             assert third_party(name) == wanted, name
     experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]
     for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", *experiments]:
-        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+)$", text(path)):
+        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+) --hash=sha256:", text(path)):
             assert third_party(name) == wanted, name
     assert third_party("actionlint") == fetch.ACTIONLINT
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")

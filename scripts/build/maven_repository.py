@@ -1,0 +1,27 @@
+"""Maven's local repository, which Maven itself trusts."""
+import hashlib
+import os
+import re
+from pathlib import Path
+
+from build.console import say
+
+
+def repair() -> bool:
+    """Removes jars that differ from the checksum that Maven stored with their download, so that it fetches them again; returns whether there were any."""
+    damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1"))]
+    for jar in damaged:
+        say(f"removing {jar}, which is damaged; Maven fetches it again")
+        jar.unlink()
+    return bool(damaged)
+
+
+def _differs(jar: Path, stored: Path) -> bool:
+    return stored.exists() and hashlib.sha1(jar.read_bytes(), usedforsecurity=False).hexdigest() != stored.read_text().split()[0].lower()
+
+
+def _location() -> Path:
+    settings = Path.home() / ".m2/settings.xml"
+    named = re.search(r"-Dmaven\.repo\.local=(\S+)", os.environ.get("MAVEN_OPTS", "")) or (
+        settings.exists() and re.search(r"<localRepository>\s*(.+?)\s*</localRepository>", settings.read_text()))
+    return Path(named[1].replace("${user.home}", str(Path.home()))) if named else Path.home() / ".m2/repository"
