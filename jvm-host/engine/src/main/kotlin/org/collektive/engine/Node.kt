@@ -19,8 +19,8 @@ internal class Node(
     val incoming = IncomingLinks(id, isIdeal, clock)
     val outgoing = Peers()
 
-    // The program, bound to this node's device.
-    private val rounds: RoundProgram = program.on(NodeDevice(this, parameters, clock, seed))
+    private val device = NodeDevice(this, parameters, clock, seed)
+    private val bound = RoundProgram { aggregate, sensors -> program.round(aggregate, sensors, device) }
 
     /** Tick at which this node was last put in order, and its index among the due nodes. Used by [BreadthFirst]. */
     var arrangedAt = 0L
@@ -30,7 +30,7 @@ internal class Node(
     var mark = 0L
 
     /** See [DeviceRuntime.round]. */
-    fun round(sensors: Any?): Any? = runtime.round(incoming, rounds, sensors)
+    fun round(sensors: Any?): Any? = runtime.round(incoming, bound, sensors)
 }
 
 /** State that all nodes of a session share. Changes only between rounds. */

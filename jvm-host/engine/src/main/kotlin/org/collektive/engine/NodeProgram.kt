@@ -1,7 +1,6 @@
 package org.collektive.engine
 
 import org.collektive.api.Device
-import org.collektive.spi.RoundProgram
 
 /** A program that the engine runs. Called on many threads at once. */
 public interface NodeProgram {
@@ -9,12 +8,11 @@ public interface NodeProgram {
     public val name: String
 
     /**
-     * Binds this program to one node. The runtime calls the result directly, with the node's sensors; it returns the node's answer, and
-     * the engine counts `null` as a failure.
+     * Runs one round of [device] and returns its answer; the engine counts `null` as a failure.
      *
-     * @param device the node's device, for use during its rounds.
+     * @param aggregate the runtime's `Aggregate`, the receiver of the program.
      */
-    public fun on(device: RoundDevice): RoundProgram
+    public fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any?
 
     /** Describes [failure], which ended a round: what happened, then where. [place] is `null` when the runtime does not know it. */
     public fun describe(failure: Throwable, place: String?): String

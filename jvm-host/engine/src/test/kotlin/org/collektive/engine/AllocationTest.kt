@@ -3,7 +3,6 @@ package org.collektive.engine
 import com.sun.management.ThreadMXBean
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.spi.RoundProgram
 import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import java.lang.management.ManagementFactory
@@ -19,7 +18,7 @@ class AllocationTest {
     private inner class Constant(private val allocates: Boolean) : NodeProgram {
         override val name = "constant"
 
-        override fun on(device: RoundDevice) = RoundProgram { _, _ -> if (allocates) LongArray(4) else answer }
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = if (allocates) LongArray(4) else answer
 
         override fun describe(failure: Throwable, place: String?) = failure.toString()
     }

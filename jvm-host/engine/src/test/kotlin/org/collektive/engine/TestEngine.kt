@@ -5,7 +5,6 @@ import org.collektive.api.Device
 import org.collektive.api.Parameters
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
-import org.collektive.spi.RoundProgram
 import java.util.concurrent.TimeUnit
 
 /** Makes a program from a lambda. */
@@ -13,7 +12,7 @@ internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any
     override val name = name
 
     @Suppress("UNCHECKED_CAST")
-    override fun on(device: RoundDevice) = RoundProgram { aggregate, _ -> (aggregate as Aggregate<Int>).body(device) }
+    override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? = (aggregate as Aggregate<Int>).body(device)
 
     override fun describe(failure: Throwable, place: String?): String = "$failure [$place]"
 }

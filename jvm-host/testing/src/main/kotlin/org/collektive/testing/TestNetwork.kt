@@ -13,7 +13,6 @@ import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
 import org.collektive.frames.data.ViewRule
 import org.collektive.spi.DeviceRuntimes
-import org.collektive.spi.RoundProgram
 import org.collektive.spi.RuntimeProvider
 import java.util.ServiceLoader
 import java.util.TreeSet
@@ -149,7 +148,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
         override val name: String get() = "test"
 
         @Suppress("UNCHECKED_CAST")
-        override fun on(device: RoundDevice) = RoundProgram { aggregate, _ -> Answer((aggregate as Aggregate<Int>).body(device)) }
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = Answer((aggregate as Aggregate<Int>).body(device))
 
         override fun describe(failure: Throwable, place: String?): String =
             (if (place == null || place in failure.toString()) "$failure" else "$failure [$place]").also { failures[it] = failure }

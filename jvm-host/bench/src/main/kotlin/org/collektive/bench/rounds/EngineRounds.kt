@@ -12,7 +12,6 @@ import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.spi.RoundProgram
 
 /** The engine, with one thread and the same program on every device of [topology]. */
 public class EngineRounds(program: String, private val topology: Topology) : AutoCloseable {
@@ -64,7 +63,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
         }
 
         @Suppress("UNCHECKED_CAST")
-        override fun on(device: RoundDevice) = RoundProgram { aggregate, sensors -> (aggregate as Aggregate<Int>).code(sensors as Senses) }
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = (aggregate as Aggregate<Int>).code(sensors as Senses)
 
         override fun describe(failure: Throwable, place: String?): String = failure.stackTraceToString()
     }

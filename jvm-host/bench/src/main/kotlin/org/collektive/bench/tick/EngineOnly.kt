@@ -16,7 +16,6 @@ import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.schema.Vector3
-import org.collektive.spi.RoundProgram
 import java.nio.ByteBuffer
 
 /** The rounds of the case study alone, without C#, frames and answers; the sensor data is prepared in memory. */
@@ -83,9 +82,8 @@ internal class EngineOnly(private val grid: Grid, threads: Int) :
         override val name get() = "gradient-ascent"
 
         @Suppress("UNCHECKED_CAST")
-        override fun on(device: RoundDevice) = RoundProgram { aggregate, sensors ->
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? =
             (aggregate as Aggregate<Int>).gradientAscent(sensors as SensorData, device)
-        }
 
         override fun describe(failure: Throwable, place: String?): String = failure.toString()
     }

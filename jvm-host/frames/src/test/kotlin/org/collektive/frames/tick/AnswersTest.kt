@@ -17,7 +17,6 @@ import org.collektive.frames.data.GlobalReader
 import org.collektive.frames.data.StructWriter
 import org.collektive.frames.data.View
 import org.collektive.runtime.AggregateRuntimes
-import org.collektive.spi.RoundProgram
 import org.junit.jupiter.api.Test
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
@@ -37,9 +36,9 @@ class AnswersTest {
     private val program = object : NodeProgram {
         override val name get() = "test"
 
-        override fun on(device: RoundDevice) = RoundProgram { _, _ ->
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any {
             check(device.id !in failing || device.id % 2 == 0)
-            if (device.id in failing) "no answer" else Answer(device.id, now)
+            return if (device.id in failing) "no answer" else Answer(device.id, now)
         }
 
         override fun describe(failure: Throwable, place: String?): String = failure.toString()

@@ -8,7 +8,6 @@ import org.collektive.engine.RoundDevice
 import org.collektive.host.jfr.ProgramRounds
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
-import org.collektive.spi.RoundProgram
 import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
@@ -31,15 +30,13 @@ internal class LoadedProgram(
 
     private val defaults = Parameters(info.parameters.associate { it.name to it.default })
 
-    override fun on(device: RoundDevice): RoundProgram {
+    override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? {
         val own: Device = device
-        return RoundProgram { aggregate, sensors ->
-            val event = ProgramRounds.begin() ?: return@RoundProgram function.invokeExact(aggregate, sensors, own)
-            try {
-                function.invokeExact(aggregate, sensors, own)
-            } finally {
-                ProgramRounds.end(event, device, name, place)
-            }
+        val event = ProgramRounds.begin() ?: return function.invokeExact(aggregate, sensors, own)
+        try {
+            return function.invokeExact(aggregate, sensors, own)
+        } finally {
+            ProgramRounds.end(event, device, name, place)
         }
     }
 
