@@ -77,14 +77,11 @@ suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 -
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
 
-set(experiments "${PROJECT_SOURCE_DIR}/experiments")
-set(experiments_tests UNLOCKED ENVIRONMENT "COLLEKTIVE=${COLLEKTIVE}" "COLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}" "PYTHONPATH=${experiments}"
-  PYTHONDONTWRITEBYTECODE=1 COMMAND "${COLLEKTIVE_BUILD}/experiments/bin/python" -m pytest -c "${SCRIPTS}/tests/pytest.ini"
-  --junitxml RESULTS/pytest.xml --durations 8)
-suite(experiments experiments LABELS all NEEDS build:runtime setup:kotlinc setup:experiments-tests ${experiments_tests}
-  "${experiments}/tests" "--ignore=${experiments}/tests/test_cluster.py")
-suite(ray experiments LABELS extra NEEDS build:runtime setup:kotlinc setup:experiments-tests setup:ray ${experiments_tests}
-  "${experiments}/tests/test_cluster.py")
+set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
+set(experiments_tests build:runtime setup:kotlinc setup:experiments-tests UNLOCKED
+  SCRIPT experiments.py --junitxml RESULTS/pytest.xml --durations 8)
+suite(experiments experiments LABELS all NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py")
+suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
 suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page setup:kotlinc UNLOCKED
   SCRIPT chaos/chaos.py 6 3 3 1 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
