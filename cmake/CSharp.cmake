@@ -6,6 +6,14 @@ collektive_python(csc build/csharp.py)
 collektive_step(roslyn OUTPUT "${ROSLYN}/roslyn.exe"
   BYPRODUCTS "${ROSLYN}/Newtonsoft.Json.dll" COMMAND ${csc} --roslyn DEPENDS scripts/build/csharp.py tools/roslyn/Roslyn.cs "${COLLEKTIVE_BUILD}/stamp/npm")
 
+# What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
+set(symbols --symbols)
+set(UNITY "${PROJECT_SOURCE_DIR}/unity")
+set(HEADLESS "${UNITY}/Headless~")
+set(GENERATED "${COLLEKTIVE_BUILD}/generated")
+include(Ide)
+
+add_custom_target(csharp)
 # assembly(NAME SOURCES DIR-OR-FILE... [REFERENCES NAME...] [OPTIONS WORD...] [DEPENDS TARGET...]): references are names of our assemblies or paths.
 function(assembly NAME)
   cmake_parse_arguments(PARSE_ARGV 1 A "" "" "SOURCES;REFERENCES;OPTIONS;DEPENDS")
@@ -22,6 +30,10 @@ function(assembly NAME)
   string(REPLACE "/" "-" target "${NAME}")
   collektive_step(${target} OUTPUT "${CSHARP}/${NAME}" COMMAND ${csc} "${CSHARP}/${NAME}" ${A_SOURCES} -- ${options} ${flags}
     DEPENDS "${ROSLYN}/roslyn.exe" scripts/build/csharp.py ${references} ${A_DEPENDS} FOLDERS ${A_SOURCES})
+  add_dependencies(csharp ${target})
+  if(NOT NAME MATCHES "/")
+    ide_project(${NAME} "${A_SOURCES}" "${references}")
+  endif()
 endfunction()
 
 # library(FILE): puts an assembly of others beside ours, where CoreCLR looks for it.
@@ -30,11 +42,6 @@ function(library FILE)
   collektive_step(${name} OUTPUT "${CSHARP}/${name}" COMMAND "${CMAKE_COMMAND}" -E copy "${FILE}" "${CSHARP}/${name}" DEPENDS ${ARGN} "${FILE}")
 endfunction()
 
-# What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
-set(symbols --symbols)
-set(UNITY "${PROJECT_SOURCE_DIR}/unity")
-set(HEADLESS "${UNITY}/Headless~")
-set(GENERATED "${COLLEKTIVE_BUILD}/generated")
 set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
   --include "${PROJECT_SOURCE_DIR}/schema")
 

@@ -6,7 +6,7 @@ if(COLLEKTIVE_NUNIT)
   add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
     Collektive.Unity.PublicApi.Tests.dll Collektive.Unity.Editor.Tests.dll Collektive.TwoEditors.exe Collektive.WithoutLibrary.exe
     Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation)
-  list(APPEND csharp_needs build:csharp_tests setup:kotlinc)
+  list(APPEND csharp_needs build:csharp_tests)
   set(runner build:Collektive.TestRunner.exe build:nunit.framework.dll)
 endif()
 # A host jar of another version.
@@ -69,27 +69,24 @@ suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:misfit NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
-suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests setup:kotlinc PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
-suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe setup:kotlinc UNLOCKED SCRIPT pages.py page RESULTS)
+suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
+suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED SCRIPT pages.py site RESULTS)
 
-set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} setup:kotlinc UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
+set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
 
-set(experiments "${PROJECT_SOURCE_DIR}/experiments")
-set(experiments_tests UNLOCKED ENVIRONMENT "COLLEKTIVE=${COLLEKTIVE}" "COLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}" "PYTHONPATH=${experiments}"
-  PYTHONDONTWRITEBYTECODE=1 COMMAND "${COLLEKTIVE_BUILD}/experiments/bin/python" -m pytest -c "${SCRIPTS}/tests/pytest.ini"
-  --junitxml RESULTS/pytest.xml --durations 8)
-suite(experiments experiments LABELS all NEEDS build:runtime setup:kotlinc setup:experiments-tests ${experiments_tests}
-  "${experiments}/tests" "--ignore=${experiments}/tests/test_cluster.py")
-suite(ray experiments LABELS extra NEEDS build:runtime setup:kotlinc setup:experiments-tests setup:ray ${experiments_tests}
-  "${experiments}/tests/test_cluster.py")
-suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page setup:kotlinc UNLOCKED
+set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
+set(experiments_tests build:runtime setup:experiments-tests UNLOCKED
+  SCRIPT experiments.py --junitxml RESULTS/pytest.xml --durations 8)
+suite(experiments experiments LABELS all NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py")
+suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
+suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page UNLOCKED
   SCRIPT chaos/chaos.py 6 3 3 1 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
 suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)
-suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe setup:kotlinc UNLOCKED
+suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe UNLOCKED
   PYTEST "${SCRIPTS}/tests/bench")
 suite(gradle gradle LABELS all NEEDS build:jvm_modules UNLOCKED TIMEOUT 3600 PYTEST "${SCRIPTS}/tests/gradle")

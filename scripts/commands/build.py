@@ -1,4 +1,4 @@
-"""Builds targets of the build graph, such as native-shim, jvm or csharp. CMakeLists.txt and cmake/ declare them."""
+"""Builds targets of the build graph, such as collektive_shim, jvm or csharp. CMakeLists.txt and cmake/ declare them."""
 import argparse
 
 from build import graph

@@ -101,7 +101,6 @@ def run(arguments: argparse.Namespace) -> int:
 def run_long(long_run: LongRun, values: Sequence[str]) -> int:
     """Runs the script of an option."""
     prepare()
-    fetch.fetch("kotlinc")
     graph.build(*long_run.targets)
     # Their runs lock the outputs by themselves.
     if long_run.file == "chaos/chaos.py":

@@ -83,6 +83,15 @@ def write(path: str, name: str, cases: list[Case]) -> None:
     os.replace(path + ".part", path)
 
 
+def report(path: str | None, name: str, cases: list[Case]) -> int:
+    """Prints how many tests passed and failed, writes the results if there is a path, and returns the exit code."""
+    failed = sum(bool(case.failure) for case in cases)
+    print(f"{len(cases) - failed} passed, {failed} failed")
+    if path:
+        write(path, name, cases)
+    return int(failed > 0)
+
+
 def _printable(text: str) -> str:
     """Replaces control characters, which XML does not allow."""
     return "".join(character if character in "\n\t" or character >= " " else "?" for character in text)

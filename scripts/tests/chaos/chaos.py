@@ -299,11 +299,7 @@ def main() -> int:
             cases += [junit.Case(f"{kind} {number}", "; ".join(outcome.problems)) for number, outcome in enumerate(outcomes)]
         after = subprocess.run([COLLEKTIVE, "run", reference["scenario"], "--out", reference["folder"], "--overwrite"], capture_output=True, text=True)
         cases.append(junit.Case("a run after all", "" if after.returncode == 0 else after.stderr or "failed"))
-    failed = sum(bool(case.failure) for case in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    if given.results:
-        junit.write(given.results, "chaos", cases)
-    return 1 if failed else 0
+    return junit.report(given.results, "chaos", cases)
 
 
 if __name__ == "__main__":

@@ -126,11 +126,7 @@ def main() -> None:
             print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)
             for problem, count in collections.Counter(problems).most_common(5):
                 print(f"  {count} times: {problem}")
-    failed = sum(bool(case.failure) for case in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    if arguments.results:
-        junit.write(arguments.results, "exits", cases)
-    sys.exit(failed > 0)
+    sys.exit(junit.report(arguments.results, "exits", cases))
 
 
 if __name__ == "__main__":

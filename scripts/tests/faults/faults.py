@@ -178,11 +178,7 @@ def main() -> None:
                 if wrong:
                     lines = [short(line, 300) for line in text.splitlines()]
                     print(f"    ! {runtime}, {os.path.basename(jdk)}: {wrong}\n        " + "\n        ".join(lines[:15] + ["..."] + lines[15:][-15:]))
-    failed = sum(bool(case.failure) for case in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    if arguments.results:
-        junit.write(arguments.results, "faults", cases)
-    sys.exit(failed > 0)
+    sys.exit(junit.report(arguments.results, "faults", cases))
 
 
 if __name__ == "__main__":

@@ -58,36 +58,24 @@ def test_a_second_command_waits_and_finds_it_done(checkout: Checkout) -> None:
     assert checkout.made() == ["made, 0 files there"]
 
 
-def test_a_key_is_of_contents_and_names(checkout: Checkout) -> None:
-    def key() -> str:
-        return checkout.run("print(fetch.key_of([root / 'data', '1.2']))").stdout
+@pytest.mark.parametrize(("key", "file", "renamed"), [
+    ("fetch.key_of([root / 'data', '1.2'])", "data/a file", "data/another file"),
+    ("projects.fingerprint(root / 'data')", "data/part/a file", "data/a file"),
+])
+def test_a_key_depends_on_contents_and_relative_paths(checkout: Checkout, key: str, file: str, renamed: str) -> None:
+    def current() -> str:
+        return checkout.run(f"from build import projects; print({key})").stdout
 
-    (checkout.root / "data").mkdir()
-    (checkout.root / "data/a file").write_text("one")
-    keys = [key()]
+    (checkout.root / file).parent.mkdir(parents=True)
+    (checkout.root / file).write_text("one")
+    keys = [current()]
     checkout.root = checkout.root.rename(checkout.root.with_name("moved"))
-    assert key() == keys[0]
-    (checkout.root / "data/a file").rename(checkout.root / "data/another file")
-    keys.append(key())
-    (checkout.root / "data/another file").write_text("two")
-    keys.append(key())
+    assert current() == keys[0]
+    (checkout.root / file).rename(checkout.root / renamed)
+    keys.append(current())
+    (checkout.root / renamed).write_text("two")
+    keys.append(current())
     assert len(set(keys)) == 3
-
-
-def test_the_fingerprint_of_a_project_is_of_contents_and_of_places_in_the_folder(checkout: Checkout) -> None:
-    def fingerprint() -> str:
-        return checkout.run("from build import projects; print(projects.fingerprint(root / 'data'))").stdout
-
-    (checkout.root / "data/part").mkdir(parents=True)
-    (checkout.root / "data/part/a file").write_text("one")
-    prints = [fingerprint()]
-    checkout.root = checkout.root.rename(checkout.root.with_name("moved"))
-    assert fingerprint() == prints[0]
-    (checkout.root / "data/part/a file").rename(checkout.root / "data/a file")
-    prints.append(fingerprint())
-    (checkout.root / "data/a file").write_text("two")
-    prints.append(fingerprint())
-    assert len(set(prints)) == 3
 
 
 def test_a_damaged_download_is_fetched_again(checkout: Checkout) -> None:

@@ -16,10 +16,9 @@ import org.gradle.process.ExecOperations
 import org.gradle.work.DisableCachingByDefault
 import javax.inject.Inject
 
-/** Runs [commands] in their order, after which [output] contains only the files that they generated. */
+/** Runs [commands] in their order, after which [output] contains only the files that they generated. Java finds classes in [classpath]. */
 @DisableCachingByDefault(because = "flatc is a program of this machine")
 internal abstract class GenerateSources : DefaultTask() {
-    /** Executables with their arguments, in which [CLASSPATH] represents [classpath]. */
     @get:Input
     abstract val commands: ListProperty<List<String>>
 
@@ -44,12 +43,7 @@ internal abstract class GenerateSources : DefaultTask() {
         files.delete { it.delete(output) }
         output.get().asFile.mkdirs()
         for (command in commands.get()) {
-            processes.exec { it.commandLine(command.map { part -> if (part == CLASSPATH) classpath.asPath else part }) }
+            processes.exec { it.commandLine(command).environment("CLASSPATH", classpath.asPath) }
         }
-    }
-
-    companion object {
-        /** The text of the element `<classpath/>`. */
-        const val CLASSPATH = ""
     }
 }

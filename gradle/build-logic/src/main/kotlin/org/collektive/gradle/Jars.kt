@@ -22,14 +22,13 @@ internal fun configureJars(project: Project, pom: Model, classes: FileCollection
         it.isPreserveFileTimestamps = false
         it.isReproducibleFileOrder = true
     }
-    val name = pom.settings("maven-jar-plugin").text("finalName") ?: pom.build.finalName
-    project.tasks.named("jar", Jar::class.java) { it.archiveFileName.set("$name.jar") }
-    for (execution in pom.executions("maven-shade-plugin")) shade(project, pom, classes, execution.settings)
+    project.tasks.named("jar", Jar::class.java) { it.archiveFileName.set("${pom.build.finalName}.jar") }
+    for (execution in pom.plugin("maven-shade-plugin").executions) shade(project, pom, classes, execution.settings)
 }
 
 /** Makes a jar of [classes] and of those dependencies that the artifact set of [settings] contains. */
 private fun shade(project: Project, pom: Model, classes: FileCollection, settings: Xpp3Dom) {
-    val output = File(settings.text("outputFile").orEmpty())
+    val output = File(checkNotNull(settings.text("outputFile")))
     val artifacts = settings.getChild("artifactSet") ?: Xpp3Dom("artifactSet")
     val dependencies = project.configurations.getByName("runtimeClasspath").incoming.artifactView { view ->
         view.componentFilter { component ->

@@ -3,6 +3,7 @@ package org.collektive.gradle
 import org.apache.maven.model.Dependency
 import org.apache.maven.model.Model
 import org.codehaus.plexus.util.xml.Xpp3Dom
+import org.gradle.api.GradleException
 import org.gradle.api.Project
 import org.gradle.api.tasks.PathSensitivity
 import org.gradle.api.tasks.SourceSet
@@ -30,7 +31,7 @@ internal class MavenModule(private val project: Project, private val pom: Model)
         project.pluginManager.apply("java-library")
         pom.dependencies.forEach(::addDependency)
         configureJava()
-        if (pom.plugin("kotlin-maven-plugin") != null) configureKotlin()
+        configureKotlin()
         configureResources()
         generateSources()
         requireFiles()
@@ -55,7 +56,7 @@ internal class MavenModule(private val project: Project, private val pom: Model)
     private fun configureJava() {
         main.java.setSrcDirs(listOf(pom.build.sourceDirectory))
         tasks.withType(JavaCompile::class.java).configureEach { it.options.release.set(release.toInt()) }
-        val settings = pom.settings("maven-compiler-plugin")
+        val settings = pom.plugin("maven-compiler-plugin").settings
         val processors = settings.texts("annotationProcessors")
         tasks.named("compileJava", JavaCompile::class.java) {
             it.options.compilerArgs.addAll(settings.texts("compilerArgs"))
@@ -70,12 +71,12 @@ internal class MavenModule(private val project: Project, private val pom: Model)
         project.pluginManager.apply("org.jetbrains.kotlin.jvm")
         // The name is part of the classes.
         tasks.named("compileKotlin", KotlinJvmCompile::class.java) { it.compilerOptions.moduleName.set(pom.artifactId) }
-        configureKotlin("default-compile", "compileKotlin", "main", "kotlinCompilerPluginClasspathMain")
-        configureKotlin("default-test-compile", "compileTestKotlin", "test", "kotlinCompilerPluginClasspathTest")
+        val executions = pom.plugin("kotlin-maven-plugin").executions.associate { it.id to it.settings }
+        configureKotlin(executions.getValue("default-compile"), "compileKotlin", "main", "kotlinCompilerPluginClasspathMain")
+        configureKotlin(executions.getValue("default-test-compile"), "compileTestKotlin", "test", "kotlinCompilerPluginClasspathTest")
     }
 
-    private fun configureKotlin(execution: String, task: String, sourceSet: String, pluginClasspath: String) {
-        val settings = pom.executions("kotlin-maven-plugin").first { it.id == execution }.settings
+    private fun configureKotlin(settings: Xpp3Dom, task: String, sourceSet: String, pluginClasspath: String) {
         val kotlin = project.extensions.getByType(KotlinJvmProjectExtension::class.java)
         kotlin.sourceSets.getByName(sourceSet).kotlin.srcDirs(settings.texts("sourceDirs") - pom.properties["generated"])
         val (plugins, flags) = settings.texts("args").partition { it.startsWith("-Xplugin=") }
@@ -106,13 +107,11 @@ internal class MavenModule(private val project: Project, private val pom: Model)
 
     /** Runs the commands of `exec-maven-plugin`, which write to the directory in the property `generated`. */
     private fun generateSources() {
-        val plugin = pom.plugin("exec-maven-plugin") ?: return
+        val plugin = pom.plugin("exec-maven-plugin")
+        if (plugin.executions.isEmpty()) return
         val generated = project.file(pom.properties.getProperty("generated"))
         val commands = plugin.executions.map { command(it.settings) }
-        val generators = project.configurations.create("generators") {
-            it.isCanBeConsumed = false
-            it.extendsFrom(project.configurations.getByName("compileOnly"))
-        }
+        val generators = project.configurations.create("generators") { it.isCanBeConsumed = false }
         for (dependency in plugin.dependencies) project.dependencies.add(generators.name, notation(dependency))
         val task = tasks.register("generateSources", GenerateSources::class.java) {
             it.dependsOn(packagedModules)
@@ -125,38 +124,37 @@ internal class MavenModule(private val project: Project, private val pom: Model)
         tasks.named("processResources") { it.dependsOn(task) }
     }
 
-    /** Returns the command of an execution: that of the goal `exec` names an executable, that of `java` a class. */
+    /** Returns the command of an execution: the goal `exec` names an executable, the goal `java` a class. */
     private fun command(settings: Xpp3Dom): List<String> {
-        val mainClass = settings.text("mainClass")
-        val java = File(System.getProperty("java.home"), "bin/java").path
-        val executable = settings.text("executable").orEmpty()
-        val start = if (mainClass == null) listOf(executable) else listOf(java, "-classpath", GenerateSources.CLASSPATH, mainClass)
+        val java = "${System.getProperty("java.home")}/bin/java"
+        val start = settings.text("executable")?.let(::listOf) ?: listOf(java, checkNotNull(settings.text("mainClass")))
         return start + settings.texts("arguments")
     }
 
     /** Fails the build as `maven-enforcer-plugin` does when `./collektive setup` has not run. */
     private fun requireFiles() {
-        for (rule in pom.executions("maven-enforcer-plugin").flatMap { it.settings.children("rules") }) {
-            val task = tasks.register("requireFiles", RequireFiles::class.java) {
-                it.files.from(rule.texts("files"))
-                it.message.set(rule.text("message"))
+        for (rule in pom.plugin("maven-enforcer-plugin").executions.flatMap { it.settings.children("rules") }) {
+            val files = rule.texts("files").map(::File)
+            val message = checkNotNull(rule.text("message"))
+            val task = tasks.register("requireFiles") {
+                it.inputs.files(files)
+                // It has no outputs.
+                it.outputs.upToDateWhen { true }
+                it.doLast { if (!files.all(File::exists)) throw GradleException(message) }
             }
             tasks.named("compileJava") { it.dependsOn(task) }
         }
     }
 
     private fun configureTests() {
-        val settings = pom.settings("maven-surefire-plugin")
-        val properties = settings.children("systemPropertyVariables").associate { it.name to it.value }
+        val settings = pom.plugin("maven-surefire-plugin").settings
         tasks.named("test", Test::class.java) { test ->
             test.dependsOn(packagedModules)
             test.useJUnitPlatform()
             test.jvmArgs(settings.text("argLine").orEmpty().split(' ').filter { it.isNotEmpty() })
-            test.systemProperties(properties)
-            if (project.rootDir.path in properties.values) {
-                val repository = project.fileTree(project.rootDir) { it.include(REPOSITORY) }
-                test.inputs.files(repository).withPropertyName("repository").withPathSensitivity(PathSensitivity.RELATIVE)
-            }
+            test.systemProperties(settings.children("systemPropertyVariables").associate { it.name to it.value })
+            val repository = project.fileTree(project.rootDir) { it.include(REPOSITORY) }
+            test.inputs.files(repository).withPropertyName("repository").withPathSensitivity(PathSensitivity.RELATIVE)
         }
     }
 
@@ -169,15 +167,7 @@ internal class MavenModule(private val project: Project, private val pom: Model)
         )
 
         /** The files that tests find below the root of the repository. */
-        val REPOSITORY = listOf(
-            "docs/**",
-            "schema/**",
-            "unity/**/*.fbs",
-            "unity/**/Generated/**",
-            "jvm-host/pom.xml",
-            "jvm-host/*/pom.xml",
-            "jvm-host/*/api/**",
-            "jvm-host/*/src/**",
-        )
+        val REPOSITORY = listOf("docs/architecture.md", "schema/**") +
+            listOf("pom.xml", "*/pom.xml", "*/api/**", "*/src/test/**").map { "jvm-host/$it" }
     }
 }

@@ -3,7 +3,6 @@ package org.collektive.gradle
 import org.apache.maven.model.ConfigurationContainer
 import org.apache.maven.model.Model
 import org.apache.maven.model.Plugin
-import org.apache.maven.model.PluginExecution
 import org.apache.maven.model.building.DefaultModelBuilderFactory
 import org.apache.maven.model.building.DefaultModelBuildingRequest
 import org.apache.maven.model.building.ModelBuildingRequest
@@ -24,28 +23,18 @@ internal class PomReader(private val root: File) {
             .setValidationLevel(ModelBuildingRequest.VALIDATION_LEVEL_MINIMAL)
             .setSystemProperties(mapOf("java.home" to System.getProperty("java.home")).toProperties())
             .setUserProperties(mapOf("maven.multiModuleProjectDirectory" to root.path).toProperties())
-        val builder = DefaultModelBuilderFactory().newInstance().setLifecycleBindingsInjector { model, _, _ -> bindPlugins(model) }
         val text = StringWriter()
-        MavenXpp3Writer().write(text, builder.build(request).effectiveModel)
+        MavenXpp3Writer().write(text, DefaultModelBuilderFactory().newInstance().build(request).effectiveModel)
         return MavenXpp3Reader().read(StringReader(text.toString().replace(MAVEN_OUTPUT, "$1build")))
     }
 
-    /** Adds the plugins that Maven binds to the lifecycle of each module, for their managed configuration. */
-    private fun bindPlugins(model: Model) = LIFECYCLE_PLUGINS.filter { model.plugin(it) == null }.forEach { name ->
-        model.build.addPlugin(Plugin().apply { artifactId = name })
-    }
-
     private companion object {
-        val LIFECYCLE_PLUGINS = listOf("maven-compiler-plugin", "maven-jar-plugin", "maven-surefire-plugin")
         val MAVEN_OUTPUT = Regex("""([/\\])target\b""")
     }
 }
 
-internal fun Model.plugin(name: String): Plugin? = build.plugins.find { it.artifactId == name }
-
-internal fun Model.executions(plugin: String): List<PluginExecution> = plugin(plugin)?.executions.orEmpty()
-
-internal fun Model.settings(plugin: String): Xpp3Dom = plugin(plugin)?.settings ?: Xpp3Dom("configuration")
+/** Returns the plugin [name]. Maven itself adds some plugins; of these, a module may have only an entry in the plugin management. */
+internal fun Model.plugin(name: String): Plugin = (build.plugins + build.pluginManagement.plugins).first { it.artifactId == name }
 
 /** The configuration of a plugin or of one of its executions. */
 internal val ConfigurationContainer.settings: Xpp3Dom get() = configuration as? Xpp3Dom ?: Xpp3Dom("configuration")

@@ -12,7 +12,7 @@ import org.collektive.testkit.ReferenceDevices
 import kotlin.test.assertEquals
 
 /** Reference devices, all linked, that do not implement `AlignmentStack` if they are [plain]. */
-internal fun referenceNetwork(vararg ids: Int, plain: Boolean = false) = Network(ReferenceDevices(isPlain = plain), *ids).apply {
+internal fun referenceNetwork(vararg ids: Int, plain: Boolean = false) = Network(ReferenceDevices(isAligned = !plain), *ids).apply {
     for (a in ids) for (b in ids) if (a < b) link(a, b)
 }
 
@@ -41,7 +41,7 @@ internal fun assertSeen(compiled: Compilation, program: String, expected: Array<
 /** All ways of running four devices in a row, by name: the reference devices and those of users. */
 internal fun rows(): Map<String, Network> = mapOf(
     "reference" to ReferenceDevices(),
-    WITHOUT_STACK to ReferenceDevices(isPlain = true),
+    WITHOUT_STACK to ReferenceDevices(isAligned = false),
     "in place" to AggregateRuntimes(),
     "mailboxes" to mailboxes(null),
     "mailboxes with JSON" to mailboxes(Json { allowSpecialFloatingPointValues = true }),

@@ -40,7 +40,7 @@ class RoutesTest {
         nextId = 0
         val random = Random(seed)
         val devices = HashMap<Int, Collektive<Int, Any?>>()
-        val reference = Network(ReferenceDevices(isPlain = true))
+        val reference = Network(ReferenceDevices(isAligned = false))
         val others = mapOf(
             "reference with AlignmentStack" to Network(ReferenceDevices()),
             "in place" to Network(AggregateRuntimes()),

@@ -20,8 +20,8 @@ import org.collektive.spi.Inbox
 import org.collektive.spi.RoundProgram
 
 /**
- * Devices of the public API: each runs the function that [cycle] makes for its id, its mailbox and its program. A `Collektive` of the
- * implementation under test has this function.
+ * Devices of the public API. Each runs the function that [cycle] returns for its id, its mailbox and its program: `Collektive.cycle` of the
+ * implementation under test.
  *
  * @param json the format of messages; `null` passes them as objects.
  */
@@ -46,7 +46,7 @@ public class MailboxDevices(
             this.program = { program.run(this, sensors) }
             inbound = Inbound(
                 (0 until inbox.size).mapNotNull { index ->
-                    (inbox.export(index) as Envelope?)?.let { delivered(it.content, if (inbox.wasKnown(index)) id else NOBODY) }
+                    (inbox.export(index) as Envelope?)?.let { delivered(it.content, if (inbox.wasKnown(index)) id else NON_NEIGHBOUR) }
                 },
             )
             return cycle()
@@ -54,7 +54,7 @@ public class MailboxDevices(
 
         override fun commit() = checkNotNull(outbound)
 
-        override val exports get() = checkNotNull(outbound).content.prepareMessageFor(NOBODY).sharedData.size
+        override val exports get() = checkNotNull(outbound).content.prepareMessageFor(NON_NEIGHBOUR).sharedData.size
 
         override fun placeOf(failure: Throwable) = null
 
@@ -64,7 +64,7 @@ public class MailboxDevices(
             outbound = Envelope(outboundMessage)
         }
 
-        override fun deliverableReceived(message: Message<Int, *>) = error("messages come with the links")
+        override fun deliverableReceived(message: Message<Int, *>) = error("messages arrive with the inbox of a round")
 
         override fun currentInbound() = inbound
     }
@@ -96,7 +96,7 @@ public class MailboxDevices(
     }
 
     private companion object {
-        /** The id of no device; stands for a receiver that was no neighbour when the message was sent. */
-        const val NOBODY = -1
+        /** Stands for a receiver that was not a neighbour when the message was sent. It is not the id of a device. */
+        const val NON_NEIGHBOUR = -1
     }
 }

@@ -73,7 +73,7 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
     /** The device of the node [id]. */
     public fun device(id: Int): DeviceRuntime = node(id).device
 
-    /** Runs one round of each node in [due]; returns what each returned or threw. Successful rounds send their messages at the end. */
+    /** Runs one round of each node in [due] and returns the results or exceptions. Successful rounds send their messages at the end. */
     public fun <R> outcomes(due: Collection<Int> = ids, program: Aggregate<Int>.() -> R): Map<Int, Result<R>> {
         now++
         runtimes.tidy(nodes.values.map { it.device })
@@ -82,7 +82,7 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
         return due.zip(results).toMap().onEach { (id, result) -> if (result.isSuccess) node(id).send() }
     }
 
-    /** Runs one round of each node in [due] and returns the results. @throws Throwable what the first failed round threw. */
+    /** Runs one round of each node in [due] and returns the results. @throws Throwable the exception of the first failed round. */
     public fun <R> round(due: Collection<Int>, program: Aggregate<Int>.() -> R): Map<Int, R> =
         outcomes(due, program).mapValues { it.value.getOrThrow() }
 

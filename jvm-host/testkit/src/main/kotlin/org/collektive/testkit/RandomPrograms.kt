@@ -14,11 +14,11 @@ import kotlin.random.Random
 /** A part of a program; returns a number or `null`. */
 public typealias Piece = Aggregate<Int>.() -> Int?
 
-/** Random programs of all primitives: nested in each other, in branches, in recursion and below data. */
+/** Random programs of all primitives: nested in each other, in branches, in recursion and aligned on data. */
 public class RandomPrograms(private val random: Random) {
     private var places = 0
 
-    /** The next program. */
+    /** Returns the next program. */
     public fun next(): Piece = piece(4)
 
     private fun piece(depth: Int): Piece {
@@ -58,8 +58,8 @@ public class RandomPrograms(private val random: Random) {
 
             11 -> at {
                 val field = neighboring<Int, Int?>(k)
-                val way = (localId + (alignedOn("way") { a() } ?: 1)) % 2
-                alignedOn(way) {
+                val branch = (localId + (alignedOn("condition") { a() } ?: 1)) % 2
+                alignedOn(branch) {
                     project(field, "field@Test.kt:1#0123456789abcdef")?.all?.list?.fold(null as Int?) { s, e -> mix(mix(s, e.id), e.value) }
                 }
             }

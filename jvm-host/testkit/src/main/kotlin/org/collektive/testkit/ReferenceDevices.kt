@@ -23,11 +23,12 @@ import org.collektive.spi.RoundProgram
 /**
  * Devices that store everything in maps by whole path: slow, and simple enough to be correct.
  *
- * @param isPlain whether devices do not implement [AlignmentStack].
+ * @param isAligned whether devices implement [AlignmentStack].
  * @param ignoresClashes for programs that are compiled without the plugin.
  */
-public class ReferenceDevices(private val isPlain: Boolean = false, private val ignoresClashes: Boolean = false) : DeviceRuntimes {
-    override fun device(id: Int): ReferenceDevice = if (isPlain) ReferenceDevice(id, ignoresClashes) else AlignedDevice(id, ignoresClashes)
+public class ReferenceDevices(private val isAligned: Boolean = true, private val ignoresClashes: Boolean = false) : DeviceRuntimes {
+    override fun device(id: Int): ReferenceDevice =
+        if (isAligned) AlignedDevice(id, ignoresClashes) else ReferenceDevice(id, ignoresClashes)
 
     /** Devices share nothing. */
     override fun tidy(devices: List<DeviceRuntime>) {}
@@ -49,7 +50,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
     public val visited: List<String> get() = paths.map(::describe)
 
     /** The values that the last successful round stored, by path. */
-    public val state: Map<List<Any?>, Any?> get() = last.kept
+    public val state: Map<List<Any?>, Any?> get() = last.stored
 
     override val inMemoryOnly: Boolean get() = true
 
@@ -70,9 +71,9 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         evolving(initial) { old -> transform(old).yielding { this } }
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
-        val path = claim()
-        val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
-        running.kept[path] = kept
+        val path = visit()
+        val (stored, result) = YieldingContext<Stored, Return>().transform(storedAt(path, initial))
+        running.stored[path] = stored
         return result
     }
 
@@ -81,15 +82,15 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         dataSharingMethod: DataSharingMethod<Shared>,
         body: YieldingScope<Field<Int, Shared>, Return>,
     ): Return {
-        val path = claim()
-        val (toSend, result) = YieldingContext<Field<Int, Shared>, Return>().body(received(path, keptAt(path, initial)))
-        running.kept[path] = toSend.local.value
+        val path = visit()
+        val (toSend, result) = YieldingContext<Field<Int, Shared>, Return>().body(received(path, storedAt(path, initial)))
+        running.stored[path] = toSend.local.value
         running.sent[path] = SharedData(toSend.local.value, toSend.neighbors.list.associate { it.id to it.value })
         return result
     }
 
     override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<Int, Shared> {
-        val path = claim()
+        val path = visit()
         running.sent[path] = SharedData(local)
         return received(path, local)
     }
@@ -122,7 +123,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         running.sent.putIfAbsent(stack.toList(), SharedData(null))
     }
 
-    /** What each neighbour that was at [path] in its last round sent there to this device. */
+    /** The values that neighbours sent to this device from [path] in their last round, by id. */
     protected fun messages(path: List<Any?>): Map<Int, Any?> = buildMap {
         val inbox = checkNotNull(inbox)
         for (index in 0 until inbox.size) {
@@ -131,14 +132,14 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         }
     }
 
-    private fun claim(): List<Any?> {
+    private fun visit(): List<Any?> {
         val path = stack.toList()
         if (running.paths.add(path) || ignoresClashes) return path
         throw AlignmentClashException(FullPath(path), null, SharedData<Int, Any?>(null))
     }
 
     @Suppress("UNCHECKED_CAST")
-    private fun <T> keptAt(path: List<Any?>, initial: T): T = if (path in last.kept) last.kept[path] as T else initial
+    private fun <T> storedAt(path: List<Any?>, initial: T): T = if (path in last.stored) last.stored[path] as T else initial
 
     private fun <T> received(path: List<Any?>, local: T): Field<Int, T> =
         messages(path).let { Field.make(this, it.keys.toTypedArray(), it.values.toTypedArray(), local) }
@@ -148,7 +149,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
     /** The outcome of a round: visited paths, stored values, and the values to send. */
     private class Record : Export() {
         val paths = LinkedHashSet<List<Any?>>()
-        val kept = HashMap<List<Any?>, Any?>()
+        val stored = HashMap<List<Any?>, Any?>()
         val sent = HashMap<List<Any?>, SharedData<Int, Any?>>()
     }
 }
@@ -177,8 +178,8 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
 
     override fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T> {
         markSeen()
-        val here = messages(stack.toList()).keys
-        val kept = field.neighbors.list.filter { entry -> here.any { it == entry.id } }
+        val senders = messages(stack.toList()).keys
+        val kept = field.neighbors.list.filter { entry -> senders.any { it == entry.id } }
         return Field.make(
             field.context,
             kept.map<_, Any> { it.id }.toTypedArray(),
