@@ -1,5 +1,6 @@
 """Processes of a command: one group that receives the command's signals, and children that are waited for."""
 import contextlib
+import ctypes
 import os
 import signal
 import subprocess
@@ -10,6 +11,8 @@ from pathlib import Path
 from types import FrameType
 
 _waiting = False
+# Of linux/prctl.h: orphans among the descendants become children of this process.
+_SET_CHILD_SUBREAPER = 36
 
 
 def attended(main: Callable[[], int]) -> int:
@@ -19,6 +22,7 @@ def attended(main: Callable[[], int]) -> int:
     """
     sys.stdout.flush()
     sys.stderr.flush()
+    ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     watched, lifeline = os.pipe()
     group = os.fork()
     if group == 0:
@@ -43,11 +47,12 @@ def attended(main: Callable[[], int]) -> int:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, forward)
     code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
-    # The first process may end before those that it started.
+    # The first process may end before those that it started. In a container, nobody else may wait for these.
     while _has_members(group):
-        time.sleep(0.05)
+        _reap()
+        time.sleep(0.02)
     os.close(lifeline)
-    os.waitpid(watcher, 0)
+    _reap(watcher)
     if code < 0:
         code = 128 - code
     return 128 + received[-1] if received and code != 0 else code
@@ -88,6 +93,12 @@ def _watch(watched: int, lifeline: int, group: int) -> None:
     with contextlib.suppress(ProcessLookupError):
         os.killpg(group, signal.SIGTERM)
     os._exit(0)
+
+
+def _reap(process: int | None = None) -> None:
+    """Waits for a child, or clears away a child that has ended, if there is one."""
+    with contextlib.suppress(ChildProcessError):
+        os.waitpid(process or -1, 0 if process else os.WNOHANG)
 
 
 def _has_members(group: int) -> bool:

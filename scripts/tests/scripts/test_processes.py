@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 
 import pytest
-from checkout import Checkout
+from checkout import SETUP, Checkout
 
 # A child of the group's first process, which writes its process id.
 CHILD = "processes.call([sys.executable, '-c', 'import os, sys, time; open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
@@ -55,6 +55,13 @@ def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, nu
 
 def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> None:
     assert checkout.run(attended("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
+
+
+def test_a_command_ends_where_nobody_waits_for_orphans(checkout: Checkout) -> None:
+    # As in a container, whose first process often does not.
+    negligent = "import ctypes; ctypes.CDLL(None).prctl(36, 1, 0, 0, 0); sys.exit(__import__('subprocess').run([sys.executable, '-c', {!r}, root]).returncode)"
+    orphan = attended("__import__('subprocess').Popen(['sleep', '0.5']) and 0")
+    assert checkout.run(negligent.format(SETUP + orphan)).returncode == 0
 
 
 def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:

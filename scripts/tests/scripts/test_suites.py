@@ -115,7 +115,7 @@ def test_the_results_of_ctest_are_read(tmp_path: Path) -> None:
         add_test(NAME crash COMMAND sh -c "kill -SEGV $$")
         add_test(NAME missing COMMAND nonesuch)
         """))
-    subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path], check=True, capture_output=True)
+    subprocess.run(["cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path], check=True, capture_output=True)
     subprocess.run(["ctest", "--test-dir", tmp_path, "--output-junit", tmp_path / "results.xml"], capture_output=True)
     assert {case.name.split(".")[-1]: bool(case.failure) for case in junit.read(str(tmp_path / "results.xml"))} == {
         "good": False, "bad": True, "crash": True, "missing": True}
@@ -131,7 +131,7 @@ def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[...
     (root / "collektive").write_text("#!/bin/sh\ntest $2 != broken\n")
     (root / "good.xml").write_text(GOOD)
     (root / "bad.xml").write_text(BAD)
-    subprocess.run(["cmake", "-S", root, "-B", root / "build/cmake"], check=True, capture_output=True)
+    subprocess.run(["cmake", "-G", "Ninja", "-S", root, "-B", root / "build/cmake"], check=True, capture_output=True)
     monkeypatch.setattr(command, "GRAPH", root / "build/cmake")
     monkeypatch.setattr(command, "RESULTS", root / "build/results")
 
