@@ -30,9 +30,9 @@ def _matches(path: str, patterns: tuple[str, ...]) -> bool:
     return any(fnmatch.fnmatch(path, pattern) for pattern in patterns)
 
 
-def clean(*command: str) -> None:
+def clean(*command: str, tools: str = "npm") -> None:
     result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, "npm/node_modules"), "NO_COLOR": "1"})
+                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, tools, "node_modules"), "NO_COLOR": "1"})
     if result.returncode != 0:
         pytest.fail(result.stdout[-20000:], pytrace=False)
 
@@ -74,3 +74,23 @@ def test_texts_are_as_editorconfig_describes() -> None:
     # ktlint checks Kotlin, and allows long literals and names of tests.
     texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
     clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
+
+
+def pages() -> list[str]:
+    return ["README.md"]
+
+
+def test_pages_have_no_errors_of_grammar() -> None:
+    clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
+
+
+def test_pages_avoid_the_habits_of_english_txt() -> None:
+    habits = [line.split(" => ") for line in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not line.startswith("#")]
+    found = []
+    for page in pages():
+        code = re.compile(r"^( *)```.*?^\1```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
+        prose = code.sub(lambda block: "\n" * block[0].count("\n"), (ROOT / page).read_text())
+        for pattern, advice in habits:
+            for match in re.finditer(pattern, prose, re.IGNORECASE):
+                found.append(f"{page}:{prose[:match.start()].count(chr(10)) + 1}: {match[0]!r}: {advice}")
+    assert not found, "\n".join(found)
