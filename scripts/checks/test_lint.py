@@ -77,7 +77,7 @@ def test_texts_are_as_editorconfig_describes() -> None:
 
 
 def pages() -> list[str]:
-    return ["README.md"]
+    return ["README.md", *sources("Documentation~/tutorial-*.md")]
 
 
 def test_pages_have_no_errors_of_grammar() -> None:
