@@ -9,11 +9,13 @@ import pytest
 
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
+from checks import messages
 
 # Made by generators, whose lines are their own.
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
 # Programs as users write them, in their styles.
 GIVEN = ("jvm-host/*/src/test/resources/*",)
+HABITS = [entry.split(" => ") for entry in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not entry.startswith("#")]
 
 
 def sources(*patterns: str) -> list[str]:
@@ -84,13 +86,19 @@ def test_pages_have_no_errors_of_grammar() -> None:
     clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
 
 
+def habits(place: str, prose: str, line: int = 1) -> list[str]:
+    """Returns a line for each match of a pattern of english.txt in a text that begins at a line of a file."""
+    return [f"{place}:{line + prose[:match.start()].count(chr(10))}: {match[0]!r}: {advice}"
+            for pattern, advice in HABITS for match in re.finditer(pattern, prose, re.IGNORECASE)]
+
+
 def test_pages_avoid_the_habits_of_english_txt() -> None:
-    habits = [line.split(" => ") for line in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not line.startswith("#")]
-    found = []
-    for page in pages():
-        code = re.compile(r"^( *)```.*?^\1```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
-        prose = code.sub(lambda block: "\n" * block[0].count("\n"), (ROOT / page).read_text())
-        for pattern, advice in habits:
-            for match in re.finditer(pattern, prose, re.IGNORECASE):
-                found.append(f"{page}:{prose[:match.start()].count(chr(10)) + 1}: {match[0]!r}: {advice}")
+    code = re.compile(r"^( *)```.*?^\1```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
+    found = [habit for page in pages() for habit in habits(page, code.sub(lambda block: "\n" * block[0].count("\n"), (ROOT / page).read_text()))]
+    assert not found, "\n".join(found)
+
+
+def test_messages_and_comments_avoid_the_habits_of_english_txt() -> None:
+    found = [habit for source in messages.sources(["schema/*"]) for line, is_comment, text in messages.texts(ROOT / source)
+             if is_comment or messages.is_message(text) for habit in habits(source, text, line)]
     assert not found, "\n".join(found)
