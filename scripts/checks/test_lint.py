@@ -5,11 +5,11 @@ import re
 import subprocess
 import sys
 
+import messages
 import pytest
 
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
-from checks import messages
 
 # Made by generators, whose lines are their own.
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
