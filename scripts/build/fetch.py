@@ -127,11 +127,15 @@ def _physx(folder: Path) -> None:
     _patch("physx", folder)
 
 
-def _npm(folder: Path) -> None:
+def _npm(tool: str, folder: Path) -> None:
     for name in ("package.json", "package-lock.json", ".npmrc"):
-        shutil.copy(TOOLS / "npm" / name, folder)
-    logged("npm", ["npm", "ci", "--ignore-scripts"], cwd=folder)
-    logged("npm", ["node", TOOLS / "npm/unpack-chromium.mjs", folder / "node_modules"])
+        shutil.copy(TOOLS / tool / name, folder)
+    logged(folder.name, ["npm", "ci", "--ignore-scripts"], cwd=folder)
+
+
+def _build_tools(folder: Path) -> None:
+    _npm("npm", folder)
+    logged(folder.name, ["node", TOOLS / "npm/unpack-chromium.mjs", folder / "node_modules"])
 
 
 def _maven_jars(tool: str, folder: Path) -> None:
@@ -169,9 +173,7 @@ def _add_to_experiments(requirements: Path, _: Path) -> None:
 
 def _site_tools(folder: Path) -> None:
     _environment(TOOLS / "site/requirements.txt", folder)
-    for name in ("package.json", "package-lock.json", ".npmrc"):
-        shutil.copy(TOOLS / "site" / name, folder)
-    logged("site-tools", ["npm", "ci", "--ignore-scripts"], cwd=folder)
+    _npm("site", folder)
 
 
 def _zig(folder: Path) -> None:
@@ -209,7 +211,8 @@ _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
     "physx": ([TOOLS / "physx"], _physx),
-    "npm": ([TOOLS / "npm"], _npm),
+    "npm": ([TOOLS / "npm"], _build_tools),
+    "prose": ([TOOLS / "prose"], partial(_npm, "prose")),
     "kotlinc": ([TOOLS / "kotlinc", pom_value("kotlin.version")], partial(_maven_jars, "kotlinc")),
     "ktlint": ([TOOLS / "ktlint"], partial(_maven_jars, "ktlint")),
     "go": ([ACTIONLINT, shutil.which("go") or ""], _actionlint),

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import messages
 import pytest
 
 from build.jdk import find_jdk
@@ -14,6 +15,7 @@ from build.places import BUILD, ROOT
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
 # Programs as users write them, in their styles.
 GIVEN = ("jvm-host/*/src/test/resources/*",)
+HABITS = [entry.split(" => ") for entry in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not entry.startswith("#")]
 
 
 def sources(*patterns: str) -> list[str]:
@@ -30,9 +32,9 @@ def _matches(path: str, patterns: tuple[str, ...]) -> bool:
     return any(fnmatch.fnmatch(path, pattern) for pattern in patterns)
 
 
-def clean(*command: str) -> None:
+def clean(*command: str, tools: str = "npm") -> None:
     result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, "npm/node_modules"), "NO_COLOR": "1"})
+                            env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, tools, "node_modules"), "NO_COLOR": "1"})
     if result.returncode != 0:
         pytest.fail(result.stdout[-20000:], pytrace=False)
 
@@ -74,3 +76,29 @@ def test_texts_are_as_editorconfig_describes() -> None:
     # ktlint checks Kotlin, and allows long literals and names of tests.
     texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
     clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
+
+
+def pages() -> list[str]:
+    return [page for page in sources("*.md") if page not in ("CHANGELOG.md", "THIRD-PARTY.md")]
+
+
+def test_pages_have_no_errors_of_grammar() -> None:
+    clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
+
+
+def habits(place: str, prose: str, line: int = 1) -> list[str]:
+    """Returns a line for each match of a pattern of english.txt in a text that begins at a line of a file."""
+    return [f"{place}:{line + prose[:match.start()].count(chr(10))}: {match[0]!r}: {advice}"
+            for pattern, advice in HABITS for match in re.finditer(pattern, prose, re.IGNORECASE)]
+
+
+def test_pages_avoid_the_habits_of_english_txt() -> None:
+    code = re.compile(r"^( *)```.*?^\1```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
+    found = [habit for page in pages() for habit in habits(page, code.sub(lambda block: "\n" * block[0].count("\n"), (ROOT / page).read_text()))]
+    assert not found, "\n".join(found)
+
+
+def test_messages_and_comments_avoid_the_habits_of_english_txt() -> None:
+    found = [habit for source in messages.sources(["schema/*"]) for line, is_comment, text in messages.texts(ROOT / source)
+             if is_comment or messages.is_message(text) for habit in habits(source, text, line)]
+    assert not found, "\n".join(found)

@@ -45,7 +45,7 @@ SCENARIO = """{
 
 
 def project():
-    """The code of the section "A program": schema, program, sensor, actuator."""
+    """The code of the section "Example": schema, program, sensor, actuator."""
     return [block.text for block in of_kind("project") if block.page == "README.md"]
 
 

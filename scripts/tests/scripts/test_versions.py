@@ -63,7 +63,7 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None
         physx_version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
     assert third_party("PhysX") == f"{physx_version} ({physx})"
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
-    for tools in ["npm", "site"]:
+    for tools in ["npm", "prose", "site"]:
         for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
             assert third_party(name) == wanted, name
     experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]

@@ -1,0 +1,24 @@
+// prose.mjs PAGE...: prints errors of grammar in pages, and exits with code 1 if there are any.
+import fs from "node:fs";
+import { pathToFileURL } from "node:url";
+
+const harper = pathToFileURL(`${process.env.COLLEKTIVE_NODE_MODULES}/harper.js/dist/`);
+const { Dialect, LocalLinter } = await import(`${harper}index.js`);
+const { slimBinaryInlined: binary } = await import(`${harper}slimBinaryInlined.js`);
+
+// The other kinds are matters of taste, or do not know our names and units.
+const KINDS = new Set(["Agreement", "BoundaryError", "Eggcorn", "Grammar", "Malapropism", "Nonstandard", "Redundancy", "Repetition", "Usage"]);
+
+const linter = new LocalLinter({ binary, dialect: Dialect.British });
+await linter.setLintConfig({ ...(await linter.getDefaultLintConfig()), SpellCheck: false });
+let errors = 0;
+for (const page of process.argv.slice(2)) {
+  const text = fs.readFileSync(page, "utf8");
+  for (const lint of await linter.lint(text, { language: "markdown" })) {
+    if (!KINDS.has(lint.lint_kind())) continue;
+    errors++;
+    const line = text.slice(0, lint.span().start).split("\n").length;
+    console.log(`${page}:${line}: ${lint.lint_kind()}: "${lint.get_problem_text()}": ${lint.message()}`);
+  }
+}
+process.exit(errors > 0 ? 1 : 0);
