@@ -47,7 +47,8 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
             raise ExperimentError("the scenario could not be built; see above")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
-            if not os.path.exists(os.path.join(bundle, "inputs.json")) or fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
+            has_hashes = os.path.exists(os.path.join(bundle, "inputs.json"))
+            if not has_hashes or fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
                 raise ExperimentError(f"the scenario, its scripts, schema or programs are not those that the runs in '{os.path.dirname(bundle)}' were made of: "
                                       "name another folder with --out, or undo the change")
             return
