@@ -25,8 +25,11 @@ def run(arguments: argparse.Namespace) -> int:
     folder: Path = arguments.folder
     graph.build("runtime")
     plan = player.plan(arguments.scenario, ["--trust-jvm"] if arguments.trust_jvm else [])
-    project = Path(os.path.abspath(arguments.scenario)).parent
-    paths = {key: copy(part, project, folder / "inputs", key) for key, part in plan.parts.items()}
+    _require_within(Path(os.path.abspath(arguments.scenario)).parent, plan.parts["schema"])
+    inputs = folder / "inputs"
+    paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in plan.parts.items()}
+    for part in plan.parts.values():
+        part.require_unchanged()
     (folder / "inputs.json").write_text(json.dumps({"paths": paths, "hashes": plan.hashes()}))
     if arguments.only_inputs:
         return 0
@@ -40,23 +43,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def copy(part: Part, project: Path, inputs: Path, key: str) -> str:
-    """Copies the files of a part of a project to a folder of that name in `inputs`, and returns the part's path in `inputs`.
-
-    The schema and its includes stay as they lie to each other. Raises `Failure` if one of these lies outside the project.
-    """
-    # Of a schema that lies elsewhere, its folder takes the project's place.
-    base = part.path if part.path.is_dir() else project if project in part.path.parents and key == "schema" else part.path.parent
-    (inputs / key).mkdir(parents=True)
-    for name, file in part.files.items():
-        relative = os.path.relpath(os.path.join(part.path.parent if part.path.is_file() else part.path, name), base)
-        if Path(relative).parts[0] == "..":
-            raise Failure(f"{part.path}: the included file '{name}' lies outside the project's folder, '{base}': move it there; a sweep runs a copy of it")
-        target = inputs / key / relative
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(file, target)
-    part.require_unchanged()
-    return os.path.normpath(os.path.join(key, os.path.relpath(part.path, base)))
+def _require_within(project: Path, schema: Part) -> None:
+    """Fails if a schema includes files from outside the project's folder, or from outside its own one if it lies elsewhere."""
+    folder = project if project in schema.path.parents else schema.folder
+    for name in schema.files:
+        if folder not in Path(os.path.normpath(schema.folder / name)).parents:
+            raise Failure(f"{schema.path}: the included file '{name}' is not in the folder '{folder}', which a sweep copies: move it there")
 
 
 if __name__ == "__main__":

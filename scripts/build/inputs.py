@@ -2,6 +2,7 @@
 import hashlib
 import os
 import re
+import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -23,6 +24,25 @@ class Part:
         self.files: Mapping[str, Path] = list_files(path)
         self.digest = _digest(self.files)
         self._list_files = list_files
+
+    @property
+    def folder(self) -> Path:
+        """The folder that names are relative to."""
+        return self.path if self.path.is_dir() else self.path.parent
+
+    @property
+    def root(self) -> Path:
+        """The folder that contains all files: above `folder` if names go up."""
+        up = max((Path(name).parts.count("..") for name in self.files), default=0)
+        return (self.folder / "_").parents[up]
+
+    def copy(self, target: Path) -> Path:
+        """Copies the files to a folder as they lie in `root`, with what links lead to in place of the links. Returns the copy of `path`."""
+        for name, file in self.files.items():
+            copy = target / os.path.relpath(self.folder / name, self.root)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
+        return target / self.path.relative_to(self.root)
 
     def require_unchanged(self) -> None:
         """Raises `Failure` if a file was changed, added or removed since this part was read."""

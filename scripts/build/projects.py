@@ -70,7 +70,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
             mark = f"collektive {_runtime_hash(jars)}"
             library = ":".join(str(jar) for jar in jars.files.values())
             options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
-        run(generator(schema.path, "--jvm", generated))
+        run(generator(schema.copy(work / "schema"), "--jvm", generated))
         sources = work / "sources"
         sources.write_text("".join(re.sub(r"([\\\s'\"])", r"\\\1", str(file)) + "\n" for file in programs.files.values()), errors="surrogateescape")
         compile_jvm(run, library, generated, classes, [*options, f"@{sources}"])
@@ -89,7 +89,7 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
 
     def compile_scripts(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
         generated = work / "generated"
-        run(generator(schema.path, "--csharp", generated))
+        run(generator(schema.copy(work / "schema"), "--csharp", generated))
         folder = scripts.path
         # The compiler takes quotes in paths away.
         if '"' in str(folder):
@@ -121,7 +121,7 @@ def compile_jvm(run: Callable[[Sequence[str | Path]], None], library: str, gener
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:
-    """Returns a file that `make` makes of parts of a project in an empty folder.
+    """Returns a file that `make` makes of parts of a project, a schema first, in an empty folder.
 
     The folder is named after all inputs, so what is there is right: two commands may make it at once, and the first is kept.
     """
@@ -137,10 +137,12 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
             for part in parts:
                 part.require_unchanged()
         except (subprocess.CalledProcessError, Failure) as error:
-            print(log.read_text(encoding="utf-8", errors="replace"), end="", file=sys.stderr)
+            # The generator reads a copy of the schema, without links, which it does not support.
+            messages = log.read_text(encoding="utf-8", errors="replace").replace(f"{work}/schema", str(parts[0].root))
+            print(messages, end="", file=sys.stderr)
             kept = LOGS / log.name
             kept.parent.mkdir(parents=True, exist_ok=True)
-            log.replace(kept)
+            kept.write_text(messages, encoding="utf-8")
             shutil.rmtree(work)
             raise error if isinstance(error, Failure) else CompileError(f"{name} failed; the whole log is {kept}") from error
         for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
