@@ -3,7 +3,6 @@ import os
 import random
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -85,6 +84,14 @@ def test_a_copy_has_the_same_hash_and_no_links(tmp_path: Path) -> None:
     assert not (tmp_path / "copy/common/c.fbs").is_symlink()
 
 
+def test_hashes_depend_on_names_and_contents_but_not_on_the_folder(tmp_path: Path) -> None:
+    a, b = (inputs.scripts(write(tmp_path / name / "part/A.cs", "same").parents[1]) for name in "ab")
+    assert a.digest == b.digest
+    (tmp_path / "b/part/A.cs").rename(tmp_path / "b/A.cs")
+    assert inputs.scripts(b.path).digest != a.digest
+    assert inputs.schema(write(tmp_path / "c/a.fbs")).digest != inputs.schema(write(tmp_path / "c/b.fbs")).digest
+
+
 def test_a_file_that_changes_while_it_is_compiled_is_noticed(tmp_path: Path) -> None:
     file = write(tmp_path / "A.cs", "one")
     part = inputs.scripts(tmp_path)
@@ -103,13 +110,14 @@ class Project:
         self.folder = folder / "project"
         self.random = random.Random(seed)
         self.made = 0
+        self.root = "root.fbs"
         for part in ("scripts", "programs", "schemas", "outside"):
             (self.folder / part).mkdir(parents=True)
         write(self.schema, SCHEMA)
 
     @property
     def schema(self) -> Path:
-        return next((self.folder / "schemas").glob("root*.fbs"))  if any((self.folder / "schemas").glob("root*.fbs")) else self.folder / "schemas/root.fbs"
+        return self.folder / "schemas" / self.root
 
     def digest(self) -> tuple[str, str, str]:
         """The hashes that caches are named after."""
@@ -149,7 +157,7 @@ class Project:
 
     def add_include(self) -> Path:
         includer = self.random.choice(self.files("schemas"))
-        included = self.random.choice([self.place("schemas"), *self.files("schemas")])
+        included = self.random.choice([self.place("schemas"), *(file for file in self.files("schemas") if file != includer)])
         if not included.exists():
             write(included, self.text())
         path = os.path.relpath(included, includer.parent)
@@ -173,18 +181,25 @@ class Project:
     def files(self, part: str = "") -> list[Path]:
         return [Path(place, name) for place, _, found in os.walk(self.folder / part) for name in sorted(found) if Path(place, name).is_file()]
 
+    def replaceable(self) -> list[Path]:
+        """Rarely included files and targets of links, without which hardly anything compiles any more."""
+        return self.files() if self.random.random() < 0.03 else [*self.files("scripts"), *self.files("programs")]
+
     def change(self) -> Path:
         file = self.random.choice(self.files())
         file.write_text(file.read_text() + self.text())
         return file
 
     def rename(self) -> Path:
-        file = self.random.choice([self.schema, *self.files()])
+        file = self.random.choice([self.schema, *self.replaceable()])
         self.made += 1
-        return file.rename(file.with_name(f"{'root' if file == self.schema else 'r'}{self.made}{file.suffix}"))
+        name = f"r{self.made}{file.suffix}"
+        if file == self.schema:
+            self.root = name
+        return file.rename(file.with_name(name))
 
     def remove(self) -> str:
-        files = [file for file in self.files() if file != self.schema]
+        files = [file for file in self.replaceable() if file != self.schema]
         if files:
             self.random.choice(files).unlink()
         return str(len(files))
@@ -204,4 +219,4 @@ def test_when_a_fresh_checkout_would_give_other_inputs_so_does_the_hash(tmp_path
                 assert now[part] != digests[part], history
                 differences[part] += 1
         before, digests = after, now
-    assert min(differences) > 3, differences
+    assert min(differences) > 0, differences
