@@ -116,11 +116,14 @@ class Worker:
         bundle = os.path.abspath(self._bundle)
         native = os.path.join(bundle, "native")
         library_path = os.environ.get("LD_LIBRARY_PATH")
+        with open(os.path.join(bundle, "inputs.json"), encoding="utf-8") as file:
+            inputs = json.dumps(json.load(file)["hashes"])
         with open(self._log, "ab") as log:
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
                  "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", os.path.join(bundle, "programs.jar"),
-                 "--host-jar", os.path.join(bundle, "jars/collektive-host.jar"), "--java-home", java_home(), *(["--trust-jvm"] if self._trust else [])],
+                 "--host-jar", os.path.join(bundle, "jars/collektive-host.jar"), "--java-home", java_home(), "--inputs", inputs,
+                 *(["--trust-jvm"] if self._trust else [])],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, cwd=os.path.dirname(self._log), start_new_session=True,
                 env={**os.environ, "LD_LIBRARY_PATH": native + (":" + library_path if library_path else "")})
         self._pending = b""

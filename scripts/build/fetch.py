@@ -60,7 +60,7 @@ def key_of(inputs: Iterable[Path | str]) -> str:
             digest.update(item.encode())
             continue
         for file in sorted(path for path in item.rglob("*") if path.is_file()) if item.is_dir() else [item]:
-            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+            digest.update(f"{file.relative_to(item.parent)}\0".encode() + hashlib.sha256(file.read_bytes()).digest())
     return digest.hexdigest()
 
 

@@ -1,20 +1,26 @@
 """The folder that a run writes to: prepared before the run, summarized after it."""
+import contextlib
 import fcntl
 import json
 import os
+import shutil
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 from build.console import Failure
 
-RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "start.png", "middle.png", "end.png")
+RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", "start.png", "middle.png", "end.png")
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
+# Folder of the earlier results until a run has begun.
+EARLIER = "earlier.part"
 
 
-def prepare(folder: Path, overwrite: bool) -> None:
-    """Makes the folder and locks it until this process and its children end.
+@contextlib.contextmanager
+def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
+    """Makes the folder of a run, locks it until this process and its children end, and empties it of results.
 
-    Results of an earlier run in it are refused, or removed with `overwrite`: its contents afterwards come from one run.
+    Results of an earlier run are refused, or removed with `overwrite`. They come back if the run writes no manifest, because of a wrong seed, say.
     Raises `Failure` if the folder cannot be used.
     """
     try:
@@ -28,15 +34,41 @@ def prepare(folder: Path, overwrite: bool) -> None:
     except BlockingIOError as error:
         raise Failure(f"another run writes to '{folder}': name another folder with --out") from error
     try:
-        earlier = [name for name in RESULTS if os.path.lexists(folder / name)]
+        # A command that was killed could not.
+        _end(folder)
+        earlier = _existing(folder, RESULTS)
         if earlier and not overwrite:
             raise Failure(f"'{folder}' has results of a run: {', '.join(earlier)}; name another folder with --out, or add --overwrite")
-        for name in [*earlier, *UNFINISHED]:
-            (folder / name).unlink(missing_ok=True)
+        for name in _existing(folder, UNFINISHED):
+            (folder / name).unlink()
         with tempfile.TemporaryFile(dir=folder):
             pass
+        if earlier:
+            (folder / EARLIER).mkdir()
+        for name in earlier:
+            (folder / name).rename(folder / EARLIER / name)
     except OSError as error:
         raise Failure(f"cannot write to the output folder '{folder}': {error.strerror}; name another folder with --out") from error
+    try:
+        yield
+    finally:
+        _end(folder)
+
+
+def _end(folder: Path) -> None:
+    """Removes the earlier results if a run has begun since, or else brings them back."""
+    earlier = folder / EARLIER
+    if not earlier.is_dir():
+        return
+    if not (folder / "manifest.json").exists():
+        # The manifest last: with it, the folder is no longer an earlier one's.
+        for name in reversed(_existing(earlier, RESULTS)):
+            (earlier / name).rename(folder / name)
+    shutil.rmtree(earlier)
+
+
+def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
+    return [name for name in names if os.path.lexists(folder / name)]
 
 
 def summary(folder: Path) -> list[str]:

@@ -44,6 +44,9 @@ def run(arguments: argparse.Namespace) -> int:
     reading = [word for value in arguments.values for word in ("--set", value)]
     if arguments.folder is not None:
         reading += ["--folder", arguments.folder]
+    for option in ("seed", "seconds"):
+        if getattr(arguments, option) is not None:
+            reading += [f"--{option}", getattr(arguments, option)]
     if arguments.trust_jvm:
         reading.append("--trust-jvm")
     plan = player.plan(arguments.scenario, reading)
@@ -54,15 +57,14 @@ def run(arguments: argparse.Namespace) -> int:
         words += ["--template", str(REPLAY_PAGE)]
     name = os.path.basename(arguments.scenario).removesuffix(".json")
     out = arguments.out or f"out/{name}-seed{arguments.seed or plan['seed']}"
-    outputs.prepare(Path(out), arguments.overwrite)
     projects.own_program(jar)
-    for option in ("seed", "seconds", "recording"):
-        if getattr(arguments, option) is not None:
-            words += [f"--{option}", getattr(arguments, option)]
+    if arguments.recording is not None:
+        words += ["--recording", arguments.recording]
     if arguments.keep_going:
         words.append("--keep-going")
-    say(f"running {arguments.scenario}")
-    code = player.run(arguments.scenario, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+    with outputs.prepared(Path(out), arguments.overwrite):
+        say(f"running {arguments.scenario}")
+        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
     if code != 0:
         return code
     if plan["pictures"] == "yes":

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Security.Cryptography;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json;
@@ -29,7 +30,7 @@ namespace Collektive.Headless
                 new JProperty(FormerRun.ScenarioKey, scenario.ToJson(fields)),
                 new JProperty("file", scenario.Former?.File ?? Path.GetFileName(scenario.Path)),
                 new JProperty("folder", scenario.Folder),
-                new JProperty("inputs", InputHashes.Of(scenario)),
+                new JProperty("inputs", options.Inputs),
                 new JProperty("programs", Hashes(options.Jars)));
         }
 
@@ -97,7 +98,14 @@ namespace Collektive.Headless
         private static JObject Hashes(List<string> jars)
         {
             var hashes = new JObject();
-            foreach (var jar in jars) hashes.Add(Path.GetFileName(jar), InputHashes.OfFile(Installation.PathOf(jar)));
+            using (var sha = SHA256.Create())
+            {
+                foreach (var jar in jars)
+                {
+                    var hash = sha.ComputeHash(File.ReadAllBytes(Installation.PathOf(jar)));
+                    hashes.Add(Path.GetFileName(jar), BitConverter.ToString(hash).Replace("-", "").ToLowerInvariant());
+                }
+            }
             return hashes;
         }
     }

@@ -45,6 +45,7 @@ namespace Collektive.Headless
                 var scenario = Scenario.Read(options.Scenario, options.Folder, options.TrustJvm, options.Assignments.ToArray());
                 if (options.Command == "plan")
                 {
+                    scenario.Override(options.Seed, options.Seconds);
                     Plan(scenario);
                     return 0;
                 }
@@ -73,8 +74,8 @@ namespace Collektive.Headless
             Console.WriteLine("scripts=" + scenario.Scripts);
             Console.WriteLine("schema=" + scenario.Schema);
             Console.WriteLine("programs=" + scenario.Programs);
-            Console.WriteLine("runtime_jars=" + scenario.RuntimeJars);
-            Console.WriteLine("runtime_plugin=" + scenario.RuntimePlugin);
+            Console.WriteLine("runtimeJars=" + scenario.RuntimeJars);
+            Console.WriteLine("runtimePlugin=" + scenario.RuntimePlugin);
             Console.WriteLine("seed=" + scenario.Settings.seed);
             Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
             Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));
