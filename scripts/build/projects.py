@@ -45,8 +45,10 @@ def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
 
 def own_program(jar: Path) -> None:
     """Notes a jar that the user runs. `./collektive replay` runs those again without a question."""
-    OWN_PROGRAMS.mkdir(parents=True, exist_ok=True)
-    (OWN_PROGRAMS / hashlib.sha256(jar.read_bytes()).hexdigest()).touch()
+    note = OWN_PROGRAMS / hashlib.sha256(jar.read_bytes()).hexdigest()
+    if not note.exists():
+        OWN_PROGRAMS.mkdir(parents=True, exist_ok=True)
+        note.touch()
 
 
 def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin: Part | None = None) -> Path:
@@ -72,7 +74,8 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
             options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
         run(generator(schema.copy(work / "schema"), "--jvm", generated))
         sources = work / "sources"
-        sources.write_text("".join(re.sub(r"([\\\s'\"])", r"\\\1", str(file)) + "\n" for file in programs.files.values()), errors="surrogateescape")
+        quoted = [re.sub(r'(["\\])', r"\\\1", str(file)) for file in programs.files.values()]
+        sources.write_text("".join(f'"{file}"\n' for file in quoted), errors="surrogateescape")
         compile_jvm(run, library, generated, classes, [*options, f"@{sources}"])
         # The host refuses programs of another runtime by this.
         (work / "mark").write_text(f"Collektive-Runtime: {mark}\n")

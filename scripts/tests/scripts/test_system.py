@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from build import fetch, system
+from build import fetch, jdk, system
 from build.console import Failure
 from build.places import ROOT
 
@@ -64,6 +64,26 @@ def test_a_tool_that_is_too_old_is_named_with_its_version_and_its_package(tools:
 ])
 def test_the_package_is_one_that_is_new_enough(tools: Tools, packages: list[tuple[str, str]], expected: str) -> None:
     assert tools.missing("cargo", "cargo 1.75.0", packages).endswith(f"apt-get install {expected}")
+
+
+def test_options_that_the_jvm_rejects_are_not_taken_for_an_outdated_tool(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("JAVA_TOOL_OPTIONS", "-XX:+NoSuchOption")
+    assert tools.report() == ""
+    jdk.find_jdk.cache_clear()
+    with pytest.raises(Failure, match=r"the JVM does not start with JAVA_TOOL_OPTIONS=-XX:\+NoSuchOption: .*NoSuchOption"):
+        jdk.find_jdk()
+
+
+def test_modules_in_the_current_folder_are_not_executed(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("build.console.LOGS", tools.folder / "log")
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    for module in ("collections", "ensurepip", "os", "venv"):
+        (tools.folder / f"{module}.py").write_text(f"open({tools.path('executed')!r}, 'w')")
+    (tools.folder / "requirements.txt").touch()
+    monkeypatch.chdir(tools.folder)
+    assert tools.report() == ""
+    fetch._environment(tools.folder / "requirements.txt", tools.folder / "environment")
+    assert not (tools.folder / "executed").exists()
 
 
 def test_on_a_fresh_system_the_package_is_chosen_when_apt_has_its_lists(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
