@@ -5,10 +5,11 @@ import os
 import re
 import shutil
 import subprocess
-import tempfile
 from typing import Any
 
-from .positions import ExperimentError
+from . import files
+from .files import PART
+from .positions import ExperimentError, Located
 
 SOURCES = (".cs", ".kt", ".java", ".jar")
 INCLUDE = re.compile(r'^\s*include\s+"([^"]+)"', re.M)
@@ -16,8 +17,7 @@ INCLUDE = re.compile(r'^\s*include\s+"([^"]+)"', re.M)
 
 def copy_inputs(scenario: str, folder: str) -> None:
     """Copies a scenario and what it names; paths in the copy are relative to it."""
-    with open(scenario, encoding="utf-8") as file:
-        root: dict[str, Any] = json.load(file)
+    root: dict[str, Any] = Located(scenario).root
     base = os.path.dirname(os.path.abspath(scenario))
     os.makedirs(folder)
     for key in ("scripts", "programs", "runtimeJars", "runtimePlugin"):
@@ -84,7 +84,9 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
     Makes the bundle, or checks that the scenario's inputs are those of the bundle that is there: runs of one sweep have one program.
     `COLLEKTIVE` names the command of the checkout whose scripts/build/bundle.py builds.
     """
-    with tempfile.TemporaryDirectory(dir=os.path.dirname(bundle), prefix=".inputs-") as work:
+    work = bundle + PART
+    files.make_marked(work)
+    try:
         inputs = os.path.join(work, "inputs")
         copy_inputs(scenario, inputs)
         if os.path.isdir(bundle):
@@ -96,5 +98,6 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
         command = ["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work)]
         if subprocess.run(command + (["--trust-jvm"] if trust else [])).returncode != 0:
             raise ExperimentError("the scenario could not be built; see above")
-        os.rename(work, bundle)
-        os.mkdir(work)
+        files.publish(bundle)
+    finally:
+        files.remove(work)

@@ -12,7 +12,7 @@ namespace Collektive.Headless
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
             "           [--keep-going] [--trust-jvm]\n" +
-            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR [--template HTML] [--keep-going] [--trust-jvm]\n" +
+            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -34,6 +34,9 @@ namespace Collektive.Headless
 
         /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>
         internal bool TrustJvm { get; private set; }
+
+        /// <summary>Descriptor of a socket for requests and answers, for <see cref="Server"/>.</summary>
+        internal int Channel { get; private set; } = -1;
 
         internal string Template { get; private set; }
 
@@ -96,6 +99,7 @@ namespace Collektive.Headless
                 case "--java-home": JavaHome = value; break;
                 case "--out": Out = value; break;
                 case "--folder": Folder = value; break;
+                case "--channel": Channel = int.Parse(value, CultureInfo.InvariantCulture); break;
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
                 case "--set": AddAssignment(Assignment.Parse(value, out var field), field); break;
