@@ -3,16 +3,16 @@ import hashlib
 import json
 import os
 import subprocess
-import tempfile
 from typing import Any
 
-from .positions import ExperimentError
+from . import files
+from .files import PART
+from .positions import ExperimentError, Located
 
 
 def write_scenario(scenario: str, folder: str) -> None:
     """Writes the scenario beside the copies of its inputs, whose paths and hashes are in inputs.json."""
-    with open(scenario, encoding="utf-8") as file:
-        root: dict[str, Any] = json.load(file)
+    root: dict[str, Any] = Located(scenario).root
     with open(os.path.join(folder, "inputs.json"), encoding="utf-8") as file:
         root.update(json.load(file)["paths"])
     # A sweep's runs make no pages.
@@ -40,7 +40,9 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
     Makes the bundle, or checks that the scenario's inputs are those of the bundle that is there: runs of one sweep have one program.
     `COLLEKTIVE` names the command of the checkout whose scripts/build/bundle.py builds.
     """
-    with tempfile.TemporaryDirectory(dir=os.path.dirname(bundle), prefix=".inputs-") as work:
+    work = bundle + PART
+    files.make_marked(work)
+    try:
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
         options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else [])]
         if subprocess.run(["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
@@ -52,5 +54,6 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
                 raise ExperimentError(f"the scenario, its scripts, schema or programs are not those that the runs in '{os.path.dirname(bundle)}' were made of: "
                                       "name another folder with --out, or undo the change")
             return
-        os.rename(work, bundle)
-        os.mkdir(work)
+        files.publish(bundle)
+    finally:
+        files.remove(work)

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
 
@@ -30,7 +31,7 @@ namespace Collektive.Headless
             values = new double[scene.MetricNames.Count];
             row = new double[values.Length + Counts.Length];
             writer = path == null ? TextWriter.Null : new StreamWriter(path);
-            writer.Write("second," + string.Join(",", NamesOf(scene)) + ",sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
+            writer.Write("second," + string.Join(",", NamesOf(scene).Select(CsvText.Header)) + ",sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
         }
 
         /// <summary>The scene's metrics at the last row.</summary>

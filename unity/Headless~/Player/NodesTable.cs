@@ -119,7 +119,8 @@ namespace Collektive.Headless
                     case bool truth: return truth ? "true" : "false";
                     case float number: return number.ToString("R", CultureInfo.InvariantCulture);
                     case double number: return number.ToString("R", CultureInfo.InvariantCulture);
-                    case string text: return "\"" + text.Replace("\"", "\"\"") + "\"";
+                    case string text: return CsvText.Quoted(text);
+                    case Enum name: return CsvText.Quoted(name.ToString());
                     default: return Convert.ToString(value, CultureInfo.InvariantCulture);
                 }
             }

@@ -13,7 +13,7 @@ namespace Collektive.Headless
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
             "           [--inputs JSON] [--keep-going] [--trust-jvm]\n" +
-            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR [--template HTML] [--inputs JSON] [--keep-going] [--trust-jvm]\n" +
+            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--inputs JSON] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -38,6 +38,9 @@ namespace Collektive.Headless
 
         /// <summary>Hashes of the project's parts, for the manifest.</summary>
         internal JObject Inputs { get; private set; } = new JObject();
+
+        /// <summary>Descriptor of a socket for requests and answers, for <see cref="Server"/>.</summary>
+        internal int Channel { get; private set; } = -1;
 
         internal string Template { get; private set; }
 
@@ -101,6 +104,7 @@ namespace Collektive.Headless
                 case "--out": Out = value; break;
                 case "--folder": Folder = value; break;
                 case "--inputs": Inputs = JObject.Parse(value); break;
+                case "--channel": Channel = int.Parse(value, CultureInfo.InvariantCulture); break;
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
                 case "--set": AddAssignment(Assignment.Parse(value, out var field), field); break;
