@@ -94,6 +94,8 @@ def guarded(arguments: argparse.Namespace) -> int:
         return report(failure)
     except KeyboardInterrupt:
         return 130
+    except OSError as error:
+        return report(Failure(f"a file cannot be read or written, or a program cannot be started: {error}"))
 
 
 def report(failure: Failure) -> int:
