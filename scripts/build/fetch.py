@@ -148,7 +148,7 @@ def _actionlint(folder: Path) -> None:
 
 def _environment(requirements: Path, folder: Path) -> None:
     """Creates a virtual environment of Python with the pinned packages."""
-    logged(folder.name, ["python3", "-m", "venv", folder])
+    logged(folder.name, ["python3", "-I", "-m", "venv", folder])
     _install(requirements, folder)
 
 
@@ -187,7 +187,7 @@ def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
     """Unpacks the wheel that tools/TOOL pins, for the platform that options of pip choose, into a folder within `folder`."""
     unpacked, pip = folder / "wheel", folder / "pip"
     unpacked.mkdir(parents=True)
-    logged(folder.name, ["python3", "-m", "venv", pip])
+    logged(folder.name, ["python3", "-I", "-m", "venv", pip])
     _pip(folder.name, pip, "download", *platform, "-d", unpacked, "-r", TOOLS / tool / "requirements.txt")
     # Python's own unpacker loses the permissions.
     logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)

@@ -160,6 +160,8 @@ def _cached(folder: Path, file: str, name: str, make: Callable[[Path, Callable[[
             work.rename(folder)
         except OSError:
             shutil.rmtree(work)
+            if not folder.is_dir():
+                raise
     return folder / file
 
 

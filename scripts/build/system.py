@@ -83,7 +83,7 @@ def find_missing() -> list[Missing]:
         if find_tool(tool.commands[0]) is None:
             missing.append(Missing(_package_for(tool), f"{_found(tool.commands[0])}; {tool.oldest} or newer is needed"))
     # Debian's python3 cannot create virtual environments without this package.
-    if subprocess.run(["python3", "-c", "import ensurepip"], capture_output=True).returncode != 0:
+    if subprocess.run(["python3", "-I", "-c", "import ensurepip"], capture_output=True).returncode != 0:
         missing.append(Missing("python3-venv", "python3 has no module ensurepip"))
     return missing + [Missing(package, f"{file} is missing") for file, package in FILES.items() if not file.exists()]
 
