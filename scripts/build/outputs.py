@@ -4,13 +4,19 @@ import fcntl
 import json
 import os
 import shutil
+import signal
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 from build.console import Failure
 
-RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", "start.png", "middle.png", "end.png")
+PICTURES = ("start.png", "middle.png", "end.png")
+RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", *PICTURES)
+# Outcomes in the player's manifests.
+RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are missing"
+# Exit codes of a player that was interrupted or killed.
+SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
 # Folder of the earlier results until a run has begun.
 EARLIER = "earlier.part"
@@ -71,11 +77,43 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
     return [name for name in names if os.path.lexists(folder / name)]
 
 
+def require(folder: Path, outcome: str, code: int) -> None:
+    """Raises `Failure` unless a player that ended with the code 0 left a manifest with the outcome, or one that failed says why."""
+    try:
+        found = json.loads((folder / "manifest.json").read_text())["outcome"]
+    except (OSError, ValueError, KeyError) as error:
+        if code != 0:
+            return
+        raise Failure(f"the run wrote no usable manifest to '{folder}': {error}") from error
+    if found == RUNNING and code not in SIGNALLED:
+        raise Failure(f"the player ended with code {code} before its run did. Usual causes: endless recursion in a script, a script that ends the process, "
+                      "a crash of the JVM", max(code, 1))
+    if found != outcome and code == 0:
+        raise Failure(f"the run is not complete: {found}")
+
+
+def complete(folder: Path) -> None:
+    """Declares a run complete whose pictures were missing, after these are on disk."""
+    manifest, part = folder / "manifest.json", folder / "manifest.json.part"
+    # A replacement in the text: other writers of JSON write other digits.
+    part.write_text(manifest.read_text().replace(json.dumps(WITHOUT_PICTURES), json.dumps(COMPLETE), 1))
+    for path in (*(folder / name for name in PICTURES), part):
+        _sync(path)
+    part.replace(manifest)
+    _sync(folder)
+
+
+def _sync(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
 def summary(folder: Path) -> list[str]:
-    """Describes what a run has written to its folder: how it began and ended, its times, its files."""
+    """Describes what a complete run has written to its folder: how it began and ended, its times, its files."""
     ran = json.loads((folder / "manifest.json").read_text())
-    if ran["outcome"] != "complete":
-        return [f"the run is not complete: {ran['outcome']}"]
     runtime = ran["scenario"]["runtime"]
     return [
         f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}"

@@ -58,7 +58,9 @@ class Refused(Failure):
 
 
 def run(scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
-    """Runs a scenario and returns the player's exit code."""
+    """Runs a scenario and returns the player's exit code. Processes that its scripts have started end with it."""
     command = managed.command("mono-sgen", PLAYER, "run", scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
                               "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)
-    return processes.call(command, env=managed.environment("mono-sgen"))
+    code = processes.call(command, env=managed.environment("mono-sgen"))
+    processes.end_orphans()
+    return code

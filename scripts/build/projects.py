@@ -155,6 +155,8 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
             work.rename(folder)
         except OSError:
             shutil.rmtree(work)
+            if not folder.is_dir():
+                raise
     return folder / file
 
 

@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 from build import graph, outputs, player, projects
-from build.console import Failure, logged, say
+from build.console import logged, say
 from build.jdk import find_jdk
 from build.places import BUILD, NODE_MODULES, ROOT
 
@@ -62,16 +62,16 @@ def run(arguments: argparse.Namespace) -> int:
         words += ["--recording", arguments.recording]
     if arguments.keep_going:
         words.append("--keep-going")
+    has_pictures = plan["pictures"] == "yes"
     with outputs.prepared(Path(out), arguments.overwrite):
         say(f"running {arguments.scenario}")
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+        outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code
-    if plan["pictures"] == "yes":
+    if has_pictures:
         pictures = ROOT / "unity/Headless~/Replay/pictures.mjs"
         logged("pictures", ["node", pictures, f"{out}/replay.html", out], env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(NODE_MODULES)})
-    try:
-        print("\n".join(outputs.summary(Path(out))))
-    except (OSError, ValueError, KeyError) as error:
-        raise Failure(f"the run wrote no usable manifest to '{out}': {error}") from error
+        outputs.complete(Path(out))
+    print("\n".join(outputs.summary(Path(out))))
     return 0

@@ -148,3 +148,14 @@ def test_an_older_python_is_refused(tmp_path: Path) -> None:
     assert result.returncode == 1
     assert "collektive: Python 3.11 or newer is needed, and " in result.stderr and result.stderr.rstrip().endswith("has version 3.9.2")
     assert len(result.stderr.splitlines()) == 1
+
+
+def test_python_imports_nothing_from_the_current_folder(tools: Tools, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for module in ("ensurepip", "collections", "venv"):
+        Path(f"{module}.py").write_text("open('executed', 'w')")
+    monkeypatch.setattr(fetch, "_install", lambda *_: None)
+    monkeypatch.setattr("build.console.LOGS", tmp_path / "log")
+    system.find_missing()
+    fetch._environment(tmp_path, tmp_path / "environment")
+    assert not Path("executed").exists()

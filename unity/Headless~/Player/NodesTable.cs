@@ -28,7 +28,7 @@ namespace Collektive.Headless
             this.manager = manager;
             var answers = AnswerField.Of(manager);
             foreach (var field in fields) columns.Add(field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field));
-            writer = new StreamWriter(path);
+            writer = ResultFile.Create(path);
             writer.Write("second,node," + string.Join(",", columns.Select(column => column.Header)) + "\n");
         }
 

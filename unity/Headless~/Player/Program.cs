@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using Collektive.Bridge;
+using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
@@ -13,7 +14,11 @@ namespace Collektive.Headless
         {
             // For exceptions in threads that a script started: the runtime prints them, then ends the process.
             AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
-            return StopJvm(Run(arguments));
+            var code = StopJvm(Run(arguments));
+            Console.Out.Flush();
+            // Returning would wait for the foreground threads that scripts started.
+            Syscall._exit(code);
+            return code;
         }
 
         /// <summary>The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.</summary>
