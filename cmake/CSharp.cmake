@@ -83,7 +83,7 @@ file(GLOB samples "${UNITY}/Samples~/*/*.fbs")
 generated_code(sample_code "${GENERATED}/samples" ${samples})
 assembly(Collektive.Samples.dll SOURCES "${UNITY}/Samples~" "${GENERATED}/samples" REFERENCES ${package} DEPENDS "${GENERATED}/samples.stamp")
 assembly(Collektive.SerializedFields.exe SOURCES "${HEADLESS}/SerializedFields" REFERENCES UnityEngine.dll)
-assembly(SampleReplay.exe SOURCES "${HEADLESS}/SampleReplay" "${HEADLESS}/Replay" REFERENCES Newtonsoft.Json.dll)
+assembly(SampleReplay.exe SOURCES "${HEADLESS}/SampleReplay" "${HEADLESS}/Replay" REFERENCES Newtonsoft.Json.dll Mono.Posix.dll)
 assembly(Collektive.Headless.Bench.exe SOURCES "${HEADLESS}/Bench" "${HEADLESS}/Player/Quantiles.cs" "${GENERATED}/samples/GradientAscent"
   OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll Newtonsoft.Json.dll DEPENDS "${GENERATED}/samples.stamp")
 assembly(Collektive.Fuzz.exe SOURCES "${HEADLESS}/Fuzz" REFERENCES ${package} Collektive.Player.exe Newtonsoft.Json.dll)

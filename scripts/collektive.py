@@ -1,10 +1,12 @@
 """The command `./collektive`: declares the commands, and runs one of them. Each is a module of `commands`, with the same name."""
 import argparse
 import codecs
+import errno
 import importlib
 import locale
 import os
 import resource
+import signal
 import sys
 from pathlib import Path
 from typing import NoReturn
@@ -14,6 +16,7 @@ if sys.version_info < (3, 11):  # noqa: UP036 - the syntax of this file is older
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from build.console import Failure
+from build.places import ROOT
 
 COMMANDS = {
     "setup": "install and fetch what the build needs",
@@ -79,7 +82,6 @@ def main(words: list[str]) -> int:
         return 2
     try:
         arguments = parser_for(words[0]).parse_args(words)
-        check_surroundings()
         from build.processes import attended
         return attended(lambda: guarded(arguments))
     except Failure as failure:
@@ -87,20 +89,28 @@ def main(words: list[str]) -> int:
 
 
 def guarded(arguments: argparse.Namespace) -> int:
-    """Runs a parsed command; a `Failure` becomes a message and an exit code."""
+    """Runs a parsed command; a `Failure` or `OSError` becomes a message and an exit code, by default the command's `error_code`."""
+    code = getattr(arguments, "error_code", 1)
     try:
+        check_surroundings()
         return int(arguments.run(arguments))
     except Failure as failure:
-        return report(failure)
+        return report(failure, code)
     except KeyboardInterrupt:
         return 130
+    except OSError as error:
+        advice = ""
+        if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS) and ROOT in Path(str(error.filename)).parents:
+            advice = ": the command must be able to write to its checkout; use one that belongs to you"
+        place = f"'{error.filename}': " if error.filename else ""
+        return report(Failure(f"{place}{error.strerror or error}{advice}"), code)
 
 
-def report(failure: Failure) -> int:
+def report(failure: Failure, otherwise: int = 1) -> int:
     """Prints why a command failed and returns the exit code."""
     if str(failure):
         print(f"collektive: {failure}", file=sys.stderr)
-    return failure.code
+    return failure.code or otherwise
 
 
 def open_closed_descriptors() -> None:
@@ -124,8 +134,13 @@ def check_surroundings() -> None:
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:
         raise Failure(f"the stack of processes is limited to {stack // 1024} KB, and the tools need {STACK_KB}: ulimit -s 8192")
+    for separator in ":;":
+        if separator in str(ROOT):
+            raise Failure(f"the path of this checkout, '{ROOT}', contains '{separator}', which separates paths for the tools: move or rename the folder")
 
 
 if __name__ == "__main__":
     open_closed_descriptors()
+    # A reader such as `head` may close the output before its end.
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(main(sys.argv[1:]))

@@ -1,13 +1,13 @@
 """The commands ./collektive sweep and plot."""
 import argparse
-import json
 import os
+import re
 import sys
 from typing import NoReturn
 
 from . import experiment as experiments
 from .options import add_sweep_arguments
-from .positions import ExperimentError
+from .positions import ExperimentError, Located
 from .slurm import run_task, write_job
 from .store import Store
 from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
@@ -42,13 +42,13 @@ def main(words: list[str]) -> int:
             return run_task(options.folder, options.index)
         return _sweep(options)
     except ExperimentError as error:
-        print(f"collektive: {error}", file=sys.stderr)
+        print(f"collektive: {_line(str(error))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("collektive: interrupted before the first run", file=sys.stderr)
         return 130
     except OSError as error:
-        print(f"collektive: a file could not be read or written: {error}", file=sys.stderr)
+        print(f"collektive: a file could not be read or written: {_line(str(error))}", file=sys.stderr)
         return 1
 
 
@@ -82,10 +82,14 @@ def _pool(options: argparse.Namespace, store: Store) -> Pool:
 
 
 def _threads(experiment: experiments.Experiment) -> int:
-    """How many threads a run has at the most."""
-    with open(experiment.scenario) as file:
-        threads = json.load(file).get("threads", 1)
+    """Returns the number of threads of the run that has the most."""
+    threads = Located(experiment.scenario).root.get("threads", 1)
     return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
+
+
+def _line(message: str) -> str:
+    """Returns a message as one line, whatever the names in it."""
+    return re.sub(r"[\x00-\x1f\x7f\u2028\u2029]", lambda found: repr(found[0])[1:-1], message)
 
 
 def _plot(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@ from typing import Any
 
 import ray
 
+from .experiment import Run
 from .positions import ExperimentError
 from .store import Store
 from .sweep import Ended, Task
@@ -42,13 +43,13 @@ class _RemoteWorker:
         self._worker = Worker(os.getcwd(), os.path.join(self._folder.name, "worker.txt"), trust)
         self._count = 0
 
-    def run(self, settings: dict[str, Any], jvm: str, limit: float) -> tuple[Outcome, float, bytes]:
+    def run(self, settings: dict[str, Any], jvm: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
         """How the run ended, its seconds, and its folder as a tar."""
         self._count += 1
         out = os.path.join(self._folder.name, str(self._count))
         os.mkdir(out)
         began = time.monotonic()
-        outcome = self._worker.run(settings, jvm, out, limit)
+        outcome = self._worker.run(settings, jvm, out, limit, is_repeated)
         seconds = time.monotonic() - began
         packed = io.BytesIO()
         with tarfile.open(fileobj=packed, mode="w:gz") as tar:
@@ -69,12 +70,12 @@ class RayPool:
         self._thread = threading.Thread(target=self._work)
         self._stopped = False
         self._tasks: deque[Task] = deque()
-        self._losses: dict[int, int] = {}
+        self._losses: dict[str, int] = {}
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
         """Begins with the runs, those with the same JVM after each other."""
         self._ended = ended
-        self._tasks.extend(sorted(tasks, key=lambda task: task[1].jvm))
+        self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
         self._thread.start()
 
     def stop(self) -> None:
@@ -96,7 +97,8 @@ class RayPool:
                     idle.append(RemoteWorker.remote(self._trust))
                 while idle and self._tasks:
                     worker, task = idle.pop(), self._tasks.popleft()
-                    running[worker.run.remote(task[1].settings, task[1].jvm, self._limit)] = worker, task
+                    run, is_repeated = task
+                    running[worker.run.remote(run.settings, run.jvm, self._limit, is_repeated)] = worker, task
                 # A worker that was asked for may wait for the processor of one that has nothing to do, when a node is lost.
                 while idle:
                     ray.kill(idle.pop())
@@ -110,26 +112,26 @@ class RayPool:
 
     def _take(self, reference: Any, task: Task) -> bool:
         """Takes a result; returns whether its worker is still there."""
-        number, _ = task
+        name = task[0].name
         try:
             outcome, seconds, packed = ray.get(reference)
         except (ray.exceptions.RayActorError, ray.exceptions.ObjectLostError):
-            self._losses[number] = self._losses.get(number, 0) + 1
-            if self._losses[number] < MAX_LOSSES:
+            self._losses[name] = self._losses.get(name, 0) + 1
+            if self._losses[name] < MAX_LOSSES:
                 self._tasks.appendleft(task)
                 return False
             outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers vanished during the run"), 0.0, b""
-            self._finish(number, task, outcome, seconds, packed)
+            self._finish(task[0], outcome, seconds, packed)
             return False
         except ray.exceptions.RayTaskError as error:
             raise WorkerError(str(error.cause)) from error
-        self._finish(number, task, outcome, seconds, packed)
+        self._finish(task[0], outcome, seconds, packed)
         return True
 
-    def _finish(self, number: int, task: Task, outcome: Outcome, seconds: float, packed: bytes) -> None:
-        place = self._store.place(task[1])
+    def _finish(self, run: Run, outcome: Outcome, seconds: float, packed: bytes) -> None:
+        place = self._store.begin(run)
         if packed:
             with tarfile.open(fileobj=io.BytesIO(packed)) as tar:
                 tar.extractall(place, filter="data")
-        self._store.finish(task[1], number, outcome, seconds)
-        self._ended.put((number, task[1], outcome, seconds))
+        self._store.finish(run, outcome, seconds)
+        self._ended.put((run, outcome))

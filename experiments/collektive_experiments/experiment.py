@@ -13,12 +13,12 @@ from .positions import ExperimentError, Located
 KEYS = ("version", "scenario", "vary", "zip", "set", "measure")
 VERSION = 1
 MAX_RUNS = 100_000
-MAX_NAME = 180
-"""Bytes of a folder's name: file systems allow 255."""
+MAX_PREFIX = 120
+"""Readable characters of a folder's name; file systems allow names of 255 bytes."""
 FIXED = ("version", "scene", "scripts", "schema", "programs", "runtime", "runtimeJars", "runtimePlugin")
 """Keys that decide what is compiled, which is done once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
-RANGE = re.compile(r"(-?\d+)-(-?\d+)(?::(\d+))?")
+RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
 Values = dict[str, Any]
 
@@ -27,9 +27,9 @@ Values = dict[str, Any]
 class Run:
     """One run of an experiment."""
     name: str
-    """Of its folder: the values of the keys that vary."""
+    """Of its folder: the values of the keys that vary, and a hash of all settings."""
     values: Values = field(hash=False)
-    """These, by key."""
+    """The values of the keys that vary."""
     settings: Values = field(hash=False)
     """All keys that the run sets."""
 
@@ -74,20 +74,29 @@ class Experiment:
         for chosen in itertools.product(*(values for _, values in self.product)):
             for row in rows:
                 values = {**dict(zip([key for key, _ in self.product], chosen)), **row}
-                yield Run(name_of(values), values, {**self.fixed, **values})
+                settings = {**self.fixed, **values}
+                yield Run(name_of(values, settings), values, settings)
 
 
-def name_of(values: Values) -> str:
-    """The name of a run's folder."""
-    name = ",".join(f"{key}={text(value)}" for key, value in values.items()) or "run"
-    name = re.sub(r"[^A-Za-z0-9._+,=-]", "_", name)
-    if len(name) <= MAX_NAME:
-        return name
-    return name[:MAX_NAME - 13] + "," + hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:12]
+def name_of(values: Values, settings: Values) -> str:
+    """Returns the name of a run's folder: readable, and another one for each configuration."""
+    prefix = ",".join(f"{key}={text(value)}" for key, value in values.items()) or "run"
+    return re.sub(r"[^A-Za-z0-9._+,=-]", "_", prefix)[:MAX_PREFIX] + "-" + hashlib.sha256(identity(settings).encode()).hexdigest()[:12]
+
+
+def identity(value: Any) -> str:
+    """Returns a text that two values share only if runs cannot tell them apart."""
+    def plain(part: Any) -> Any:
+        if isinstance(part, dict):
+            return {key: plain(item) for key, item in part.items()}
+        if isinstance(part, (list, tuple)):
+            return [plain(item) for item in part]
+        return int(part) if isinstance(part, float) and part.is_integer() and str(part) != "-0.0" else part
+    return json.dumps(plain(value), sort_keys=True)
 
 
 def text(value: Any) -> str:
-    """A value in names and legends."""
+    """Returns a value as names and legends show it."""
     if isinstance(value, list):
         return "_".join(map(text, value))
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
@@ -116,6 +125,8 @@ def read(path: str) -> Experiment:
     scenario = os.path.join(os.path.dirname(path), root["scenario"])
     if not os.path.isfile(scenario):
         raise located.error(f"'scenario' names no file: {scenario}", "scenario")
+    if not isinstance(Located(scenario).root, dict):
+        raise ExperimentError(f"{scenario}: the file must hold one JSON object")
     experiment = Experiment(path, scenario, _varied(located, "vary"), _varied(located, "zip"), _fixed(located), _measure(located), located)
     _check(experiment)
     return experiment
@@ -189,19 +200,18 @@ def _check(experiment: Experiment) -> None:
     if experiment.count > MAX_RUNS:
         raise located.error(f"these are {experiment.count:,} runs: a sweep has at most {MAX_RUNS:,}", "vary")
     for key, values in experiment.product:
-        _refuse_twins(located, "vary", key, [name_of({key: value}) for value in values])
+        _refuse_twins(located, "vary", [key], [(value,) for value in values])
     if experiment.together:
-        keys = [key for key, _ in experiment.together]
-        rows = [name_of(dict(zip(keys, row))) for row in zip(*(values for _, values in experiment.together))]
-        _refuse_twins(located, "zip", keys[0], rows)
+        _refuse_twins(located, "zip", [key for key, _ in experiment.together], list(zip(*(values for _, values in experiment.together))))
 
 
-def _refuse_twins(located: Located, part: str, key: str, names: list[str]) -> None:
+def _refuse_twins(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
     seen: set[str] = set()
-    for index, name in enumerate(names):
-        if name in seen:
-            raise located.error(f"two runs would have one name: '{name}' comes twice", part, key, index)
-        seen.add(name)
+    for index, row in enumerate(rows):
+        if identity(row) in seen:
+            twice = ", ".join(f"{key}={text(value)}" for key, value in zip(keys, row))
+            raise located.error(f"two runs would be the same: '{twice}' comes twice", part, keys[0], index)
+        seen.add(identity(row))
 
 
 __all__ = ["Experiment", "ExperimentError", "Run", "read"]

@@ -1,7 +1,9 @@
 """Figures of a sweep: metrics over time and at the end, for papers (SVG, PDF) and for looking (one HTML page)."""
+import hashlib
 import html
 import io
 import os
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,16 +13,16 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from . import files
 from .experiment import text
 from .results import Results, compare, interval, label, load
-from .store import write
 
 # Okabe and Ito's colours, told apart by all common kinds of sight; the yellow is too pale for lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", "--", "-.", ":")
 COLUMNS = 4
 STYLE: Any = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.3, "svg.fonttype": "none",
-         "svg.hashsalt": "collektive", "legend.frameon": False}
+         "svg.hashsalt": "collektive", "legend.frameon": False, "text.parse_math": False}
 MAX_PANELS = 24
 
 
@@ -32,7 +34,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
     """
     results = load(folder)
     paths, sections = [], []
-    os.makedirs(os.path.join(folder, "figures"), exist_ok=True)
+    files.make(os.path.join(folder, "figures"))
     converged = [name for name in results.runs.columns if name.startswith("converged.")]
     for metric in list(metrics or results.metrics) + ([] if metrics else converged):
         figures = {}
@@ -40,15 +42,23 @@ def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
             figures["time"] = over_time(results, metric)
         figures["end"] = at_end(results, metric)
         for kind, (figure, caption) in figures.items():
-            name = os.path.join(folder, "figures", f"{metric}-{kind}")
+            name = os.path.join(folder, "figures", f"{_file_name(metric)}-{kind}")
             for ending in (".svg", ".pdf"):
-                figure.savefig(name + ending, metadata={"Date": None} if ending == ".svg" else {"CreationDate": None})
+                with files.create(name + ending) as file:
+                    figure.savefig(file, format=ending[1:], metadata={"Date": None} if ending == ".svg" else {"CreationDate": None})
+                files.publish(name + ending)
                 paths.append(name + ending)
             sections.append(f"<figure>{_svg(figure)}<figcaption>{html.escape(caption)}</figcaption></figure>")
         sections.append(_table(results, metric))
     page = os.path.join(folder, "figures.html")
-    write(page, _page(os.path.basename(os.path.abspath(folder)), results, sections))
+    files.write(page, _page(os.path.basename(os.path.abspath(folder)), results, sections))
     return [*paths, page]
+
+
+def _file_name(metric: str) -> str:
+    """Returns the name of a metric's files; a hash tells names apart that differ in characters that files cannot have."""
+    name = re.sub(r"[^A-Za-z0-9_.-]", "_", metric)[:100]
+    return name if name == metric and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
 
 
 @matplotlib.rc_context(STYLE)
@@ -61,6 +71,8 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
         for index, (value, runs) in enumerate(_split(group, colour)):
             table = runs.pivot_table(index="run", columns="second", values=metric)
             counts.add(len(table))
+            if table.empty:
+                continue
             bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
             shade = COLOURS[index % len(COLOURS)]
             axes.plot(table.columns, table.mean(), label=value, color=shade, linestyle=LINES[index // len(COLOURS) % len(LINES)])
@@ -131,7 +143,7 @@ def _axis(results: Results, metric: str) -> str:
 def _title(metric: str) -> str:
     if metric.startswith("converged."):
         return f"time to convergence of {_title(metric.removeprefix('converged.'))}"
-    return metric.replace("_", " ")
+    return re.sub(r"[\x00-\x1f\x7f_]", " ", metric)
 
 
 def _runs(counts: set[int]) -> str:
@@ -160,5 +172,6 @@ def _page(title: str, results: Results, sections: list[str]) -> str:
     counts = ", ".join(f"{count} {name}" for name, count in status.items())
     style = ("body{font:15px system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}figure{margin:2em 0}svg{max-width:100%;height:auto}"
              "table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;text-align:right}")
-    return (f"<!doctype html><html lang=en><meta charset=utf-8><title>{html.escape(title)}</title><style>{style}</style><h1>{html.escape(title)}</h1>"
-            f"<p>Runs: {counts}.</p>{''.join(sections)}</html>\n")
+    policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+    return (f"<!doctype html><html lang=en><meta charset=utf-8><meta http-equiv=Content-Security-Policy content=\"{policy}\"><title>{html.escape(title)}</title><style>{style}</style><h1>{html.escape(title)}</h1>"
+            f"<p>Runs: {html.escape(counts)}.</p>{''.join(sections)}</html>\n")

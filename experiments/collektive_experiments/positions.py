@@ -1,63 +1,136 @@
-"""JSON with the line of each value, for messages."""
+"""JSON as the player reads it, with the line of each value."""
+import bisect
 import json
-from typing import Any
+import math
+import re
+from typing import Any, NoReturn
 
 Path = tuple[str | int, ...]
 
+MAX_DEPTH = 64
+"""Levels of objects and lists, as in the player."""
+MAX_DIGITS = 300
+SPACE = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.S)
+STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.S)
+QUOTED = re.compile(r"'(?:[^'\\]|\\.)*'", re.S)
+NAME = re.compile(r"[A-Za-z_$][\w$]*")
+NUMBER = re.compile(r"-?(?:0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?(?![\w.])")
+LITERALS = {"true": True, "false": False, "null": None}
+
 
 class ExperimentError(Exception):
-    """Something in what the user gave is wrong; the message says what and where."""
+    """An error in the user's input; the message names the place."""
 
 
 class Located:
-    """A JSON file and the lines of its values; a key given twice is an error."""
+    """
+    A JSON file and the lines of its values. As in the player, comments, trailing commas, single quotes, keys without quotes and a byte order mark
+    are accepted. A key given twice is an error.
+    """
 
     def __init__(self, path: str):
         self.path = path
         try:
-            with open(path, encoding="utf-8") as file:
+            with open(path, encoding="utf-8-sig") as file:
                 self.text = file.read()
         except OSError as error:
             raise ExperimentError(f"'{path}' cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:
-            raise ExperimentError(f"'{path}' is no JSON file: it is not UTF-8") from error
-        try:
-            self.root: Any = json.loads(self.text)
-        except json.JSONDecodeError as error:
-            raise ExperimentError(f"{path}:{error.lineno}: not valid JSON: {error.msg}") from error
+            raise ExperimentError(f"'{path}' is not a JSON file: it is not UTF-8") from error
+        self._starts = [match.end() for match in re.finditer("\n", self.text)]
         self._lines: dict[Path, int] = {}
-        self._read(self._skip(0), ())
+        self.root, end = self._value(self._skip(0), ())
+        if self._skip(end) < len(self.text):
+            self._fail(self._skip(end), "text after the value")
 
     def error(self, message: str, *place: str | int) -> ExperimentError:
-        """An error at the value of a place, or at the nearest one around it."""
+        """Returns an error at the value of a place, or at the nearest one around it."""
         while place and place not in self._lines:
             place = place[:-1]
         return ExperimentError(f"{self.path}:{self._lines.get(place, 1)}: {message}")
 
     def _line(self, at: int) -> int:
-        return self.text.count("\n", 0, at) + 1
+        return bisect.bisect_right(self._starts, at) + 1
+
+    def _fail(self, at: int, problem: str) -> NoReturn:
+        raise ExperimentError(f"{self.path}:{self._line(at)}: not valid JSON: {problem}")
 
     def _skip(self, at: int) -> int:
-        while at < len(self.text) and self.text[at] in " \t\r\n":
-            at += 1
-        return at
+        """Returns where the next token begins."""
+        match = SPACE.match(self.text, at)
+        assert match
+        return match.end()
 
-    def _read(self, at: int, place: Path) -> int:
-        """Notes the lines of the value that begins there; returns where it ends. The text is known to be JSON."""
+    def _value(self, at: int, place: Path) -> tuple[Any, int]:
+        """Returns the value that begins at an index, and the index of its end."""
+        if len(place) > MAX_DEPTH:
+            self._fail(at, f"more than {MAX_DEPTH} levels of objects and lists")
         self._lines[place] = self._line(at)
-        if self.text[at] not in "{[":
-            return json.JSONDecoder().raw_decode(self.text, at)[1]
+        start = self.text[at:at + 1]
+        if start and start in "{[":
+            return self._container(at, place)
+        if start and start in "\"'":
+            return self._string(at)
+        if number := NUMBER.match(self.text, at):
+            return self._number(number), number.end()
+        name = NAME.match(self.text, at)
+        if name is None or name[0] not in LITERALS:
+            self._fail(at, f"unexpected {start!r}" if start else "the file ends too early")
+        return LITERALS[name[0]], name.end()
+
+    def _container(self, at: int, place: Path) -> tuple[Any, int]:
+        pairs: dict[str, Any] = {}
+        items: list[Any] = []
         is_object = self.text[at] == "{"
-        at, index = self._skip(at + 1), 0
-        while self.text[at] not in "}]":
+        end = "}" if is_object else "]"
+        at = self._skip(at + 1)
+        while not self.text.startswith(end, at):
             if is_object:
-                key, at = json.JSONDecoder().raw_decode(self.text, at)
-                if (*place, key) in self._lines:
-                    raise ExperimentError(f"{self.path}:{self._line(at)}: the key '{key}' is given twice")
-                at = self._skip(self._skip(at) + 1)
+                key_at = at
+                key, at = self._key(at)
+                if key in pairs:
+                    raise ExperimentError(f"{self.path}:{self._line(key_at)}: the key '{key}' is given twice")
+                at = self._skip(at)
+                if not self.text.startswith(":", at):
+                    self._fail(at, "':' expected")
+                pairs[key], at = self._value(self._skip(at + 1), (*place, key))
             else:
-                key, index = index, index + 1
-            at = self._skip(self._read(at, (*place, key)))
-            if self.text[at] == ",":
+                item, at = self._value(at, (*place, len(items)))
+                items.append(item)
+            at = self._skip(at)
+            if self.text.startswith(",", at):
                 at = self._skip(at + 1)
-        return at + 1
+            elif not self.text.startswith(end, at):
+                self._fail(at, f"',' or '{end}' expected")
+        return pairs if is_object else items, at + 1
+
+    def _key(self, at: int) -> tuple[str, int]:
+        if self.text[at:at + 1] in ("'", '"'):
+            return self._string(at)
+        name = NAME.match(self.text, at)
+        if name is None:
+            self._fail(at, "a key expected")
+        return name[0], name.end()
+
+    def _string(self, at: int) -> tuple[str, int]:
+        match = (STRING if self.text[at] == '"' else QUOTED).match(self.text, at)
+        if match is None:
+            self._fail(at, "a string without an end")
+        text = match[0]
+        if text[0] == "'":
+            text = '"' + re.sub(r"\\.|\"", lambda found: {"\\'": "'", '"': '\\"'}.get(found[0], found[0]), text[1:-1], flags=re.S) + '"'
+        try:
+            value: str = json.loads(text, strict=False)
+            value.encode()
+        except UnicodeEncodeError:
+            self._fail(at, f"{match[0][:50]} has half of a surrogate pair")
+        except ValueError as error:
+            self._fail(at, str(error))
+        return value, match.end()
+
+    def _number(self, match: re.Match[str]) -> int | float:
+        if len(match[0]) > MAX_DIGITS:
+            self._fail(match.start(), f"a number of {len(match[0]):,} characters; at most {MAX_DIGITS} are read")
+        if not math.isfinite(float(match[0])):
+            self._fail(match.start(), f"{match[0][:50]} is too large")
+        return float(match[0]) if match[1] or match[2] else int(match[0])

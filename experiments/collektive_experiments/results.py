@@ -1,12 +1,14 @@
 """The tables of a sweep, for notebooks and figures."""
 import itertools
-from dataclasses import dataclass
+import os
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from .experiment import text
+from .positions import ExperimentError
 from .store import Store
 
 RESAMPLES = 2000
@@ -23,7 +25,7 @@ class Results:
     keys: list[str]
     """The keys that vary."""
     units: dict[str, str]
-    """Units of the metrics that the experiment file measures; empty if it names none."""
+    """Units of the metrics that the experiment file measures, by column; empty if it names none."""
 
     @property
     def configuration(self) -> list[str]:
@@ -32,9 +34,7 @@ class Results:
 
     @property
     def metrics(self) -> list[str]:
-        """The metrics of the scene."""
-        if self.units:
-            return list(self.units)
+        """The columns of the scene's metrics."""
         columns = list(self.series.columns)
         return columns[columns.index("second") + 1:columns.index("links")]
 
@@ -47,7 +47,15 @@ class Results:
 def load(folder: str) -> Results:
     """Reads the tables of a sweep's folder."""
     asked = Store(folder).asked()
-    return Results(pd.read_parquet(f"{folder}/runs.parquet"), pd.read_parquet(f"{folder}/series.parquet"), asked["keys"], asked["measure"])
+    tables = []
+    for name in ("runs", "series"):
+        try:
+            tables.append(pd.read_parquet(os.path.join(folder, f"{name}.parquet")))
+        except (OSError, ValueError) as error:
+            raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): make the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
+                                  "--resume") from error
+    results = Results(tables[0], tables[1], asked["keys"], {})
+    return replace(results, units=dict(zip(results.metrics, asked["measure"].values())))
 
 
 def interval(values: np.ndarray, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:

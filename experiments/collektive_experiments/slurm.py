@@ -5,8 +5,9 @@ import shlex
 import sys
 import time
 
+from . import files
 from .experiment import Run
-from .store import Store, write
+from .store import Store
 from .sweep import Task
 from .worker import Worker
 
@@ -32,11 +33,12 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
     size = -(-len(todo) // MAX_TASKS)
     chunks = [todo[start:start + size] for start in range(0, len(todo), size)]
     tasks = {"limit": limit, "trust": trust,
-             "tasks": [[{"number": number, "name": run.name, "values": run.values, "settings": run.settings} for number, run in chunk] for chunk in chunks]}
-    write(os.path.join(folder, "tasks.json"), json.dumps(tasks) + "\n")
+             "tasks": [[{"name": run.name, "values": run.values, "settings": run.settings, "repeated": is_repeated} for run, is_repeated in chunk]
+                       for chunk in chunks]}
+    files.write(os.path.join(folder, "tasks.json"), json.dumps(tasks) + "\n")
     path = os.path.join(folder, "slurm.sh")
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    write(path, SCRIPT.format(
+    files.write(path, SCRIPT.format(
         count=len(todo), path=shlex.quote(path), folder=shlex.quote(folder), name="collektive-" + "".join(c for c in os.path.basename(folder) if c.isalnum()),
         last=len(chunks) - 1, threads=threads, package=shlex.quote(package), python=shlex.quote(sys.executable)))
     os.chmod(path, 0o755)
@@ -46,9 +48,9 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
 def run_task(folder: str, index: int) -> int:
     """Runs the runs of one task that are not complete; returns the exit code."""
     store = Store(folder)
-    with open(os.path.join(folder, "tasks.json")) as file:
+    with open(os.path.join(folder, "tasks.json"), encoding="utf-8") as file:
         job = json.load(file)
-    worker = Worker(store.bundle, os.path.join(folder, "logs", f"task-{index}.txt"), job["trust"])
+    worker = Worker(store.bundle, os.path.join(store.logs, f"task-{index}.txt"), job["trust"])
     failed = False
     try:
         for task in job["tasks"][index]:
@@ -56,8 +58,8 @@ def run_task(folder: str, index: int) -> int:
             if store.is_complete(run):
                 continue
             began = time.monotonic()
-            outcome = worker.run(run.settings, run.jvm, store.place(run), job["limit"])
-            store.finish(run, task["number"], outcome, time.monotonic() - began)
+            outcome = worker.run(run.settings, run.jvm, store.begin(run), job["limit"], task["repeated"])
+            store.finish(run, outcome, time.monotonic() - began)
             if outcome.status != "complete":
                 failed = True
                 print(f"{run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)

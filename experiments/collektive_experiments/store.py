@@ -1,111 +1,132 @@
-"""The folder of a sweep: what was asked, the runs that are done, and the tables."""
+"""The folder of a sweep: what was asked, the runs that ended, and the tables."""
 import fcntl
+import hashlib
 import json
 import os
-import shutil
-from collections.abc import Iterator
-from typing import Any, TextIO
+import sys
+from typing import Any, BinaryIO
 
+from . import files
 from .experiment import Experiment, Run
+from .files import MARKER, PART
 from .positions import ExperimentError
 from .worker import Outcome
 
-VERSION = 1
-PART = ".part"
-"""End of the name of a run's folder until the run has ended."""
+VERSION = 2
+RESULTS = ("manifest.json", "metrics.csv")
+"""Files that each complete run has."""
 
 
 class Store:
-    """The folder of a sweep. A run's folder has its final name once the run has ended, so what is there is whole."""
+    """The folder of a sweep. A run's folder has its final name once the run has ended."""
 
     def __init__(self, folder: str):
         self.folder = folder
         self.runs = os.path.join(folder, "runs")
         self.bundle = os.path.join(folder, "bundle")
-        self._lock: TextIO | None = None
+        self.logs = os.path.join(folder, "logs")
+        self._lock: BinaryIO | None = None
 
     def open(self, experiment: Experiment, resume: bool) -> None:
-        """Makes the folder, or takes up what is in it. Raises `ExperimentError` when it is another sweep's, or in use."""
-        path = os.path.join(self.folder, "sweep.json")
-        asked = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
-                 "measure": experiment.measure}
-        os.makedirs(self.runs, exist_ok=True)
-        self._lock = open(os.path.join(self.folder, ".lock"), "w")
+        """Creates the folder, or continues an earlier sweep. Raises `ExperimentError` if the folder is not a sweep's, or another sweep's, or in use."""
+        marker = os.path.join(self.folder, MARKER)
+        if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
+            raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
+        files.make(self.folder)
+        self._lock = files.open_log(marker)
         try:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
-        for name in os.listdir(self.runs):
-            if name.endswith(PART):
-                shutil.rmtree(os.path.join(self.runs, name))
+        for folder in (self.runs, self.logs):
+            files.make(folder)
+        for folder in (self.folder, self.runs):
+            for name in os.listdir(folder):
+                if name.endswith(PART) and files.is_marked(os.path.join(folder, name)):
+                    files.remove(os.path.join(folder, name))
+        asked = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
+                 "measure": experiment.measure}
         if not os.listdir(self.runs):
-            # Nothing is lost of a sweep that did not come to its first result.
-            shutil.rmtree(self.bundle, ignore_errors=True)
-        elif os.path.exists(path):
-            if not resume:
-                raise ExperimentError(f"'{self.folder}' has results of a sweep: go on with --resume, or name another folder with --out")
-            former = self.asked()
-            for key in ("keys", "set"):
-                if former[key] != asked[key]:
-                    raise ExperimentError(f"'{self.folder}' is of a sweep with {json.dumps(former[key])} as its {key}, not {json.dumps(asked[key])}: "
-                                          "name another folder with --out")
-        write(path, json.dumps(asked, indent=2) + "\n")
+            # Nothing is lost of a sweep without results.
+            files.remove(self.bundle)
+        elif not resume:
+            raise ExperimentError(f"'{self.folder}' has results of a sweep: continue it with --resume, or name another folder with --out")
+        else:
+            self._require_same(asked)
+        files.write(os.path.join(self.folder, "sweep.json"), json.dumps(asked, indent=2) + "\n")
 
     def asked(self) -> dict[str, Any]:
-        """What the sweep was asked."""
-        try:
-            with open(os.path.join(self.folder, "sweep.json")) as file:
-                asked: dict[str, Any] = json.load(file)
-        except FileNotFoundError as error:
-            raise ExperimentError(f"'{self.folder}' is no folder of a sweep: it has no sweep.json") from error
+        """Returns what the sweep was asked."""
+        path = os.path.join(self.folder, "sweep.json")
+        if not os.path.exists(path):
+            raise ExperimentError(f"'{self.folder}' is not a folder of a sweep: it has no sweep.json")
+        asked = _object(path)
+        if asked is None or asked.get("version") != VERSION:
+            raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")
         return asked
 
     def is_complete(self, run: Run) -> bool:
-        """Whether the run is done and need not be done again."""
-        record = self.record(run.name)
-        return record is not None and record["status"] == "complete"
+        """Returns whether the run is complete. A damaged one is deleted, with a message."""
+        folder = os.path.join(self.runs, run.name)
+        if not os.path.lexists(folder):
+            return False
+        record = self.record(run)
+        damaged = "run.json" if record is None else next((name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest), None)
+        if record is None or damaged:
+            print(f"collektive: '{os.path.join(folder, damaged or '')}' is damaged: the run is repeated", file=sys.stderr)
+            files.remove(folder)
+            return False
+        return bool(record["status"] == "complete")
 
-    def record(self, name: str) -> dict[str, Any] | None:
-        """run.json of a run that has ended, or None."""
-        try:
-            with open(os.path.join(self.runs, name, "run.json")) as file:
-                record: dict[str, Any] = json.load(file)
-        except FileNotFoundError:
+    def record(self, run: Run) -> dict[str, Any] | None:
+        """Returns run.json of a run that has ended, or None."""
+        record = _object(os.path.join(self.runs, run.name, "run.json"))
+        if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
             return None
         return record
 
-    def place(self, run: Run) -> str:
-        """An empty folder for a run that begins."""
+    def begin(self, run: Run) -> str:
+        """Returns an empty folder for a run."""
         part = os.path.join(self.runs, run.name + PART)
-        shutil.rmtree(part, ignore_errors=True)
-        os.mkdir(part)
+        files.make_marked(part)
         return part
 
-    def finish(self, run: Run, number: int, outcome: Outcome, seconds: float) -> None:
-        """Gives a run that has ended its name, and its place among the runs."""
-        part, folder = os.path.join(self.runs, run.name + PART), os.path.join(self.runs, run.name)
-        record = {"name": run.name, "number": number, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3)}
-        write(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
-        if os.path.isdir(folder):
-            shutil.rmtree(folder)
-        os.rename(part, folder)
+    def finish(self, run: Run, outcome: Outcome, seconds: float) -> None:
+        """Gives the folder of a run that ended its name."""
+        folder = os.path.join(self.runs, run.name)
+        part = folder + PART
+        results = {name: _hash(os.path.join(part, name)) for name in sorted(os.listdir(part)) if name != MARKER and os.path.isfile(os.path.join(part, name))}
+        if outcome.status == "complete" and not set(RESULTS) <= results.keys():
+            outcome = Outcome("failed", f"the run wrote no {' or '.join(name for name in RESULTS if name not in results)}")
+        record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}
+        files.write(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
+        files.remove(folder)
+        files.publish(folder)
 
-    def records(self) -> Iterator[dict[str, Any]]:
-        """run.json of all runs that have ended, in the experiment's order."""
-        numbered = []
-        for name in os.listdir(self.runs):
-            record = None if name.endswith(PART) else self.record(name)
-            if record:
-                numbered.append((record["number"], name))
-        for _, name in sorted(numbered):
-            record = self.record(name)
-            assert record
-            yield record
+    def _require_same(self, asked: dict[str, Any]) -> None:
+        former = _object(os.path.join(self.folder, "sweep.json"))
+        if former is None:
+            print(f"collektive: '{os.path.join(self.folder, 'sweep.json')}' is damaged: it is written again from the experiment", file=sys.stderr)
+            return
+        for key in ("version", "keys", "set"):
+            if former.get(key) != asked[key]:
+                raise ExperimentError(f"'{self.folder}' is of a sweep with {json.dumps(former.get(key))} as its {key}, not {json.dumps(asked[key])}: "
+                                      "name another folder with --out")
 
 
-def write(path: str, text: str) -> None:
-    """Writes a file that is whole or not there."""
-    part = path + PART
-    with open(part, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(part, path)
+def _object(path: str) -> dict[str, Any] | None:
+    """Returns the JSON object in a file, or None if the file is absent or damaged."""
+    try:
+        with open(path, "rb") as file:
+            value = json.loads(file.read())
+    except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
+        return None
+    return value if isinstance(value, dict) else None
+
+
+def _hash(path: str) -> str:
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except (FileNotFoundError, IsADirectoryError):
+        return ""

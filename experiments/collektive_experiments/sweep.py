@@ -1,4 +1,5 @@
 """Runs an experiment: local workers, one progress line, tables at the end."""
+import math
 import os
 import queue
 import shutil
@@ -21,8 +22,13 @@ from .worker import Outcome, Worker, WorkerError
 LEAST_ROOM = 1 << 20
 """Bytes that a disk must have left for the next run."""
 
-Task = tuple[int, Run]
-Ended = tuple[int, Run, Outcome, float]
+REPEATED_SHARE = 0.02
+LEAST_REPEATED = 3
+"""A share of the runs, and at least so many, is repeated in processes of their own: results must not depend on earlier runs."""
+
+Task = tuple[Run, bool]
+"""A run, and whether it is repeated."""
+Ended = tuple[Run, Outcome]
 
 
 class Pool(Protocol):
@@ -41,9 +47,7 @@ class LocalPool:
     def __init__(self, store: Store, jobs: int, limit: float, trust: bool):
         self._store = store
         self._limit = limit
-        logs = os.path.join(store.folder, "logs")
-        os.makedirs(logs, exist_ok=True)
-        self._workers = [Worker(store.bundle, os.path.join(logs, f"worker-{index + 1}.txt"), trust) for index in range(jobs)]
+        self._workers = [Worker(store.bundle, os.path.join(store.logs, f"worker-{index + 1}.txt"), trust) for index in range(jobs)]
         self._tasks: deque[Task] = deque()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
@@ -52,13 +56,13 @@ class LocalPool:
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
         """Begins with the runs, those with the same JVM after each other."""
-        self._tasks.extend(sorted(tasks, key=lambda task: task[1].jvm))
+        self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
         self._threads = [threading.Thread(target=self._work, args=(worker, ended)) for worker in self._workers]
         for thread in self._threads:
             thread.start()
 
     def stop(self) -> None:
-        """Ends the runs at hand, and the workers. Idle workers exit by themselves."""
+        """Ends the current runs, and the workers. Idle workers exit by themselves."""
         with self._lock:
             self._stopped = True
             for worker in self._running:
@@ -72,17 +76,16 @@ class LocalPool:
                 with self._lock:
                     if self._stopped or not self._tasks:
                         break
-                    number, run = self._tasks.popleft()
+                    run, is_repeated = self._tasks.popleft()
                     self._running.add(worker)
                 began = time.monotonic()
-                outcome = worker.run(run.settings, run.jvm, self._store.place(run), self._limit)
+                outcome = worker.run(run.settings, run.jvm, self._store.begin(run), self._limit, is_repeated)
                 with self._lock:
                     self._running.remove(worker)
                     if self._stopped:
                         break
-                seconds = time.monotonic() - began
-                self._store.finish(run, number, outcome, seconds)
-                ended.put((number, run, outcome, seconds))
+                self._store.finish(run, outcome, time.monotonic() - began)
+                ended.put((run, outcome))
         except BaseException as error:
             ended.put(error)
         finally:
@@ -90,21 +93,30 @@ class LocalPool:
 
 
 def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[Store, list[Task]]:
-    """Makes the folder with all that runs need, checks the keys, and returns what is not done yet."""
+    """Creates the folder with everything that runs need, checks the keys, and returns the runs that are not complete yet."""
     store = Store(out)
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
     _check_keys(experiment, store, trust)
-    todo = [(number, run) for number, run in enumerate(experiment.runs()) if not store.is_complete(run)]
+    todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are done already", file=sys.stderr)
-    return store, todo
+    repeated = set(_spread(len(todo)))
+    return store, [(run, index in repeated) for index, run in enumerate(todo)]
+
+
+def _spread(count: int) -> Iterable[int]:
+    """Returns the indices of the runs that are repeated. The last of each interval has the most runs before it."""
+    size = min(count, max(LEAST_REPEATED, math.ceil(count * REPEATED_SHARE)))
+    return ((index + 1) * count // size - 1 for index in range(size))
 
 
 def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool) -> int:
     """Runs what is not done yet. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
     code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
-    tables.write(store, with_csv)
+    written = tables.write(experiment, store, with_csv)
+    if code == 0 and written != experiment.count:
+        raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; repeat the missing runs with --resume")
     return code
 
 
@@ -113,11 +125,11 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
     runs = list(experiment.runs())
     with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
         store, _ = begin(experiment, os.path.join(folder, "out"), False, trust)
-        worker = Worker(store.bundle, os.path.join(store.folder, "logs", "trial.txt"), trust)
+        worker = Worker(store.bundle, os.path.join(store.logs, "trial.txt"), trust)
         seconds = []
         for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
             began = time.monotonic()
-            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit)
+            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
             seconds.append(time.monotonic() - began)
             if outcome.status != "complete":
                 print(f"collektive: {run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
@@ -143,22 +155,25 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
             if isinstance(event, BaseException):
                 raise event
             left -= 1
-            _, run, outcome, _ = event
+            run, outcome = event
             if outcome.status != "complete":
                 failed += 1
                 progress.say(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
+            if outcome.status == "differs":
+                raise ExperimentError(f"the sweep stops: runs of '{run.name}' gave different results; the program or the scene reads something other than its "
+                                      "inputs, such as a clock, a file or a random number without the scenario's seed")
     except (OSError, WorkerError) as error:
         progress.end()
-        raise ExperimentError(f"the sweep stops: {error}; what is done is kept: go on with --resume") from error
+        raise ExperimentError(f"the sweep stops: {error}; complete runs are kept: continue with --resume") from error
     finally:
         pool.stop()
         for number, handler in handlers.items():
             signal.signal(number, handler)
     progress.end()
     if interrupted:
-        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are done: go on with --resume", file=sys.stderr)
+        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are done: continue with --resume", file=sys.stderr)
         return 128 + interrupted[0]
     if failed:
         print(f"collektive: {failed} of {experiment.count} runs are not complete; --resume runs these again", file=sys.stderr)
@@ -172,8 +187,7 @@ def _require_room(store: Store) -> None:
 
 def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
     """Asks the player about each value of each key, with the first values of the others."""
-    os.makedirs(os.path.join(store.folder, "logs"), exist_ok=True)
-    worker = Worker(store.bundle, os.path.join(store.folder, "logs", "check.txt"), trust)
+    worker = Worker(store.bundle, os.path.join(store.logs, "check.txt"), trust)
     located = experiment.located
     try:
         metrics: list[str] = []

@@ -1,7 +1,11 @@
 """Tables of a sweep, as Parquet and CSV."""
 import csv
 import json
+import math
 import os
+import re
+import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from types import TracebackType
 from typing import Any
@@ -10,8 +14,9 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet as pq
 
-from .experiment import text
-from .store import PART, Store
+from . import files
+from .experiment import Experiment, Run, text
+from .store import Store
 
 BATCH = 2000
 """Rows that are kept in memory."""
@@ -24,16 +29,22 @@ RUN_TIMES: list[tuple[str, pa.DataType]] = [
 VERSIONS = ("collektive", "jvm", "clr", "os")
 
 
+CELL = re.compile(r'("?)((?:[^"]|"")*?)\1(?:,|$)')
+
+Record = dict[str, Any]
+
+
 class Table:
-    """A table that is written row by row; the file appears when it is whole."""
+    """A table that is written row by row; the file appears when it is complete."""
 
     def __init__(self, path: str, schema: pa.Schema, with_csv: bool):
         self._schema = schema
         self._rows: list[dict[str, Any]] = []
         self._paths = [path + ".parquet"] + ([path + ".csv"] if with_csv else [])
-        self._writers: list[Any] = [pq.ParquetWriter(self._paths[0] + PART, schema)]
+        self._files = [files.create(path) for path in self._paths]
+        self._writers: list[Any] = [pq.ParquetWriter(self._files[0], schema)]
         if with_csv:
-            self._writers.append(pyarrow.csv.CSVWriter(self._paths[1] + PART, schema))
+            self._writers.append(pyarrow.csv.CSVWriter(self._files[1], schema))
 
     def add(self, row: dict[str, Any]) -> None:
         """Adds a row; columns without a value are null."""
@@ -45,15 +56,17 @@ class Table:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        if error is None:
-            self._flush()
-        for writer in self._writers:
-            writer.close()
-        for path in self._paths:
+        try:
             if error is None:
-                os.replace(path + PART, path)
-            else:
-                os.remove(path + PART)
+                self._flush()
+            for writer in self._writers:
+                writer.close()
+        finally:
+            for file in self._files:
+                file.close()
+        if error is None:
+            for path in self._paths:
+                files.publish(path)
 
     def _flush(self) -> None:
         table = pa.Table.from_pylist(self._rows, schema=self._schema)
@@ -62,113 +75,178 @@ class Table:
         self._rows = []
 
 
-def write(store: Store, with_csv: bool) -> None:
-    """Writes runs, series and, if runs have them, nodes, of all runs that have ended."""
-    columns = _Columns(store)
+def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
+    """Writes the tables of all runs of the experiment that have ended. Returns how many of its runs are a row of the written table."""
+    columns = _Columns(experiment, store)
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((f"converged.{name}", pa.float64()) for name in columns.converged), *RUN_TIMES,
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])
     series = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), *((name, pa.float64()) for name in columns.metrics),
                         *((name, pa.int64()) for name in COUNTS), *((name, pa.float64()) for name in TIMES)])
     with Table(os.path.join(store.folder, "runs"), runs, with_csv) as run_table, Table(os.path.join(store.folder, "series"), series, with_csv) as series_table:
-        for record in store.records():
-            first = {"run": record["name"], **columns.values(record)}
-            run_table.add({**first, **columns.results(record)})
+        for run, record in columns.records():
+            first = {"run": run.name, **columns.values(run)}
+            run_table.add({**first, **columns.results(run, record)})
             if record["status"] == "complete":
-                for row in columns.series(record):
+                for row in columns.series(run):
                     series_table.add({**first, **row})
     if columns.nodes:
         nodes = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
         with Table(os.path.join(store.folder, "nodes"), nodes, with_csv) as node_table:
-            for record in store.records():
+            for run, record in columns.records():
                 if record["status"] == "complete":
-                    first = {"run": record["name"], **columns.values(record)}
-                    for row in columns.node_rows(record):
+                    first = {"run": run.name, **columns.values(run)}
+                    for row in columns.node_rows(run):
                         node_table.add({**first, **row})
+    columns.warn()
+    return _count_rows(experiment, store, columns.rows)
+
+
+def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> int:
+    """Returns how many runs have one row in the written table, and all their rows in the series."""
+    written = Counter(pq.read_table(os.path.join(store.folder, "runs.parquet"), columns=["run"])["run"].to_pylist())
+    series = Counter(pq.read_table(os.path.join(store.folder, "series.parquet"), columns=["run"])["run"].to_pylist())
+    return sum(written[run.name] == 1 and series[run.name] == rows.get(run.name, 0) for run in experiment.runs())
 
 
 class _Columns:
-    """Which columns the tables have, from what is in the folder, and their values."""
+    """The columns of the tables, as the runs have them, and their values."""
 
-    def __init__(self, store: Store):
+    def __init__(self, experiment: Experiment, store: Store):
+        self._experiment = experiment
         self._store = store
-        asked = store.asked()
-        values: dict[str, list[Any]] = {key: [] for key in asked["keys"]}
+        self._odd: dict[str, set[str]] = {}
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
+        self.rows: dict[str, int] = {}
         self.nodes: dict[str, pa.DataType] = {}
-        for record in store.records():
-            for key, value in record["values"].items():
-                if value not in values[key]:
-                    values[key].append(value)
-            manifest = self._manifest(record)
+        for run, record in self.records():
+            manifest = self._manifest(run)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))
-            self._add_node_columns(record)
-        types = {key: _type_of(values[key]) for key in values}
+            if record["status"] == "complete":
+                self._add_node_columns(run)
+        types = {key: _type_of(values) for key, values in experiment.product + experiment.together}
         if "seed" not in types:
             types["seed"] = pa.uint64()
         self.parameters: list[tuple[str, pa.DataType]] = list(types.items())
-        self._names = {name: "metric." + name if name in self._taken() else name for name in metrics if not asked["measure"] or name in asked["measure"]}
+        self._names: dict[str, str] = {}
+        taken = {"run", "second", *types, *(name for name, _ in RUN_COLUMNS + RUN_TIMES), *COUNTS, *TIMES, *(f"version.{name}" for name in VERSIONS),
+                 *(f"converged.{name}" for name in converged)}
+        for name in experiment.measure or metrics:
+            column = name
+            while column in taken or column.startswith(("converged.", "version.")):
+                column = "metric." + column
+            taken.add(column)
+            self._names[name] = column
         self.metrics = list(self._names.values())
         self.converged = list(converged)
 
-    def values(self, record: dict[str, Any]) -> dict[str, Any]:
-        """The run's parameters; the seed also when it does not vary."""
-        seed = self._manifest(record).get("scenario", {}).get("seed")
-        found = {"seed": seed, **record["values"]}
-        return {key: text(found[key]) if kind == pa.string() and found.get(key) is not None else found.get(key) for key, kind in self.parameters}
+    def records(self) -> Iterator[tuple[Run, Record]]:
+        """The runs that have ended, in the experiment's order, with their run.json."""
+        for run in self._experiment.runs():
+            if record := self._store.record(run):
+                yield run, record
 
-    def results(self, record: dict[str, Any]) -> dict[str, Any]:
+    def values(self, run: Run) -> dict[str, Any]:
+        """The run's parameters; the seed also when it does not vary."""
+        seed = self._manifest(run).get("scenario", {}).get("seed")
+        found = {"seed": seed, **run.values}
+        return {key: _value(found.get(key), kind) for key, kind in self.parameters}
+
+    def results(self, run: Run, record: Record) -> dict[str, Any]:
         """The rest of the run's row. A run that was not complete has no results: they would be of half a run."""
         row = {"status": record["status"], "message": record["message"] or None}
         if record["status"] != "complete":
             return row
-        manifest = self._manifest(record)
+        manifest = self._manifest(run)
         row |= {name: manifest.get(name) for name in ("digest", "nodes", "ticks", "errors", *(name for name, _ in RUN_TIMES))}
-        row |= {column: _number(manifest["end"].get(name)) for name, column in self._names.items()}
+        row |= {column: self._number(run, name, manifest["end"].get(name)) for name, column in self._names.items()}
         row |= {f"converged.{name}": manifest["converged"].get(name) for name in self.converged}
         row |= {f"version.{name}": manifest["versions"].get(name) for name in VERSIONS}
         return row
 
-    def series(self, record: dict[str, Any]) -> Iterator[dict[str, Any]]:
-        """The rows of metrics.csv."""
-        for row in self._rows(record, "metrics.csv"):
-            yield {"second": float(row["second"]), **{column: _number(row.get(name)) for name, column in self._names.items()},
-                   **{name: int(row[name]) for name in COUNTS}, **{name: float(row[name]) for name in TIMES}}
+    def series(self, run: Run) -> Iterator[dict[str, Any]]:
+        """The rows of metrics.csv: the second, the scene's metrics, counts and times."""
+        table = self._table(run, "metrics.csv")
+        names = next(table)[1:-len(COUNTS + TIMES)]
+        self.rows[run.name] = 0
+        for cells in table:
+            metrics = dict(zip(names, cells[1:]))
+            rest = cells[1 + len(names):]
+            self.rows[run.name] += 1
+            yield {"second": float(cells[0]), **{column: self._number(run, name, metrics.get(name)) for name, column in self._names.items()},
+                   **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
 
-    def node_rows(self, record: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
         """The rows of nodes.csv."""
         convert: dict[str, Callable[[str], Any]] = {
-            name: (lambda cell: cell == "true") if kind == pa.bool_() else float if kind == pa.float64() else str for name, kind in self.nodes.items()}
-        for row in self._rows(record, "nodes.csv"):
-            yield {"second": float(row["second"]), "node": int(row["node"]), **{name: convert[name](row[name]) for name in convert if row.get(name)}}
-
-    def _add_node_columns(self, record: dict[str, Any]) -> None:
-        """A column's type is that of its first cell with a value."""
-        if not os.path.exists(os.path.join(self._store.runs, record["name"], "nodes.csv")) or (self.nodes and pa.null() not in self.nodes.values()):
+            name: (lambda cell: cell == "true") if kind == pa.bool_() else _finite if kind == pa.float64() else str for name, kind in self.nodes.items()}
+        if not self._has_nodes(run):
             return
-        for row in self._rows(record, "nodes.csv"):
-            for name, cell in list(row.items())[2:]:
+        table = self._table(run, "nodes.csv")
+        names = next(table)
+        for cells in table:
+            yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names[2:], cells[2:]) if cell}}
+
+    def warn(self) -> None:
+        """Reports metrics whose cells are empty since they are not finite."""
+        for name, runs in self._odd.items():
+            print(f"collektive: the metric '{name}' is NaN or infinite in {len(runs)} runs, such as '{min(runs)}': these cells are empty", file=sys.stderr)
+
+    def _number(self, run: Run, name: str, value: Any) -> float | None:
+        """A metric. The player writes NaN and infinity as text."""
+        if value is None or value == "":
+            return None
+        number = _finite(str(value).replace("∞", "inf"))
+        if number is None:
+            self._odd.setdefault(name, set()).add(run.name)
+        return number
+
+    def _add_node_columns(self, run: Run) -> None:
+        """A column's type is that of its first cell with a value; the player puts strings in quotes."""
+        if not self._has_nodes(run) or (self.nodes and pa.null() not in self.nodes.values()):
+            return
+        table = self._table(run, "nodes.csv", raw=True)
+        names = next(self._table(run, "nodes.csv"))
+        next(table)
+        for cells in table:
+            for name, cell in zip(names[2:], cells[2:]):
                 if self.nodes.setdefault(name, pa.null()) == pa.null() and cell:
-                    self.nodes[name] = pa.bool_() if cell in ("true", "false") else pa.float64() if _is_number(cell) else pa.string()
+                    self.nodes[name] = pa.string() if cell[0] == '"' else pa.bool_() if cell in ("true", "false") else pa.float64()
             if pa.null() not in self.nodes.values():
                 return
 
-    def _taken(self) -> set[str]:
-        return {"run", "second", *(name for name, _ in self.parameters), *(name for name, _ in RUN_COLUMNS + RUN_TIMES), *COUNTS, *TIMES}
+    def _has_nodes(self, run: Run) -> bool:
+        return os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv"))
 
-    def _manifest(self, record: dict[str, Any]) -> dict[str, Any]:
+    def _manifest(self, run: Run) -> dict[str, Any]:
         try:
-            with open(os.path.join(self._store.runs, record["name"], "manifest.json")) as file:
-                manifest: dict[str, Any] = json.load(file)
-        except FileNotFoundError:
+            with open(os.path.join(self._store.runs, run.name, "manifest.json"), "rb") as file:
+                manifest: dict[str, Any] = json.loads(file.read())
+        except (FileNotFoundError, ValueError):
             return {}
         return manifest
 
-    def _rows(self, record: dict[str, Any], name: str) -> Iterable[dict[str, str]]:
-        with open(os.path.join(self._store.runs, record["name"], name), newline="") as file:
-            yield from csv.DictReader(file)
+    def _table(self, run: Run, name: str, raw: bool = False) -> Iterator[list[str]]:
+        """The rows of a CSV file; raw cells keep their quotes."""
+        with open(os.path.join(self._store.runs, run.name, name), newline="", encoding="utf-8") as file:
+            if not raw:
+                yield from csv.reader(file)
+                return
+            lines: Iterable[str] = _records(file)
+            for line in lines:
+                yield [match[1] + match[2] for match in CELL.finditer(line)]
+
+
+def _records(file: Iterable[str]) -> Iterator[str]:
+    """Joins the lines of a CSV file that belong to one record."""
+    pending = ""
+    for line in file:
+        pending += line
+        if pending.count('"') % 2 == 0:
+            yield pending.rstrip("\r\n")
+            pending = ""
 
 
 def _type_of(values: list[Any]) -> pa.DataType:
@@ -176,19 +254,16 @@ def _type_of(values: list[Any]) -> pa.DataType:
         return pa.bool_()
     if any(isinstance(value, (bool, str, list)) for value in values) or not values:
         return pa.string()
-    if all(isinstance(value, int) for value in values):
-        return pa.uint64() if max(values) >= 1 << 63 else pa.int64()
-    return pa.float64()
+    if any(isinstance(value, float) for value in values) or min(values) < -1 << 63 or max(values) >= 1 << 64 or min(values) < 0 and max(values) >= 1 << 63:
+        return pa.float64()
+    return pa.uint64() if max(values) >= 1 << 63 else pa.int64()
 
 
-def _number(value: Any) -> float | None:
-    """A metric; JSON has NaN and infinity as text."""
-    return None if value is None or value == "" else float(str(value).replace("∞", "inf"))
+def _value(value: Any, kind: pa.DataType) -> Any:
+    """A parameter in its column."""
+    return None if value is None else text(value) if kind == pa.string() else float(value) if kind == pa.float64() else value
 
 
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+def _finite(cell: str) -> float | None:
+    number = float(cell)
+    return number if math.isfinite(number) else None

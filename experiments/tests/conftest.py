@@ -50,6 +50,11 @@ class Project:
     def table(self, out: str = "out", name: str = "runs") -> pd.DataFrame:
         return pd.read_parquet(self.folder / out / f"{name}.parquet")
 
+    def run(self, values: str, out: str = "out") -> Path:
+        """Returns the folder of a run."""
+        (found,) = (self.folder / out / "runs").glob(f"{values}-*")
+        return found
+
     def digests(self, out: str = "out") -> dict[str, str]:
         """By run."""
         table = self.table(out)

@@ -29,15 +29,20 @@ def write(folder: Path, text: str) -> str:
     (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": "1-1000000"}}', "'vary.seed' has 1,000,000 values: a sweep has at most 100,000 runs"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"seed": "1-1000", "fields.a": "1-1000"}}', "these are 1,000,000 runs"),
     (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n{}]}}', "'vary.fields.a[1]' is {}, it must be a number"),
-    (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n1.0]}}', "two runs would have one name: 'fields.a=1' comes twice"),
-    (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1, 1], "fields.b": [2, 2]}}', "two runs would have one name"),
+    (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n1.0]}}', "two runs would be the same: 'fields.a=1' comes twice"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1, 1], "fields.b": [2, 2]}}', "two runs would be the same"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1], "fields.b": [2, 2]}}', "keys of 'zip' vary together"),
     (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1]},\n"set": {\n"seed": 2}}', "'seed' is in 'vary', too"),
     (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1],\n\n"seed": [2]}}', "the key 'seed' is given twice"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"scripts": ["a", "b"]}}', "'scripts' is the same for all runs"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"set": {"outputs.replay": true}}', "'outputs.replay' is not for sweeps"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"measure": {"error": 3}}', "'measure' must be a list of metrics' names"),
-    (2, '{"version": 1,\n}', "not valid JSON"),
+    (2, '{"version": 1,\n;}', "not valid JSON: a key expected"),
+    (2, '{"version": 1,\n"scenario": "\\ud800"}', "has half of a surrogate pair"),
+    (2, '{"version": 1,\n"set": {"a": ' + "7" * 5000 + "}}", "not valid JSON: a number of 5,000 characters"),
+    (2, '{"version": 1,\n"set": {"a": 1e999}}', "not valid JSON: 1e999 is too large"),
+    (2, '{"version": 1,\n"set": ' + "[" * 100_000, "not valid JSON: more than 64 levels"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"seed": "1-' + "9" * 5000 + '"}}', "is no range"),
 ])
 def test_what_is_wrong_is_named_with_its_line(tmp_path: Path, line: int, text: str, message: str) -> None:
     with pytest.raises(ExperimentError) as error:
@@ -53,12 +58,47 @@ def test_all_combinations_are_run_and_keys_of_zip_vary_together(tmp_path: Path) 
         "set": {"seconds": 3}})))
     runs = list(experiment.runs())
     assert experiment.count == len(runs) == 12
-    assert runs[0].name == "program=a,seed=1,fields.n=1,fields.at=0_1_2"
+    assert runs[0].name.rpartition("-")[0] == "program=a,seed=1,fields.n=1,fields.at=0_1_2"
     assert runs[-1].settings == {"seconds": 3, "program": "b", "seed": 5, "fields.n": 2, "fields.at": [3, 4, 5]}
 
 
+def test_a_file_that_is_not_utf_8_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "experiment.json").write_bytes(b'{"version": "\xff"}')
+    with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8$"):
+        read(str(tmp_path / "experiment.json"))
+
+
+def test_files_are_read_as_the_player_reads_them(tmp_path: Path) -> None:
+    text = "\ufeff{ // a comment\n version: 1, 'scenario': 'scenario.json', /* another */ \"vary\": {\"seed\": [1, 2,],}, }"
+    experiment = read(write(tmp_path, text))
+    assert experiment.product == [("seed", [1, 2])]
+
+
+def named(values: dict[str, object]) -> str:
+    return name_of(values, values)
+
+
 def test_any_value_makes_a_name_that_folders_may_have() -> None:
-    assert name_of({"fields.title": "a/b c.\n", "fields.on": True}) == "fields.title=a_b_c._,fields.on=true"
-    long = [name_of({f"fields.{'x' * 100}": 1, f"fields.{'y' * 100}": value}) for value in (1, 2)]
-    assert long[0] != long[1]
-    assert max(map(len, long)) <= 180
+    assert named({"fields.title": "a/b c.\n", "fields.on": True}).rpartition("-")[0] == "fields.title=a_b_c._,fields.on=true"
+    assert len(named({f"fields.{'x' * 1000}": 1})) < 180
+    assert "/" not in named({"../../x": "../../y"})
+
+
+@pytest.mark.parametrize(("one", "other"), [
+    ({"a": "1,b=2"}, {"a": "1", "b": "2"}),
+    ({"a": "x/y"}, {"a": "x_y"}),
+    ({"a": 1}, {"a": True}),
+    ({"a": "1"}, {"a": 1}),
+    ({"a": [1, 2]}, {"a": "1_2"}),
+    ({"a": 0.0}, {"a": -0.0}),
+    ({"a" * 200: 1}, {"a" * 200: 2}),
+    ({"a": "x"}, {"a": "x.part"}),
+])
+def test_two_configurations_never_share_a_folder(one: dict[str, object], other: dict[str, object]) -> None:
+    assert named(one) != named(other)
+    # Not a suffix of the other either, as folders of unfinished runs are.
+    assert not named(other).startswith(named(one))
+
+
+def test_equal_settings_share_a_folder_whatever_their_order() -> None:
+    assert name_of({"a": 1}, {"a": 1, "b": 2.0}) == name_of({"a": 1}, {"b": 2, "a": 1.0})

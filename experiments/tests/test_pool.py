@@ -44,9 +44,9 @@ class FakeStore:
     bundle = ""
 
     def __init__(self, folder: str):
-        self.folder = folder
+        self.logs = folder
 
-    def place(self, run: Run) -> str:
+    def begin(self, run: Run) -> str:
         return ""
 
     def finish(self, *_: Any) -> None:
@@ -63,7 +63,7 @@ def started(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[LocalPool, 
     monkeypatch.setattr(sweep, "Worker", lambda *_: worker)
     pool = LocalPool(cast(Store, FakeStore(str(tmp_path))), 1, 60, False)
     ended: Events = queue.SimpleQueue()
-    pool.start([(0, cast(Run, FakeRun()))], ended)
+    pool.start([(cast(Run, FakeRun()), False)], ended)
     return pool, worker, ended
 
 
@@ -71,7 +71,7 @@ def test_a_worker_without_a_run_is_not_killed(started: tuple[LocalPool, FakeWork
     pool, worker, ended = started
     worker.may_end.set()
     event = ended.get(timeout=60)
-    assert not isinstance(event, BaseException) and event[2].status == "complete"
+    assert not isinstance(event, BaseException) and event[1].status == "complete"
     pool.stop()
     assert (worker.kills, worker.stops) == (0, 1)
 

@@ -54,7 +54,7 @@ def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> No
     assert len(runs) == 8
     assert set(runs["status"]) == {"complete"}
     assert list(runs["nodes"]) == list(runs["fields.lamps"])
-    assert list(runs["run"][:2]) == ["fields.lamps=5,network.loss=0,seed=1", "fields.lamps=5,network.loss=0,seed=2"]
+    assert [name.rpartition("-")[0] for name in runs["run"][:2]] == ["fields.lamps=5,network.loss=0,seed=1", "fields.lamps=5,network.loss=0,seed=2"]
     assert list(runs.loc[runs["network.loss"] == 0, "agreeing"]) == [5, 5, 10, 10]
     assert "seen" not in runs.columns, "only what is measured"
     assert list(runs.loc[runs["network.loss"] == 0, "converged.agreeing"]) == [1.0] * 4 or runs["converged.agreeing"].isna().any()
@@ -82,18 +82,18 @@ def test_one_worker_or_two_or_a_process_for_each_run_give_the_same_digests(lamps
     result = lamps.sweep("--jobs", "1", out="one", **EIGHT)
     assert result.returncode == 0, result.stderr
     assert lamps.digests("one") == lamps.digests()
-    manifest = lamps.folder / "out/runs/fields.lamps=10,network.loss=0.3,seed=2/manifest.json"
+    manifest = lamps.run("fields.lamps=10,network.loss=0.3,seed=2") / "manifest.json"
     repeated = subprocess.run([COLLEKTIVE, "repeat", str(manifest), "--out", str(tmp_path / "again")], capture_output=True, text=True)
     assert repeated.returncode == 0, repeated.stderr
     assert "repeated: 10 ticks" in repeated.stdout
 
 
 def test_a_sweep_that_is_done_does_nothing_again_and_takes_more_values(lamps: Project) -> None:
-    record = lamps.folder / "out/runs/fields.lamps=5,network.loss=0,seed=1/run.json"
+    record = lamps.run("fields.lamps=5,network.loss=0,seed=1") / "run.json"
     before = record.stat().st_mtime_ns
     refused = lamps.sweep(**EIGHT)
     assert refused.returncode == 1
-    assert "go on with --resume" in refused.stderr
+    assert "continue it with --resume" in refused.stderr
     resumed = lamps.sweep("--resume", "--csv", **EIGHT)
     assert resumed.returncode == 0, resumed.stderr
     assert "8 of 8 runs are done already" in resumed.stderr

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from build import graph, lock, projects
+from build import graph, inputs, lock, projects
 from build.console import Failure
 from build.places import COLLEKTIVE, ROOT
 
@@ -84,7 +84,7 @@ def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
     graph.build("runtime")
     # Before the runs: their memory is measured with that of all processes that they start.
-    projects.scripts_dll(SAMPLE / "gradient_ascent.fbs", SAMPLE)
+    projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,10 @@
-"""bundle.py SCENARIO FOLDER [--trust-jvm]: builds what the runs of a sweep need, and copies it to a folder. Sweeps call it."""
+"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm]: copies what the runs of a sweep need to a folder. Sweeps call it.
+
+FOLDER/inputs has the files of the scenario's project; FOLDER/inputs.json has their paths in it, and their hashes, by the scenario's keys.
+"""
 import argparse
+import json
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -7,6 +12,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import graph, player
+from build.console import Failure
+from build.inputs import Part
 from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, SHIM
 from collektive import guarded
 
@@ -18,6 +25,14 @@ def run(arguments: argparse.Namespace) -> int:
     folder: Path = arguments.folder
     graph.build("runtime")
     plan = player.plan(arguments.scenario, ["--trust-jvm"] if arguments.trust_jvm else [])
+    _require_within(Path(os.path.abspath(arguments.scenario)).parent, plan.parts["schema"])
+    inputs = folder / "inputs"
+    paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in plan.parts.items()}
+    for part in plan.parts.values():
+        part.require_unchanged()
+    (folder / "inputs.json").write_text(json.dumps({"paths": paths, "hashes": plan.hashes()}))
+    if arguments.only_inputs:
+        return 0
     jar, dll = plan.programs_jar(), plan.scripts_dll()
     for target, files in {"csharp": [CSHARP / name for name in ASSEMBLIES], "native": [SHIM / "libcollektive_shim.so"],
                           "jars": [HOST_JAR, LIBRARY_JAR, ADAPTER_JAR], "": [dll, dll.with_suffix(".pdb")]}.items():
@@ -28,10 +43,19 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _require_within(project: Path, schema: Part) -> None:
+    """Fails if a schema includes files from outside the project's folder, or from outside its own one if it lies elsewhere."""
+    folder = project if project in schema.path.parents else schema.folder
+    for name in schema.files:
+        if folder not in Path(os.path.normpath(schema.folder / name)).parents:
+            raise Failure(f"{schema.path}: the included file '{name}' is not in the folder '{folder}', which a sweep copies: move it there")
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenario")
     parser.add_argument("folder", type=Path)
+    parser.add_argument("--only-inputs", action="store_true")
     parser.add_argument("--trust-jvm", action="store_true")
     parser.set_defaults(run=run)
     sys.exit(guarded(parser.parse_args()))

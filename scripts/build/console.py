@@ -14,9 +14,9 @@ _step = ""
 
 
 class Failure(Exception):
-    """Ends the command with a message for the user and an exit code."""
+    """Ends the command with a message for the user and an exit code; without one, with the command's code for errors."""
 
-    def __init__(self, message: str, code: int = 1) -> None:
+    def __init__(self, message: str, code: int | None = None) -> None:
         super().__init__(message)
         self.code = code
 

@@ -24,15 +24,18 @@ OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-determini
 PACKAGE = tuple(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity"))
 
 
+SYMBOLS = ROOT / "unity/Runtime/Bridge/csc.rsp"
+
+
 def symbols() -> list[str]:
     """Returns the options that generated code needs: what Unity compiles the bridge with."""
-    return [*(ROOT / "unity/Runtime/Bridge/csc.rsp").read_text().split(), "-unsafe+"]
+    return [*SYMBOLS.read_text().split(), "-unsafe+"]
 
 
 def sources(places: Sequence[Path]) -> list[Path]:
     """Returns the C# files in and below some places, in an order that does not depend on the machine."""
     files = [file for place in places for file in (place.rglob("*.cs") if place.is_dir() else [place])]
-    return sorted((file for file in files if "obj" not in file.parts), key=lambda file: str(file).encode())
+    return sorted(files, key=lambda file: str(file).encode())
 
 
 def command(out: Path, files: Sequence[Path], options: Sequence[str]) -> list[str | Path]:

@@ -35,20 +35,17 @@ def once(name: str, key: str, make: Callable[[Path], None]) -> Path:
     A folder that was not filled to its end is filled again.
     """
     folder, stamp = BUILD / name, BUILD / "stamp" / name
-    if _is_current(folder, stamp, key):
-        return folder
-    lock.exclusive()
-    try:
-        if not _is_current(folder, stamp, key):
-            stamp.unlink(missing_ok=True)
-            shutil.rmtree(folder, ignore_errors=True)
-            folder.mkdir(parents=True)
-            (LOGS / f"{name}.log").unlink(missing_ok=True)
-            make(folder)
-            stamp.parent.mkdir(parents=True, exist_ok=True)
-            stamp.write_text(key)
-    finally:
-        lock.shared()
+
+    def fill() -> None:
+        stamp.unlink(missing_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        (LOGS / f"{name}.log").unlink(missing_ok=True)
+        make(folder)
+        stamp.parent.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(key)
+
+    lock.change(lambda: _is_current(folder, stamp, key), fill)
     return folder
 
 
@@ -60,7 +57,7 @@ def key_of(inputs: Iterable[Path | str]) -> str:
             digest.update(item.encode())
             continue
         for file in sorted(path for path in item.rglob("*") if path.is_file()) if item.is_dir() else [item]:
-            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
+            digest.update(f"{file.relative_to(item.parent)}\0".encode() + hashlib.sha256(file.read_bytes()).digest())
     return digest.hexdigest()
 
 
@@ -152,7 +149,7 @@ def _actionlint(folder: Path) -> None:
 
 def _environment(requirements: Path, folder: Path) -> None:
     """Creates a virtual environment of Python with the pinned packages."""
-    logged(folder.name, ["python3", "-m", "venv", folder])
+    logged(folder.name, ["python3", "-I", "-m", "venv", folder])
     _install(requirements, folder)
 
 
@@ -189,7 +186,7 @@ def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
     """Unpacks the wheel that tools/TOOL pins, for the platform that options of pip choose, into a folder within `folder`."""
     unpacked, pip = folder / "wheel", folder / "pip"
     unpacked.mkdir(parents=True)
-    logged(folder.name, ["python3", "-m", "venv", pip])
+    logged(folder.name, ["python3", "-I", "-m", "venv", pip])
     _pip(folder.name, pip, "download", *platform, "-d", unpacked, "-r", TOOLS / tool / "requirements.txt")
     # Python's own unpacker loses the permissions.
     logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)

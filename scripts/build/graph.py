@@ -18,16 +18,14 @@ def build(*targets: str) -> None:
     setup_system()
     lock.shared()
     fetch.fetch(*fetch.BASE)
-    if _is_configured() and _is_up_to_date(targets):
-        return
-    lock.exclusive()
-    try:
+
+    def make() -> None:
         if not _is_configured():
             _configure()
         if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
             raise Failure("the build failed; the messages are above")
-    finally:
-        lock.shared()
+
+    lock.change(lambda: _is_configured() and _is_up_to_date(targets), make)
 
 
 def _is_up_to_date(targets: tuple[str, ...]) -> bool:

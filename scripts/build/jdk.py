@@ -1,12 +1,15 @@
 """Java Development Kits of this machine."""
 import os
 import re
+import subprocess
 from functools import cache
 from pathlib import Path
 
 from build.console import Failure
 
 OLDEST = 17
+# Variables with options for every JVM, of which a wrong one ends it.
+OPTIONS = ("JAVA_TOOL_OPTIONS", "JDK_JAVA_OPTIONS", "_JAVA_OPTIONS")
 
 
 def is_jdk(home: Path) -> bool:
@@ -28,11 +31,22 @@ def find_jdk() -> Path:
         home = Path(named)
         if not is_jdk(home):
             raise Failure(f"COLLEKTIVE_JAVA_HOME is not a JDK: '{named}' has no lib/server/libjvm.so, bin/javac and release")
-        return home.resolve()
+        return _usable(home.resolve())
     found = _installed()
     if not found:
         raise Failure(f"no JDK {OLDEST} or newer found: install one (Debian: openjdk-17-jdk-headless) or set COLLEKTIVE_JAVA_HOME")
-    return max(found, key=feature_version)
+    return _usable(max(found, key=feature_version))
+
+
+def _usable(home: Path) -> Path:
+    """Returns a JDK. Raises `Failure` if it does not start with the options that the environment gives to all JVMs."""
+    given = {name: os.environ[name] for name in OPTIONS if os.environ.get(name)}
+    if given:
+        result = subprocess.run([home / "bin/java", "-version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+        if result.returncode != 0:
+            reasons = [line for line in (result.stdout + result.stderr).splitlines() if not line.startswith(("Picked up", "NOTE: Picked up"))]
+            raise Failure(f"the JVM does not start with {', '.join(f'{name}={value}' for name, value in given.items())}: {' '.join(reasons[:1])}")
+    return home
 
 
 def test_jdks() -> list[Path]:

@@ -1,6 +1,7 @@
 """The lock on the build outputs of this checkout."""
 import fcntl
 import os
+from collections.abc import Callable
 
 from build.console import say
 from build.places import ROOT
@@ -18,6 +19,31 @@ def exclusive() -> None:
     _acquire(fcntl.LOCK_EX)
 
 
+def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
+    """Calls `make` with the outputs locked for changes, unless it `is_done`, and locks them for use.
+
+    Of two commands that need the same, the second waits for `make` only, not for what the first one does afterwards.
+    """
+    shared()
+    if is_done():
+        return
+    assert _descriptor is not None
+    changes = os.open(ROOT / "scripts", os.O_RDONLY)
+    try:
+        fcntl.flock(_descriptor, fcntl.LOCK_UN)
+        _wait(changes, fcntl.LOCK_EX)
+        shared()
+        if is_done():
+            return
+        exclusive()
+        try:
+            make()
+        finally:
+            shared()
+    finally:
+        os.close(changes)
+
+
 def release() -> None:
     """Releases the lock: for commands that only start other commands, each of which locks by itself."""
     global _descriptor
@@ -33,8 +59,12 @@ def _acquire(mode: int) -> None:
         _descriptor = os.open(ROOT, os.O_RDONLY)
         # A run outlives a command that is killed, and still uses the outputs.
         os.set_inheritable(_descriptor, True)
+    _wait(_descriptor, mode)
+
+
+def _wait(descriptor: int, mode: int) -> None:
     try:
-        fcntl.flock(_descriptor, mode | fcntl.LOCK_NB)
+        fcntl.flock(descriptor, mode | fcntl.LOCK_NB)
     except BlockingIOError:
         say("waiting for another collektive command that uses build/ ...")
-        fcntl.flock(_descriptor, mode)
+        fcntl.flock(descriptor, mode)

@@ -1,20 +1,32 @@
 """The folder that a run writes to: prepared before the run, summarized after it."""
+import contextlib
 import fcntl
 import json
 import os
+import shutil
+import signal
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 from build.console import Failure
 
-RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "start.png", "middle.png", "end.png")
+PICTURES = ("start.png", "middle.png", "end.png")
+RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", *PICTURES)
+# Outcomes in the player's manifests.
+RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are missing"
+# Exit codes of a player that was interrupted or killed.
+SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
+# Folder of the earlier results until a run has begun.
+EARLIER = "earlier.part"
 
 
-def prepare(folder: Path, overwrite: bool) -> None:
-    """Makes the folder and locks it until this process and its children end.
+@contextlib.contextmanager
+def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
+    """Makes the folder of a run, locks it until this process and its children end, and empties it of results.
 
-    Results of an earlier run in it are refused, or removed with `overwrite`: its contents afterwards come from one run.
+    Results of an earlier run are refused, or removed with `overwrite`. They come back if the run writes no manifest, because of a wrong seed, say.
     Raises `Failure` if the folder cannot be used.
     """
     try:
@@ -28,22 +40,80 @@ def prepare(folder: Path, overwrite: bool) -> None:
     except BlockingIOError as error:
         raise Failure(f"another run writes to '{folder}': name another folder with --out") from error
     try:
-        earlier = [name for name in RESULTS if os.path.lexists(folder / name)]
+        # A command that was killed could not.
+        _end(folder)
+        earlier = _existing(folder, RESULTS)
         if earlier and not overwrite:
             raise Failure(f"'{folder}' has results of a run: {', '.join(earlier)}; name another folder with --out, or add --overwrite")
-        for name in [*earlier, *UNFINISHED]:
-            (folder / name).unlink(missing_ok=True)
+        for name in _existing(folder, UNFINISHED):
+            (folder / name).unlink()
         with tempfile.TemporaryFile(dir=folder):
             pass
+        if earlier:
+            (folder / EARLIER).mkdir()
+        for name in earlier:
+            (folder / name).rename(folder / EARLIER / name)
     except OSError as error:
         raise Failure(f"cannot write to the output folder '{folder}': {error.strerror}; name another folder with --out") from error
+    try:
+        yield
+    finally:
+        _end(folder)
+
+
+def _end(folder: Path) -> None:
+    """Removes the earlier results if a run has begun since, or else brings them back."""
+    earlier = folder / EARLIER
+    if not earlier.is_dir():
+        return
+    if not (folder / "manifest.json").exists():
+        # The manifest last: with it, the folder is no longer an earlier one's.
+        for name in reversed(_existing(earlier, RESULTS)):
+            (earlier / name).rename(folder / name)
+    shutil.rmtree(earlier)
+
+
+def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
+    return [name for name in names if os.path.lexists(folder / name)]
+
+
+def require(folder: Path, outcome: str, code: int) -> None:
+    """Raises `Failure` unless a player that ended with the code 0 left a manifest with the outcome, or one that failed says why."""
+    try:
+        found = json.loads((folder / "manifest.json").read_text())["outcome"]
+    except (OSError, ValueError, KeyError) as error:
+        if code != 0:
+            return
+        raise Failure(f"the run wrote no usable manifest to '{folder}': {error}") from error
+    if found == RUNNING and code not in SIGNALLED:
+        raise Failure(f"the player ended with code {code} before its run did. Usual causes: endless recursion in a script, a script that ends the process, "
+                      "a crash of the JVM", max(code, 1))
+    if found != outcome and code == 0:
+        raise Failure(f"the run is not complete: {found}")
+
+
+def complete(folder: Path) -> None:
+    """Declares a run complete whose pictures were missing, after these are on disk."""
+    manifest, part = folder / "manifest.json", folder / "manifest.json.part"
+    # A replacement in the text: other writers of JSON write other digits.
+    part.write_text(manifest.read_text().replace(json.dumps(WITHOUT_PICTURES), json.dumps(COMPLETE), 1))
+    for path in (*(folder / name for name in PICTURES), part):
+        _sync(path)
+    part.replace(manifest)
+    _sync(folder)
+
+
+def _sync(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def summary(folder: Path) -> list[str]:
-    """Describes what a run has written to its folder: how it began and ended, its times, its files."""
+    """Describes what a complete run has written to its folder: how it began and ended, its times, its files."""
     ran = json.loads((folder / "manifest.json").read_text())
-    if ran["outcome"] != "complete":
-        return [f"the run is not complete: {ran['outcome']}"]
     runtime = ran["scenario"]["runtime"]
     return [
         f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}"

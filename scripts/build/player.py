@@ -1,34 +1,40 @@
 """The player: what a scenario needs, as the player itself reads the file, and how it is run."""
+import json
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from build import managed, processes, projects
+from build import inputs, managed, processes, projects
 from build.console import Failure
+from build.inputs import Part
 from build.places import HOST_JAR, PLAYER
+
+# How each part of a project is read.
+READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "runtimeJars": inputs.jars, "runtimePlugin": inputs.jar}
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a scenario needs: the player's reading of its file."""
+    """What a scenario needs: the player's reading of its file, and the parts of its project as they are now."""
 
     values: dict[str, str]
+    parts: dict[str, Part]
 
     def __getitem__(self, key: str) -> str:
         return self.values.get(key, "")
 
-    def path(self, key: str) -> Path | None:
-        """Returns the path of a key, or None without a value."""
-        return Path(self[key]) if self[key] else None
-
     def programs_jar(self) -> Path:
         """Returns the jar of the scenario's programs, compiled if they changed."""
-        return projects.programs_jar(Path(self["schema"]), Path(self["programs"]), self.path("runtime_jars"), self.path("runtime_plugin"))
+        return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
 
     def scripts_dll(self) -> Path:
         """Returns the assembly of the scenario's C#, compiled if it changed."""
-        return projects.scripts_dll(Path(self["schema"]), Path(self["scripts"]))
+        return projects.scripts_dll(self.parts["schema"], self.parts["scripts"])
+
+    def hashes(self) -> dict[str, str]:
+        """Returns the hashes of the parts, for manifests."""
+        return {key: part.digest for key, part in self.parts.items()}
 
 
 def plan(scenario: str, reading: Sequence[str]) -> Plan:
@@ -40,7 +46,8 @@ def plan(scenario: str, reading: Sequence[str]) -> Plan:
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True)
     if result.returncode != 0:
         raise Refused(result.returncode)
-    return Plan(dict(line.split("=", 1) for line in result.stdout.splitlines() if "=" in line))
+    values = dict(line.split("=", 1) for line in result.stdout.splitlines() if "=" in line)
+    return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
 
 
 class Refused(Failure):
@@ -50,8 +57,10 @@ class Refused(Failure):
         super().__init__("", code)
 
 
-def run(scenario: str, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
-    """Runs a scenario and returns the player's exit code."""
+def run(scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
+    """Runs a scenario and returns the player's exit code. Processes that its scripts have started end with it."""
     command = managed.command("mono-sgen", PLAYER, "run", scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
-                              "--java-home", java_home, *words)
-    return processes.call(command, env=managed.environment("mono-sgen"))
+                              "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)
+    code = processes.call(command, env=managed.environment("mono-sgen"))
+    processes.end_orphans()
+    return code

@@ -22,11 +22,12 @@ def attended(main: Callable[[], int]) -> int:
     """
     sys.stdout.flush()
     sys.stderr.flush()
-    ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    _adopt_orphans()
     watched, lifeline = os.pipe()
     group = os.fork()
     if group == 0:
         os.setpgid(0, 0)
+        _adopt_orphans()
         os.close(lifeline)
         os.close(watched)
         signal.signal(signal.SIGINT, _interrupted)
@@ -73,6 +74,18 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
         return code if code >= 0 else 128 - code
     finally:
         _waiting = False
+
+
+def end_orphans() -> None:
+    """Kills the processes that an ended program has left: children of this process, since `attended` makes it adopt them."""
+    while children := Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+            os.waitpid(int(child), 0)
+
+
+def _adopt_orphans() -> None:
+    ctypes.CDLL(None).prctl(_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
 def _interrupted(_: int, __: FrameType | None) -> None:

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from build import jdk
 from build.console import Failure, logged, say
 from build.places import BUILD
 
@@ -83,7 +84,7 @@ def find_missing() -> list[Missing]:
         if find_tool(tool.commands[0]) is None:
             missing.append(Missing(_package_for(tool), f"{_found(tool.commands[0])}; {tool.oldest} or newer is needed"))
     # Debian's python3 cannot create virtual environments without this package.
-    if subprocess.run(["python3", "-c", "import ensurepip"], capture_output=True).returncode != 0:
+    if subprocess.run(["python3", "-I", "-c", "import ensurepip"], capture_output=True).returncode != 0:
         missing.append(Missing("python3-venv", "python3 has no module ensurepip"))
     return missing + [Missing(package, f"{file} is missing") for file, package in FILES.items() if not file.exists()]
 
@@ -105,7 +106,9 @@ def version_of(command: str) -> str:
 
 
 def _version_output(command: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([command, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    # A JVM that rejects the user's options is not an outdated one.
+    environment = {name: value for name, value in os.environ.items() if name not in jdk.OPTIONS}
+    return subprocess.run([command, "--version"], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
 
 
 def _found(name: str) -> str:

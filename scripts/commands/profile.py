@@ -20,7 +20,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or f"out/{os.path.basename(arguments.scenario).removesuffix('.json')}-profile"
     recording = Path(out, "profile.jfr")
-    recording.unlink(missing_ok=True)
     # A run whose rounds failed has a recording, too: the one that is needed most.
     code = run_command.run(argparse.Namespace(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out,
                                                  "recording": str(recording), "folder": None}))

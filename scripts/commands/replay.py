@@ -10,7 +10,7 @@ import argparse
 import os
 from pathlib import Path
 
-from build import graph, projects, records
+from build import graph, inputs, projects, records
 from build.console import Failure
 from build.places import SAMPLES_JAR
 
@@ -35,23 +35,21 @@ def run(arguments: argparse.Namespace) -> int:
     jars = arguments.runtime_jars and os.path.realpath(arguments.runtime_jars)
     words: list[str | Path] = ["--trust"] if arguments.trust else []
     for programs in arguments.programs:
-        words += ["--programs", _compiled(programs, jars and Path(jars), arguments) if programs.is_dir() else programs]
+        words += ["--programs", _compiled(programs, jars, arguments) if programs.is_dir() else programs]
     for option, value in {"--runtime": arguments.runtime, "--runtime-jars": jars, "--out": arguments.out}.items():
         if value is not None:
             words += [option, value]
     return records.read("replay", arguments.record, *words, "--own", projects.OWN_PROGRAMS)
 
 
-def _compiled(programs: Path, jars: Path | None, arguments: argparse.Namespace) -> Path:
+def _compiled(programs: Path, jars: str | None, arguments: argparse.Namespace) -> Path:
     """Returns the jar of a folder of programs."""
     if arguments.schema is None or not arguments.schema.is_file():
-        raise Failure(f"replay: --programs '{programs}' is a folder: name its schema with --schema", records.UNUSABLE)
-    plugin: Path | None = arguments.runtime_plugin
-    if arguments.runtime != "collektive":
-        jars = plugin = None
-    elif jars is not None and (plugin is None or not plugin.is_file()):
-        raise Failure("replay: programs for collektive are compiled with its plugin: name it with --runtime-plugin", records.UNUSABLE)
-    try:
-        return projects.programs_jar(arguments.schema, programs, jars, plugin)
-    except Failure as failure:
-        raise Failure(str(failure), records.UNUSABLE) from failure
+        raise Failure(f"replay: --programs '{programs}' is a folder: name its schema with --schema")
+    parts = [inputs.schema(arguments.schema), inputs.programs(programs)]
+    if arguments.runtime == "collektive" and jars is not None:
+        plugin: Path | None = arguments.runtime_plugin
+        if plugin is None or not plugin.is_file():
+            raise Failure("replay: programs for collektive are compiled with its plugin: name it with --runtime-plugin")
+        parts += [inputs.jars(Path(jars)), inputs.jar(plugin)]
+    return projects.programs_jar(*parts)

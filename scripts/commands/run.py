@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 from build import graph, outputs, player, projects
-from build.console import Failure, logged, say
+from build.console import logged, say
 from build.jdk import find_jdk
 from build.places import BUILD, NODE_MODULES, ROOT
 
@@ -44,6 +44,9 @@ def run(arguments: argparse.Namespace) -> int:
     reading = [word for value in arguments.values for word in ("--set", value)]
     if arguments.folder is not None:
         reading += ["--folder", arguments.folder]
+    for option in ("seed", "seconds"):
+        if getattr(arguments, option) is not None:
+            reading += [f"--{option}", getattr(arguments, option)]
     if arguments.trust_jvm:
         reading.append("--trust-jvm")
     plan = player.plan(arguments.scenario, reading)
@@ -54,22 +57,21 @@ def run(arguments: argparse.Namespace) -> int:
         words += ["--template", str(REPLAY_PAGE)]
     name = os.path.basename(arguments.scenario).removesuffix(".json")
     out = arguments.out or f"out/{name}-seed{arguments.seed or plan['seed']}"
-    outputs.prepare(Path(out), arguments.overwrite)
     projects.own_program(jar)
-    for option in ("seed", "seconds", "recording"):
-        if getattr(arguments, option) is not None:
-            words += [f"--{option}", getattr(arguments, option)]
+    if arguments.recording is not None:
+        words += ["--recording", arguments.recording]
     if arguments.keep_going:
         words.append("--keep-going")
-    say(f"running {arguments.scenario}")
-    code = player.run(arguments.scenario, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+    has_pictures = plan["pictures"] == "yes"
+    with outputs.prepared(Path(out), arguments.overwrite):
+        say(f"running {arguments.scenario}")
+        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+        outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code
-    if plan["pictures"] == "yes":
+    if has_pictures:
         pictures = ROOT / "unity/Headless~/Replay/pictures.mjs"
         logged("pictures", ["node", pictures, f"{out}/replay.html", out], env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(NODE_MODULES)})
-    try:
-        print("\n".join(outputs.summary(Path(out))))
-    except (OSError, ValueError, KeyError) as error:
-        raise Failure(f"the run wrote no usable manifest to '{out}': {error}") from error
+        outputs.complete(Path(out))
+    print("\n".join(outputs.summary(Path(out))))
     return 0

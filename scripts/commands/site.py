@@ -12,6 +12,8 @@ from build.places import BUILD, ROOT
 from build.site import pages
 
 TOOLS = BUILD / "site-tools"
+# A folder with this file may be replaced.
+MARKER = ".collektive-site"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,8 +23,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     out: Path = arguments.out
-    if os.path.lexists(out) and not (out / "sitemap.xml").is_file():
-        raise Failure(f"site: '{out}' exists and is not a site: name another folder with --out")
+    if os.path.lexists(out) and (out.is_symlink() or not (out / MARKER).is_file()):
+        raise Failure(f"site: '{out}' exists and was not made by this command: name another folder with --out, or remove it")
     graph.build("documentation")
     fetch.fetch("site-tools")
     # In its own folder first, so that several commands can make it at once.
@@ -31,6 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
         pages.write(work, TOOLS / "node_modules")
         logged("site", [TOOLS / "bin/python", "-I", "-m", "mkdocs", "build", "--strict", "--config-file", "site.yml", "--site-dir", "site"], cwd=work,
                env={**os.environ, "NO_MKDOCS_2_WARNING": "true"})
+        (work / "site" / MARKER).touch()
         shutil.rmtree(out, ignore_errors=True)
         out.parent.mkdir(parents=True, exist_ok=True)
         shutil.move(work / "site", out)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import managed, projects
+from build import inputs, managed, projects
 from build.places import CSHARP, HOST_JAR, ROOT
 
 PROBE = ROOT / "unity/Headless~/Tests/Simulation/Probe"
@@ -14,7 +14,7 @@ PROBE = ROOT / "unity/Headless~/Tests/Simulation/Probe"
 
 def run(results: Path, jdk: str, runtime: str, options: list[str]) -> int:
     """Returns the exit code of the test runner."""
-    jar = projects.programs_jar(PROBE / "probe.fbs", PROBE / "programs")
+    jar = projects.programs_jar(inputs.schema(PROBE / "probe.fbs"), inputs.programs(PROBE / "programs"))
     environment = {**managed.environment(runtime), "COLLEKTIVE_ROOT": str(ROOT), "COLLEKTIVE_HOST_JAR": str(HOST_JAR),
                    "COLLEKTIVE_TEST_JAVA_HOME": jdk, "COLLEKTIVE_PROBE_JAR": str(jar)}
     command = managed.command(runtime, CSHARP / "Collektive.TestRunner.exe", "--results", results / "csharp.xml", *options,

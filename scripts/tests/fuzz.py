@@ -126,7 +126,7 @@ def main(words: list[str]) -> int:
         run_each(words[1:])
     except Failure as failure:
         print(f"collektive: {failure}", file=sys.stderr)
-        return failure.code
+        return failure.code or 1
     return 0
 
 

@@ -4,14 +4,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import jdk, managed, processes, projects
+from build import inputs, jdk, managed, processes, projects
 from build.places import CSHARP, HOST_JAR
 from tests.faults.places import PROBE, PROGRAMS
 
 
 def run(minutes: float, words: list[str]) -> int:
     """Returns the exit code of the scene, which is also the verdict."""
-    jar = projects.programs_jar(PROBE, PROGRAMS)
+    jar = projects.programs_jar(inputs.schema(PROBE), inputs.programs(PROGRAMS))
     command = managed.command("mono-sgen", CSHARP / "Collektive.Soak.exe", f"home={jdk.find_jdk()}", f"host={HOST_JAR}", f"jar={jar}",
                               f"seconds={60 * minutes:g}", *words)
     return processes.call(command, env=managed.environment("mono-sgen"))

@@ -11,7 +11,7 @@ import time
 import unittest
 from pathlib import Path
 
-from build import projects
+from build import inputs, projects
 from build.jdk import find_jdk
 from build.places import COLLEKTIVE, ROOT
 
@@ -92,7 +92,7 @@ class Project(Folder):
 
     def programs_jar(self):
         """The jar that a run has made of the programs as they are now."""
-        return str(projects.programs_jar(Path(self.path("project", "light.fbs")), Path(self.path("project", "programs"))))
+        return str(projects.programs_jar(inputs.schema(Path(self.path("project", "light.fbs"))), inputs.programs(Path(self.path("project", "programs")))))
 
     def change(self, file, old, new) -> None:
         path = self.path("project", file)

@@ -11,7 +11,7 @@ def read(path):
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
-    assert header["version"] == 3
+    assert header["version"] == 4
     assert header["length"] == sum(1 + len(line) for line in lines[1:])
     times, frames = iter(header["times"]), []
     for line in lines[1:]:
@@ -30,7 +30,9 @@ class _Segment:
     def __init__(self, data, header) -> None:
         self.data, self.at = data, 0
         self.ranges = [self.range() if field["kind"] == "number" else None for field in header["fields"]]
-        self.ids, self.step = header["ids"], header["positionStep"]
+        self.ids, self.step = [], header["positionStep"]
+        for _ in range(self.number()):
+            self.ids.append((self.ids[-1] if self.ids else 0) + self.signed())
         self.last = [[0] * len(self.ids) for _ in range(3 + len(self.ranges))]
         self.motion = [[0] * len(self.ids) for _ in range(3 + len(self.ranges))]
         self.seen, self.links = set(), set()
@@ -42,8 +44,7 @@ class _Segment:
         present = [slot for slot in range(slots) if bits[slot >> 3] >> (slot & 7) & 1]
         for last, motion in zip(self.last, self.motion):
             for slot in present:
-                coded = self.number()
-                moved = _wrapped(motion[slot] + (coded >> 1 ^ -(coded & 1)))
+                moved = _wrapped(motion[slot] + self.signed())
                 last[slot] = _wrapped(last[slot] + moved)
                 if slot in self.seen:
                     motion[slot] = moved
@@ -74,6 +75,10 @@ class _Segment:
             a += step
             pairs.append((a, b))
         return pairs
+
+    def signed(self):
+        coded = self.number()
+        return coded >> 1 ^ -(coded & 1)
 
     def number(self):
         value = shift = 0

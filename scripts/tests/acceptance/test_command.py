@@ -28,7 +28,7 @@ class TheCommand(unittest.TestCase):
     def test_a_site_replaces_no_folder_of_something_else(self) -> None:
         result = collektive("site", "--out", ROOT)
         self.assertEqual(result.returncode, 1)
-        self.assertIn(f"'{ROOT}' exists and is not a site", last_error(result))
+        self.assertIn(f"'{ROOT}' exists and was not made by this command", last_error(result))
 
 
 class TheTests(unittest.TestCase):

@@ -1,9 +1,11 @@
 """However a run ends, exit code 0 means that the ticks asked for were done."""
+import csv
 import os
 import subprocess
+import time
 
 import replay
-from command import Project, collektive, last_error
+from command import Project, collektive, last_error, processes
 
 from build.places import COLLEKTIVE
 
@@ -102,3 +104,79 @@ class WholeRuns(Project):
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
+
+    def fails_at_tick_4(self, code):
+        """The messages of a run whose script has that code at tick 4, and which is not complete."""
+        result = self.at_tick_4(code)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
+        return result
+
+    def test_a_script_that_ends_the_process_has_not_completed_the_run(self) -> None:
+        self.assertIn("the player ended with code 0 before its run did. Usual causes: ", last_error(self.fails_at_tick_4("System.Environment.Exit(0);")))
+
+    def test_a_crash_of_the_jvm_has_not_completed_the_run(self) -> None:
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
+                    'val mine = sensors.brightness()\n    val field = Class.forName("sun.misc.Unsafe").getDeclaredField("theUnsafe").apply { isAccessible = true }\n'
+                    '    if (sensors.brightness() == 3f) (field.get(null) as sun.misc.Unsafe).putAddress(0, 0)')
+        result = self.run_it()
+        self.assertNotEqual(result.returncode, 0)
+        self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
+
+    def test_endless_recursion_in_a_script_is_named(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick == 4 ? Deep(0) : Brightness;")
+        self.change("scene/Lamps.cs", "        protected override void Sense(", """
+        private int Deep(int depth) => new object[1000].Length + Deep(depth + 1);
+
+        protected override void Sense(""")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the player ended with code 1 before its run did. Usual causes: endless recursion in a script,", last_error(result))
+        self.assertEqual(self.manifest(self.path("out"))["outcome"], "running")
+
+    def test_threads_and_processes_of_a_script_do_not_outlive_the_run(self) -> None:
+        began = time.monotonic()
+        result = self.at_tick_4('new System.Threading.Thread(() => System.Threading.Thread.Sleep(600000)).Start(); '
+                                f'System.Diagnostics.Process.Start("sh", "-c \'setsid sleep 600; : {self.folder}/\'");')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLess(time.monotonic() - began, 60)
+        self.assertEqual(processes(self.folder + "/"), {})
+
+    def test_csharp_that_does_not_return_uses_up_the_limit_of_a_tick(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "stepLimitMs": 700')
+        for code in ["while (true) { }", "while (true) { try { System.Threading.Thread.Sleep(100); } catch (System.Exception) { System.Threading.Thread.ResetAbort(); } }"]:
+            with self.subTest(code):
+                line = f"if (SimulationManager.Current.Tick == 4) {{ {code} }}\n            data.Brightness = Brightness;"
+                self.change("scene/Lamps.cs", "data.Brightness = Brightness;", line)
+                result = self.run_it()
+                self.change("scene/Lamps.cs", line, "data.Brightness = Brightness;")
+                self.assertEqual(result.returncode, 1, result.stderr)
+                message = "stopped at tick 5: sensors, actuators, rules or scripts took more than 'stepLimitMs', 700 ms"
+                self.assertIn(message, last_error(result))
+                self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
+
+    def test_no_row_is_lost_however_long_the_run(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "nodes": { "fields": ["position"] }')
+        self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.02, "converged": { "agreeing": { "from": 10, "seconds": 48 } }')
+        result = self.run_it("--seconds", "50")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("out", "metrics.csv")) as file:
+            self.assertEqual([row["second"] for row in csv.DictReader(file)], [str(second) for second in range(51)])
+        with open(self.path("out", "nodes.csv")) as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 51 * 10)
+        self.assertEqual(self.manifest(self.path("out"))["converged"], {"agreeing": 1})
+
+    def test_columns_of_the_metrics_have_different_names(self) -> None:
+        for name in ["seen", "links", "second"]:
+            self.change("scene/Lamps.cs", '"agreeing"', f'"{name}"')
+            result = self.run_it()
+            self.change("scene/Lamps.cs", f'{{ "{name}"', '{ "agreeing"')
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"names the metric '{name}', which is the name of another column of metrics.csv: rename it", last_error(result))
+            self.assertFalse(os.path.exists(self.path("out", "metrics.csv")))
+
+    def test_fields_are_set_to_whole_values_only(self) -> None:
+        for value in ["0,5", "010", "0x10", "1 2", "[1", ""]:
+            result = self.run_it("--set", f"lamps={value}")
+            self.assertEqual(result.returncode, 1, value)
+            self.assertIn(f"--set lamps={value}: it must be of type whole number", last_error(result))

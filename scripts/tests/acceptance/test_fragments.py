@@ -9,7 +9,7 @@ from pathlib import Path
 from blocks import of_kind
 from command import Folder
 
-from build import projects
+from build import inputs, projects
 from build.places import ROOT
 
 SCHEMA = """
@@ -74,10 +74,10 @@ class Fragments(Folder):
         return self.path(kind)
 
     def test_csharp_compiles(self) -> None:
-        projects.scripts_dll(Path(self.path("swarm.fbs")), Path(self.written("csharp", csharp)))
+        projects.scripts_dll(inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(Path(self.written("csharp", csharp))))
 
     def test_kotlin_compiles(self) -> None:
-        projects.programs_jar(Path(self.path("swarm.fbs")), Path(self.written("kotlin", kotlin)))
+        projects.programs_jar(inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(Path(self.written("kotlin", kotlin))))
 
     def test_json_is_json(self) -> None:
         for place, code in fragments("json"):

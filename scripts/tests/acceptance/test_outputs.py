@@ -1,6 +1,7 @@
 """A folder of outputs is of one run, and its manifest says whether it is complete."""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -64,6 +65,31 @@ class Outputs(Project):
         repeated = collektive("repeat", self.path("out", "manifest.json"), "--out", self.path("again"))
         self.assertEqual(repeated.returncode, 1)
         self.assertIn("the run did not come to its end", last_error(repeated))
+
+    def test_links_in_the_folder_are_replaced_and_not_followed(self) -> None:
+        names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        # At the moment of the tables' creation.
+        links = " ".join(f'System.Diagnostics.Process.Start("ln", "-sf {self.path("outside")} {self.path("out", name)}").WaitForExit();' for name in names)
+        self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", f"Build(SimulationManager manager)\n        {{\n            {links}")
+        with open(self.path("outside"), "w") as file:
+            file.write("mine")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("outside")) as file:
+            self.assertEqual(file.read(), "mine")
+        self.assertEqual([name for name in os.listdir(self.path("out")) if os.path.islink(self.path("out", name))], ["metrics.csv.part"])
+
+    def test_a_run_whose_pictures_fail_is_not_complete(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"replay": true, "pictures": true')
+        os.mkdir(self.path("bin"))
+        with open(os.open(self.path("bin", "node"), os.O_WRONLY | os.O_CREAT, 0o755), "w") as file:
+            file.write(f'#!/bin/sh\ncase "$1" in *pictures*) exit 1;; *) exec {shutil.which("node")} "$@";; esac\n')
+        result = subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")], capture_output=True, text=True,
+                                env={**os.environ, "PATH": f"{self.path('bin')}:{os.environ['PATH']}"})
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("pictures failed", last_error(result))
+        self.assertEqual(self.outcome(), "the pictures are missing")
 
     def rows(self):
         with open(self.path("out", "metrics.csv")) as file:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from command import Project, collektive
 
-from build import projects
+from build import inputs, projects
 from build.places import ROOT
 
 LIBRARY = os.path.join(ROOT, "jvm-host/host/target/collektive-library.jar")
@@ -64,8 +64,9 @@ class Runtimes(Project):
 
     def collektive_jar(self):
         """The jar that a run on Collektive has made of the programs as they are now."""
-        names = ("light.fbs", "programs", "collektive", "plugin.jar")
-        return str(projects.programs_jar(*(Path(self.path("project", name)) for name in names)))
+        project = Path(self.path("project"))
+        return str(projects.programs_jar(inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"), inputs.jars(project / "collektive"),
+                                         inputs.jar(project / "plugin.jar")))
 
     def use_jar(self, jar, change=lambda name, data: data) -> None:
         repack(jar, self.path("project", "programs.jar"), change=change)

@@ -82,6 +82,14 @@ def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Chec
     assert ends(child)
 
 
+def test_orphans_of_a_program_end_whichever_group_they_are_in(checkout: Checkout) -> None:
+    program = "processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > ' + str(root / 'pid')])"
+    began = time.monotonic()
+    assert checkout.run(attended(f"{program} or processes.end_orphans() or 0")).returncode == 0
+    assert time.monotonic() - began < 10
+    assert ends(child_of(checkout))
+
+
 def test_a_command_ends_after_the_last_of_its_processes(checkout: Checkout) -> None:
     began = time.monotonic()
     assert checkout.run(attended("__import__('subprocess').Popen(['sleep', '2']) and 0")).returncode == 0

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from build import fetch, system
+from build import fetch, jdk, system
 from build.console import Failure
 from build.places import ROOT
 
@@ -64,6 +64,26 @@ def test_a_tool_that_is_too_old_is_named_with_its_version_and_its_package(tools:
 ])
 def test_the_package_is_one_that_is_new_enough(tools: Tools, packages: list[tuple[str, str]], expected: str) -> None:
     assert tools.missing("cargo", "cargo 1.75.0", packages).endswith(f"apt-get install {expected}")
+
+
+def test_options_that_the_jvm_rejects_are_not_taken_for_an_outdated_tool(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("JAVA_TOOL_OPTIONS", "-XX:+NoSuchOption")
+    assert tools.report() == ""
+    jdk.find_jdk.cache_clear()
+    with pytest.raises(Failure, match=r"the JVM does not start with JAVA_TOOL_OPTIONS=-XX:\+NoSuchOption: .*NoSuchOption"):
+        jdk.find_jdk()
+
+
+def test_modules_in_the_current_folder_are_not_executed(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("build.console.LOGS", tools.folder / "log")
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    for module in ("collections", "ensurepip", "os", "venv"):
+        (tools.folder / f"{module}.py").write_text(f"open({tools.path('executed')!r}, 'w')")
+    (tools.folder / "requirements.txt").touch()
+    monkeypatch.chdir(tools.folder)
+    assert tools.report() == ""
+    fetch._environment(tools.folder / "requirements.txt", tools.folder / "environment")
+    assert not (tools.folder / "executed").exists()
 
 
 def test_on_a_fresh_system_the_package_is_chosen_when_apt_has_its_lists(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -128,3 +148,14 @@ def test_an_older_python_is_refused(tmp_path: Path) -> None:
     assert result.returncode == 1
     assert "collektive: Python 3.11 or newer is needed, and " in result.stderr and result.stderr.rstrip().endswith("has version 3.9.2")
     assert len(result.stderr.splitlines()) == 1
+
+
+def test_python_imports_nothing_from_the_current_folder(tools: Tools, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for module in ("ensurepip", "collections", "venv"):
+        Path(f"{module}.py").write_text("open('executed', 'w')")
+    monkeypatch.setattr(fetch, "_install", lambda *_: None)
+    monkeypatch.setattr("build.console.LOGS", tmp_path / "log")
+    system.find_missing()
+    fetch._environment(tmp_path, tmp_path / "environment")
+    assert not Path("executed").exists()

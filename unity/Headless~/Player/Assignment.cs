@@ -66,8 +66,7 @@ namespace Collektive.Headless
         {
             try
             {
-                // Without lines: they would be taken for those of the file.
-                return JToken.Parse(text, new JsonLoadSettings { LineInfoHandling = LineInfoHandling.Ignore });
+                return JsonFile.Parse(text);
             }
             catch (JsonReaderException)
             {

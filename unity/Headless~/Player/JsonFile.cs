@@ -5,6 +5,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using System.Text.RegularExpressions;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
@@ -14,6 +15,11 @@ namespace Collektive.Headless
     internal sealed class JsonFile
     {
         private const int MaxBytes = 1 << 26;
+
+        // Strings, comments, numbers and names. The last group matches the beginning of a number that JSON does not have.
+        private static readonly Regex Words = new Regex(
+            @"""[^""\\]*(\\.[^""\\]*)*""|'[^'\\]*(\\.[^'\\]*)*'|//[^\n]*|/\*.*?\*/|-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?(?![\w.+-])|-Infinity"
+                + @"|[\p{L}_$][\w.$-]*|(?<number>[0-9.+-][\w.+-]*)", RegexOptions.Singleline | RegexOptions.ExplicitCapture | RegexOptions.CultureInvariant);
 
         private readonly string path;
 
@@ -33,8 +39,7 @@ namespace Collektive.Headless
             try
             {
                 RefuseDuplicates(path, text);
-                var reader = Reader(text);
-                var root = JToken.ReadFrom(reader) as JObject;
+                var root = Parse(text, LineInfoHandling.Load) as JObject;
                 if (root == null) throw new ScenarioException(path + ": the file must hold one JSON object");
                 return new JsonFile(path, root);
             }
@@ -42,6 +47,27 @@ namespace Collektive.Headless
             {
                 throw new ScenarioException(path + ":" + error.LineNumber + ": not valid JSON: " + error.Message);
             }
+        }
+
+        /// <summary>Reads one value, strictly.</summary>
+        /// <exception cref="JsonReaderException">The text is not one JSON value.</exception>
+        internal static JToken Parse(string text, LineInfoHandling lines = LineInfoHandling.Ignore)
+        {
+            // The reader takes 010 for 8, and 0x10 for 16.
+            for (var match = Words.Match(text); match.Success; match = match.NextMatch())
+            {
+                if (!match.Groups["number"].Success) continue;
+                var before = text.Substring(0, match.Index);
+                var line = before.Length - before.Replace("\n", "").Length + 1;
+                throw new JsonReaderException("'" + match.Value + "' is not a number of JSON", "", line, match.Index - before.LastIndexOf('\n'), null);
+            }
+            var reader = Reader(text);
+            var value = JToken.ReadFrom(reader, new JsonLoadSettings { LineInfoHandling = lines });
+            // Throws for another value.
+            while (reader.Read())
+            {
+            }
+            return value;
         }
 
         internal void RefuseUnknown(JObject part, string place, IEnumerable<string> known)
@@ -107,7 +133,7 @@ namespace Collektive.Headless
                 if (type == typeof(int) && kind == JTokenType.Integer) return (int)token;
                 if (type == typeof(long) && kind == JTokenType.Integer) return (long)token;
                 if (type == typeof(ulong) && kind == JTokenType.Integer) return (ulong)token;
-                if (type == typeof(float) && number) return (float)token;
+                if (type == typeof(float) && number && (!float.IsInfinity((float)token) || double.IsInfinity((double)token))) return (float)token;
                 if (type == typeof(double) && number) return (double)token;
                 if (type == typeof(JObject) && kind == JTokenType.Object) return token;
                 if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key).ToArray();

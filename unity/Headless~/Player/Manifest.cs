@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Security.Cryptography;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json;
@@ -17,6 +18,12 @@ namespace Collektive.Headless
         /// <summary><see cref="Outcome"/> of a run that did all its ticks, or that a script ended in order.</summary>
         internal const string Complete = "complete";
 
+        /// <summary><see cref="Outcome"/> of a run that lacks nothing but its pictures, which the command makes and then sets <see cref="Complete"/>.</summary>
+        internal const string WithoutPictures = "the pictures are missing";
+
+        /// <summary>The other files of a run.</summary>
+        private static readonly string[] Files = { "metrics.csv", "nodes.csv", "replay.html", "run.clkrec" };
+
         private readonly string path;
 
         /// <summary>Describes a run that has not begun.</summary>
@@ -29,7 +36,7 @@ namespace Collektive.Headless
                 new JProperty(FormerRun.ScenarioKey, scenario.ToJson(fields)),
                 new JProperty("file", scenario.Former?.File ?? Path.GetFileName(scenario.Path)),
                 new JProperty("folder", scenario.Folder),
-                new JProperty("inputs", InputHashes.Of(scenario)),
+                new JProperty("inputs", options.Inputs),
                 new JProperty("programs", Hashes(options.Jars)));
         }
 
@@ -85,7 +92,14 @@ namespace Collektive.Headless
         /// <summary>What recording frames for the replay page took of the run, and writing the page.</summary>
         internal void AddReplay(double milliseconds) => Root.Add("replay_ms", Math.Round(milliseconds));
 
-        internal void Write() => WholeFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
+        internal void Write() => ResultFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
+
+        /// <summary>Writes the manifest after all other files are on disk: it says whether they are complete.</summary>
+        internal void WriteLast()
+        {
+            foreach (var name in Files) ResultFile.Sync(Path.Combine(Path.GetDirectoryName(path), name));
+            Write();
+        }
 
         private static JObject Metrics(SceneBuilder scene, IReadOnlyList<double> values)
         {
@@ -97,7 +111,14 @@ namespace Collektive.Headless
         private static JObject Hashes(List<string> jars)
         {
             var hashes = new JObject();
-            foreach (var jar in jars) hashes.Add(Path.GetFileName(jar), InputHashes.OfFile(Installation.PathOf(jar)));
+            using (var sha = SHA256.Create())
+            {
+                foreach (var jar in jars)
+                {
+                    var hash = sha.ComputeHash(File.ReadAllBytes(Installation.PathOf(jar)));
+                    hashes.Add(Path.GetFileName(jar), BitConverter.ToString(hash).Replace("-", "").ToLowerInvariant());
+                }
+            }
             return hashes;
         }
     }

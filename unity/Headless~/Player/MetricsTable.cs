@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
 
@@ -16,6 +17,7 @@ namespace Collektive.Headless
         private readonly TextWriter writer;
         private readonly SceneBuilder scene;
         private static readonly string[] Counts = { "links", "sent", "dropped", "delayed", "expired" };
+        private static readonly string[] Times = { "sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99" };
 
         private readonly double[] values;
         private readonly double[] row;
@@ -29,8 +31,8 @@ namespace Collektive.Headless
             this.scene = scene;
             values = new double[scene.MetricNames.Count];
             row = new double[values.Length + Counts.Length];
-            writer = path == null ? TextWriter.Null : new StreamWriter(path);
-            writer.Write("second," + string.Join(",", NamesOf(scene)) + ",sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99\n");
+            writer = path == null ? TextWriter.Null : ResultFile.Create(path);
+            writer.Write("second," + string.Join(",", NamesOf(scene).Concat(Times).Select(CsvText.Header)) + "\n");
         }
 
         /// <summary>The scene's metrics at the last row.</summary>
@@ -41,6 +43,18 @@ namespace Collektive.Headless
         {
             foreach (var name in scene.MetricNames) yield return name;
             foreach (var name in Counts) yield return name;
+        }
+
+        /// <summary>Throws a <see cref="ScenarioException"/> if two columns of the table would have one name.</summary>
+        internal static void RefuseDuplicates(SceneBuilder scene)
+        {
+            var known = new HashSet<string>(Counts.Concat(Times)) { "second" };
+            foreach (var name in scene.MetricNames)
+            {
+                if (known.Add(name)) continue;
+                throw new ScenarioException(
+                    "the scene " + scene.GetType().FullName + " names the metric '" + name + "', which is the name of another column of metrics.csv: rename it");
+            }
         }
 
         /// <summary>Adds a tick.</summary>

@@ -28,7 +28,7 @@ namespace Collektive.Headless
             this.manager = manager;
             var answers = AnswerField.Of(manager);
             foreach (var field in fields) columns.Add(field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field));
-            writer = new StreamWriter(path);
+            writer = ResultFile.Create(path);
             writer.Write("second,node," + string.Join(",", columns.Select(column => column.Header)) + "\n");
         }
 
@@ -119,7 +119,8 @@ namespace Collektive.Headless
                     case bool truth: return truth ? "true" : "false";
                     case float number: return number.ToString("R", CultureInfo.InvariantCulture);
                     case double number: return number.ToString("R", CultureInfo.InvariantCulture);
-                    case string text: return "\"" + text.Replace("\"", "\"\"") + "\"";
+                    case string text: return CsvText.Quoted(text);
+                    case Enum name: return CsvText.Quoted(name.ToString());
                     default: return Convert.ToString(value, CultureInfo.InvariantCulture);
                 }
             }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
@@ -8,11 +9,11 @@ namespace Collektive.Headless
     internal sealed class Options
     {
         internal const string Usage =
-            "Player plan SCENARIO [--set KEY=VALUE]... [--folder DIR] [--trust-jvm]\n" +
+            "Player plan SCENARIO [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
-            "           [--keep-going] [--trust-jvm]\n" +
-            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR [--template HTML] [--keep-going] [--trust-jvm]\n" +
+            "           [--inputs JSON] [--keep-going] [--trust-jvm]\n" +
+            "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--inputs JSON] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
         internal string Command { get; private set; }
@@ -34,6 +35,12 @@ namespace Collektive.Headless
 
         /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>
         internal bool TrustJvm { get; private set; }
+
+        /// <summary>Hashes of the project's parts, for the manifest.</summary>
+        internal JObject Inputs { get; private set; } = new JObject();
+
+        /// <summary>Descriptor of a socket for requests and answers, for <see cref="Server"/>.</summary>
+        internal int Channel { get; private set; } = -1;
 
         internal string Template { get; private set; }
 
@@ -96,6 +103,8 @@ namespace Collektive.Headless
                 case "--java-home": JavaHome = value; break;
                 case "--out": Out = value; break;
                 case "--folder": Folder = value; break;
+                case "--inputs": Inputs = JObject.Parse(value); break;
+                case "--channel": Channel = int.Parse(value, CultureInfo.InvariantCulture); break;
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
                 case "--set": AddAssignment(Assignment.Parse(value, out var field), field); break;

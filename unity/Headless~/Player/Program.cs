@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using Collektive.Bridge;
+using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
@@ -13,7 +14,11 @@ namespace Collektive.Headless
         {
             // For exceptions in threads that a script started: the runtime prints them, then ends the process.
             AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
-            return StopJvm(Run(arguments));
+            var code = StopJvm(Run(arguments));
+            Console.Out.Flush();
+            // Returning would wait for the foreground threads that scripts started.
+            Syscall._exit(code);
+            return code;
         }
 
         /// <summary>The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.</summary>
@@ -45,6 +50,7 @@ namespace Collektive.Headless
                 var scenario = Scenario.Read(options.Scenario, options.Folder, options.TrustJvm, options.Assignments.ToArray());
                 if (options.Command == "plan")
                 {
+                    scenario.Override(options.Seed, options.Seconds);
                     Plan(scenario);
                     return 0;
                 }
@@ -73,8 +79,8 @@ namespace Collektive.Headless
             Console.WriteLine("scripts=" + scenario.Scripts);
             Console.WriteLine("schema=" + scenario.Schema);
             Console.WriteLine("programs=" + scenario.Programs);
-            Console.WriteLine("runtime_jars=" + scenario.RuntimeJars);
-            Console.WriteLine("runtime_plugin=" + scenario.RuntimePlugin);
+            Console.WriteLine("runtimeJars=" + scenario.RuntimeJars);
+            Console.WriteLine("runtimePlugin=" + scenario.RuntimePlugin);
             Console.WriteLine("seed=" + scenario.Settings.seed);
             Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
             Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));

@@ -88,6 +88,8 @@ namespace Collektive.Headless
             last = time;
             writer.BeginFrame(time, CountLinks());
             var nodes = manager.Nodes;
+            // Of many nodes that left.
+            if (colours?.Count > 2 * nodes.Count) colours.Clear();
             for (var i = 0; i < nodes.Count; i++)
             {
                 var node = nodes[i];

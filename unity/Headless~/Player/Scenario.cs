@@ -216,7 +216,8 @@ namespace Collektive.Headless
             if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
-                "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds that is not below 'deltaTime', " + Text(Settings.deltaTime));
+                "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds " + (interval > MaxTicks
+                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(Settings.deltaTime)));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -254,7 +255,7 @@ namespace Collektive.Headless
         private void Count(System.Func<string, ScenarioException> error)
         {
             // An invalid delta time is refused together with the other settings.
-            var deltaTime = Settings.deltaTime;
+            var deltaTime = RowSchedule.Exact(Settings.deltaTime);
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
             if (ticks > MaxTicks)

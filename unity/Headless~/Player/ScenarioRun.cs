@@ -4,8 +4,10 @@ using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Reflection;
+using System.Threading;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Mono.Unix.Native;
 using Newtonsoft.Json.Linq;
 using UnityEngine;
 using UnityEngine.Headless;
@@ -27,6 +29,7 @@ namespace Collektive.Headless
         private TimeSpan firstTick;
         private Manifest manifest;
         private MetricsTable metrics;
+        private FrameLimit limit;
         private int done;
 
         /// <param name="began">When the run began; by default, when the process did.</param>
@@ -62,6 +65,12 @@ namespace Collektive.Headless
             {
                 using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording)) return Play(manager, scene);
             }
+            catch (ThreadAbortException) when (limit?.IsExceeded == true)
+            {
+                Thread.ResetAbort();
+                manifest.Outcome = "failed: " + limit.Message;
+                throw new ScenarioException(limit.Message + "; its stack is above");
+            }
             catch (Exception error)
             {
                 manifest.Outcome = "failed: " + error.Message;
@@ -70,8 +79,7 @@ namespace Collektive.Headless
             finally
             {
                 Loop.Quit();
-                // Last, since it says whether the other files are whole.
-                manifest.Write();
+                manifest.WriteLast();
             }
         }
 
@@ -109,6 +117,15 @@ namespace Collektive.Headless
             return manager;
         }
 
+        /// <summary>Ends the process in a frame that cannot be ended.</summary>
+        private void GiveUp()
+        {
+            Console.Error.WriteLine("collektive: " + limit.Message);
+            manifest.Outcome = "failed: " + limit.Message;
+            manifest.Write();
+            Syscall._exit(1);
+        }
+
         private void Count(SimulationManager manager)
         {
             if (++done == 1) firstTick = DateTime.Now - began;
@@ -142,6 +159,7 @@ namespace Collektive.Headless
             holder.SetActive(false);
             var scene = (SceneBuilder)holder.AddComponent(type);
             SceneFields.Set(scene, scenario, options.FieldAssignments);
+            MetricsTable.RefuseDuplicates(scene);
             scenario.Convergence.Bind(scene.MetricNames);
             return scene;
         }
@@ -156,6 +174,7 @@ namespace Collektive.Headless
             var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
+            using (limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
             using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)
@@ -165,13 +184,15 @@ namespace Collektive.Headless
                 nodes?.Add(0);
                 var start = new List<double>(metrics.Values);
                 replay?.Add(0);
-                var rows = 1;
-                var nodeRows = 1;
+                var rows = new RowSchedule(scenario.Interval, scenario.Settings.deltaTime);
+                var nodeRows = new RowSchedule(scenario.NodeInterval, scenario.Settings.deltaTime);
                 var ended = Stopwatch.GetTimestamp();
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
                     var before = done;
+                    limit.Begin(done + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
+                    limit.End();
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
                     // A script has paused or disabled the manager.
                     if (done == before)
@@ -188,12 +209,17 @@ namespace Collektive.Headless
                     totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
                     ended = now;
                     metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
-                    if (manager.SimulatedTime >= rows * scenario.Interval - 1e-6)
+                    if (rows.IsDue(done))
                     {
-                        EndInterval(manager, replay, rows * scenario.Interval);
-                        scenario.Convergence.Add(rows++ * scenario.Interval, metrics.Values);
+                        EndInterval(manager, replay, rows.Next);
+                        scenario.Convergence.Add(rows.Next, metrics.Values);
+                        rows.Advance();
                     }
-                    if (nodes != null && manager.SimulatedTime >= nodeRows * scenario.NodeInterval - 1e-6) nodes.Add(nodeRows++ * scenario.NodeInterval);
+                    if (nodes != null && nodeRows.IsDue(done))
+                    {
+                        nodes.Add(nodeRows.Next);
+                        nodeRows.Advance();
+                    }
                     if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
                 }
                 progress.End();
@@ -227,7 +253,7 @@ namespace Collektive.Headless
                 manifest.Outcome = Problem;
                 return 1;
             }
-            manifest.Outcome = Manifest.Complete;
+            manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
             var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
             if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;

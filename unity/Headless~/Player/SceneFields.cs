@@ -64,9 +64,9 @@ namespace Collektive.Headless
             if (field.FieldType == typeof(string) || field.FieldType.IsEnum) return new JValue(text);
             try
             {
-                return JToken.Parse("[" + text + "]")[0];
+                return JsonFile.Parse(text);
             }
-            catch (Exception error) when (error is JsonReaderException || error is ArgumentOutOfRangeException)
+            catch (JsonReaderException)
             {
                 throw new ScenarioException("--set " + field.Name + "=" + text + ": it must be of type " + JsonFile.NameOf(field.FieldType));
             }

@@ -1,42 +1,51 @@
 using System;
 using System.Collections.Generic;
 using System.Reflection;
-using System.Runtime.CompilerServices;
 using Collektive.Bridge;
 
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The static fields of a scene's scripts, which a run could leave changed to the next one in the process. Fields are compared that hold numbers, texts,
-    /// structs of these, and arrays of all that; with any other field, a list for instance, each run needs a process of its own.
+    /// What a scene's scripts could leave behind for the next run in the process. Static fields of numbers, strings, structs of these and arrays of all
+    /// that are compared after each run. With any other static field, a list for instance, or a reference that <see cref="ScriptReferences"/> does not know,
+    /// each run needs a process of its own.
     /// </summary>
     internal sealed class ScriptState
     {
         private const BindingFlags Statics = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.DeclaredOnly;
 
         private readonly List<KeyValuePair<FieldInfo, object>> before = new List<KeyValuePair<FieldInfo, object>>();
-        private readonly bool isKnown = true;
 
         internal ScriptState(Assembly scripts)
         {
+            CanKeep = ScriptReferences.FindProblem(scripts) != null;
             foreach (var type in scripts.GetTypes())
             {
-                if (type.ContainsGenericParameters) continue;
-                // Delegates that the compiler keeps are made of no state.
-                if (type.IsDefined(typeof(CompilerGeneratedAttribute), false)) continue;
+                if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
+                foreach (var field in type.GetFields(Statics)) CanKeep |= !field.IsLiteral && !IsComparable(field);
+            }
+            // Reading a field runs its type's initializer, which must not be earlier than in a process with one run.
+            if (CanKeep) return;
+            foreach (var type in scripts.GetTypes())
+            {
+                if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
                 foreach (var field in type.GetFields(Statics))
                 {
                     if (field.IsLiteral) continue;
                     var value = field.GetValue(null);
                     before.Add(new KeyValuePair<FieldInfo, object>(field, value is Array array ? array.Clone() : value));
-                    isKnown &= IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType())
-                        || field.IsInitOnly && IsWithoutState(field.FieldType);
                 }
             }
         }
 
+        /// <summary>Whether a run could leave something behind that is not compared.</summary>
+        internal bool CanKeep { get; }
+
         /// <summary>Whether the fields are as they were.</summary>
-        internal bool IsUnchanged => isKnown && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
+        internal bool IsUnchanged => !CanKeep && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
+
+        private static bool IsComparable(FieldInfo field) =>
+            IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType()) || field.IsInitOnly && IsWithoutState(field.FieldType);
 
         private static bool AreEqual(object before, object now)
         {

@@ -3,8 +3,11 @@ using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.IO;
 using System.Reflection;
+using System.Text;
 using System.Threading;
 using Collektive.Bridge;
+using Collektive.Unity;
+using Mono.Unix;
 using Mono.Unix.Native;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -13,23 +16,28 @@ using UnityEngine.Headless;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Runs one scenario many times in this process, with one JVM. Each line of standard input is a request, <c>{"out": FOLDER, "set": {KEY: VALUE}}</c>; the
-    /// answer is a line of standard output that begins with <see cref="Mark"/>: <c>{"code": EXIT CODE, "again": WHETHER ANOTHER RUN MAY FOLLOW}</c>. What a run
-    /// prints goes to log.txt in its folder. A request with <c>"check": true</c> reads the scenario and the scene's fields, and runs nothing; its
-    /// answer has the problem, or the names of the scene's metrics. The end of the input ends the process, in the middle of a run, too.
+    /// Runs a scenario for a sweep, one or more times with one JVM. Requests and answers are lines of JSON on the descriptor <c>--channel</c>; an answer has
+    /// the <c>id</c> of its request. <c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM, and answers <c>keepsState</c>: whether scripts could leave
+    /// something behind for the next run. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and whether another run
+    /// may follow <c>again</c>. What a run prints goes to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario and the scene's fields,
+    /// and runs nothing; the answer has the <c>problem</c>, or the names of the scene's <c>metrics</c>. The process ends when the channel is closed.
     /// </summary>
     internal sealed class Server
     {
-        private const string Mark = "collektive-run ";
+        private const int CloseOnExec = 1;
 
         private readonly BlockingCollection<string> requests = new BlockingCollection<string>();
         private readonly Interrupt interrupt = new Interrupt();
-        private readonly TextWriter answers = Console.Out;
+        private readonly UnixStream channel;
         private readonly Options options;
+        private ScriptState state;
 
         internal Server(Options options)
         {
             this.options = options;
+            // Children of scripts must not answer, nor keep the channel open.
+            Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
+            channel = new UnixStream(options.Channel);
             // As in the editor, the JVM stays when a run ends.
             Loop.IsEditor = true;
             new Thread(ReadRequests) { IsBackground = true }.Start();
@@ -38,22 +46,39 @@ namespace Collektive.Headless
         /// <summary>Answers requests until a run leaves something behind that the next one could see.</summary>
         internal void Serve()
         {
-            var state = new ScriptState(Assembly.LoadFrom(options.Scripts));
             while (true)
             {
                 var request = JObject.Parse(requests.Take());
-                var answer = (bool?)request["check"] == true ? Check(request) : Run(request, state);
-                answers.WriteLine(Mark + answer.ToString(Formatting.None));
-                answers.Flush();
-                if (!(bool)answer["again"]) return;
+                var answer = (bool?)request["check"] == true ? Check(request) : (bool?)request["start"] == true ? Start(request) : Run(request);
+                answer.AddFirst(new JProperty("id", request["id"]));
+                var line = Encoding.UTF8.GetBytes(answer.ToString(Formatting.None) + "\n");
+                channel.Write(line, 0, line.Length);
+                if ((bool?)answer["again"] == false) return;
             }
         }
 
         private void ReadRequests()
         {
-            for (string line; (line = Console.In.ReadLine()) != null;) requests.Add(line);
-            // Who asked is gone.
+            var reader = new StreamReader(channel, Encoding.UTF8);
+            for (string line; (line = reader.ReadLine()) != null;) requests.Add(line);
+            // The sweep has ended.
             Syscall._exit(1);
+        }
+
+        private JObject Start(JObject request)
+        {
+            state = new ScriptState(Assembly.LoadFrom(options.Scripts));
+            Installation.HostJar = options.HostJar;
+            Installation.JavaHome = options.JavaHome;
+            try
+            {
+                Jvm.Start(Installation.ToLaunch(Read(request).Jvm));
+            }
+            catch (Exception error) when (error is BridgeException || error is ScenarioException)
+            {
+                // The run fails in the same way, and reports it.
+            }
+            return new JObject(new JProperty("keepsState", state.CanKeep));
         }
 
         private JObject Check(JObject request)
@@ -72,11 +97,10 @@ namespace Collektive.Headless
             {
                 Loop.Reset();
             }
-            return new JObject(
-                new JProperty("problem", problem), new JProperty("metrics", metrics == null ? null : new JArray(metrics)), new JProperty("again", true));
+            return new JObject(new JProperty("problem", problem), new JProperty("metrics", metrics == null ? null : new JArray(metrics)));
         }
 
-        private JObject Run(JObject request, ScriptState state)
+        private JObject Run(JObject request)
         {
             var folder = (string)request["out"];
             int code;

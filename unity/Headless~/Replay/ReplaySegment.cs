@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
@@ -44,13 +45,15 @@ namespace Collektive.Headless
         }
 
         /// <summary>Codes the frames and forgets them.</summary>
+        /// <param name="ids">By slot, the node that has it in these frames.</param>
         /// <param name="coded">Holds the segment; valid until the next call.</param>
         /// <returns>Length of the segment in bytes.</returns>
-        internal int Encode(out byte[] coded)
+        internal int Encode(List<int> ids, out byte[] coded)
         {
             length = 0;
             Reset(frames[Count - 1].Slots);
             for (var field = 0; field < fields.Length; field++) WriteRange(field);
+            WriteIds(ids);
             for (var i = 0; i < Count; i++)
             {
                 var frame = frames[i];
@@ -102,6 +105,13 @@ namespace Collektive.Headless
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
+        private void WriteIds(List<int> ids)
+        {
+            Reserve(MostBytesOfNumber * (1 + ids.Count));
+            WriteNumber((uint)ids.Count);
+            for (var slot = 0; slot < ids.Count; slot++) WriteSigned(unchecked(ids[slot] - (slot == 0 ? 0 : ids[slot - 1])));
+        }
+
         private void WritePresence(ReplayFrame frame)
         {
             Reserve(MostBytesOfNumber + frame.Slots / 8 + 1);
@@ -126,7 +136,7 @@ namespace Collektive.Headless
                     if (!frame.Has(slot)) continue;
                     var step = values[slot] - last[slot];
                     var surprise = step - motion[slot];
-                    WriteNumber((uint)(surprise << 1 ^ surprise >> 31));
+                    WriteSigned(surprise);
                     last[slot] = values[slot];
                     if (seen[slot]) motion[slot] = step;
                 }
@@ -168,6 +178,8 @@ namespace Collektive.Headless
             }
             return count;
         }
+
+        private void WriteSigned(int value) => WriteNumber((uint)(value << 1 ^ value >> 31));
 
         private void WriteNumber(uint value)
         {

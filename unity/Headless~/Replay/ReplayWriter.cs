@@ -12,7 +12,7 @@ namespace Collektive.Headless
     /// <summary>
     /// Writes a run as a replay page; the format is in FORMAT.md. For each frame: <see cref="BeginFrame"/>, each node, then each
     /// link between those nodes, <see cref="EndFrame"/>; at the end <see cref="Finish"/>. Every <see cref="FramesPerSegment"/> frames go to a
-    /// scratch file: memory grows by eight bytes a frame, and between two of those moments a frame allocates nothing once the greatest
+    /// scratch file, and slots of nodes that left go to others: memory grows by eight bytes a frame, and between two of those moments a frame allocates nothing once the greatest
     /// numbers of nodes and links were seen. One thread at a time. After an exception the recording is of no further use: dispose the writer.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
@@ -24,7 +24,7 @@ namespace Collektive.Headless
         public const int LinkBudget = 30000;
 
         internal const string Placeholder = "@@REPLAY@@";
-        internal const int Version = 3;
+        internal const int Version = 4;
 
         private const int MaxSlots = 1 << 24;
 
@@ -43,9 +43,14 @@ namespace Collektive.Headless
         private long textLength;
 
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
+        // By slot: the node that has it now, or had it last.
         private readonly List<int> ids = new List<int>();
+        // Slots of nodes that left before this segment, the greatest first.
+        private readonly List<int> free = new List<int>();
+        private readonly IdRanges known = new IdRanges();
         private readonly List<double> times = new List<double>();
         private int slotOfLast;
+        private int maxSlots;
         private int maxLinks;
 
         private ReplayFrame frame;
@@ -66,7 +71,7 @@ namespace Collektive.Headless
             arena = metadata.Arena.Copy();
             positionStep = arena.LongestSide / 65535;
             this.scratchPath = scratchPath;
-            scratch = new StreamWriter(scratchPath, false, new UTF8Encoding(false));
+            scratch = ResultFile.Create(scratchPath);
         }
 
         /// <summary>Number of frames written.</summary>
@@ -86,6 +91,7 @@ namespace Collektive.Headless
                     + Number(last) + ".", nameof(time));
             times.Add(time);
             inFrame = true;
+            if (segment.Count == 0 && Frames > 1) FreeSlots();
             frame = segment.Add(ids.Count);
             frame.Links = links;
             linkLimit = links <= LinkBudget ? 1UL << 32 : ((ulong)LinkBudget << 32) / (ulong)links;
@@ -164,7 +170,7 @@ namespace Collektive.Headless
             scratch.Dispose();
             var header = Encoding.UTF8.GetBytes(Header());
             var headerLength = Compress(header, header.Length);
-            WholeFile.Write(outputHtmlPath, page =>
+            ResultFile.Write(outputHtmlPath, page =>
             {
                 page.Write(template.Substring(0, start));
                 page.Write(text, 0, headerLength);
@@ -189,13 +195,35 @@ namespace Collektive.Headless
             }
         }
 
+        /// <summary>Between segments, in each of which a slot belongs to one node: frees the slots of nodes that are not in the last frame.</summary>
+        private void FreeSlots()
+        {
+            free.Clear();
+            for (var slot = ids.Count - 1; slot >= 0; slot--)
+            {
+                if (frame.Has(slot)) continue;
+                if (slotOfId.TryGetValue(ids[slot], out var last) && last == slot) slotOfId.Remove(ids[slot]);
+                if (slot == ids.Count - 1) ids.RemoveAt(slot);
+                else free.Add(slot);
+            }
+        }
+
         private int NewSlot(int id)
         {
-            if (ids.Count == MaxSlots)
-                throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " different node ids, the most that it can hold.");
-            slotOfId.Add(id, ids.Count);
-            ids.Add(id);
-            return ids.Count - 1;
+            var slot = free.Count == 0 ? ids.Count : free[free.Count - 1];
+            if (slot == MaxSlots)
+                throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " nodes in a segment, the most that it can hold.");
+            known.Add(id);
+            slotOfId.Add(id, slot);
+            if (slot == ids.Count)
+            {
+                ids.Add(id);
+                maxSlots = Math.Max(maxSlots, ids.Count);
+                return slot;
+            }
+            ids[slot] = id;
+            free.RemoveAt(free.Count - 1);
+            return slot;
         }
 
         private int PresentSlot(int id, int a, int b)
@@ -223,7 +251,8 @@ namespace Collektive.Headless
                 ["fields"] = new JArray(Array.ConvertAll(fields, field => (object)field.ToJson())),
                 ["maxLinks"] = maxLinks,
                 ["times"] = new JArray(times),
-                ["ids"] = new JArray(ids),
+                ["slots"] = maxSlots,
+                ["ids"] = known.ToJson(),
                 ["metrics"] = (metrics ?? new ReplayMetrics(new string[0])).ToJson(),
                 ["movers"] = new JArray(movers.ConvertAll(mover => (object)mover.ToJson())),
                 ["metadata"] = metadata,
@@ -233,7 +262,7 @@ namespace Collektive.Headless
 
         private void FlushSegment()
         {
-            var count = segment.Encode(out var bytes);
+            var count = segment.Encode(ids, out var bytes);
             var length = Compress(bytes, count);
             scratch.Write('\n');
             scratch.Write(text, 0, length);

@@ -5,7 +5,7 @@ export function fieldsOf(recording) {
   const recorded = recording.fields.map((field, index) => ({ words: [], ...field, valuesOf: (frame) => frame.values[index] }));
   const { least, greatest } = extent(recording.ids);
   const derived = [
-    { name: 'node', kind: 'category', least, greatest, valuesOf: () => recording.ids },
+    { name: 'node', kind: 'category', least, greatest, valuesOf: (frame) => frame.ids },
     { name: 'neighbours', kind: 'number', valuesOf: once((frame) => degrees(frame)) },
     { name: 'speed', kind: 'number', unit: 'm/s', valuesOf: once((frame) => speeds(recording, frame)) },
     { name: 'height', kind: 'number', unit: 'm', valuesOf: once((frame) => frame.values[0].map((_, slot) => frame.places[4 * slot + 1])) },

@@ -21,7 +21,7 @@ class Player {
     this.speed = 1;
     this.playing = false;
     this.linksVisible = true;
-    this.selected = -1;
+    this.selected = null; // a node's id
 
     this.fields = fieldsOf(recording);
     this.view = new View(element('canvas'), element('labels'), recording);
@@ -82,7 +82,7 @@ class Player {
     if (this.here !== here) for (const near of [frame, frame + 1, frame + recording.framesPerSegment]) recording.load(Math.min(near, last)).catch(() => {});
     this.here = here;
     const share = here === next ? 0 : (this.time - recording.times[frame]) / (recording.times[frame + 1] - recording.times[frame]);
-    const selected = this.selected >= 0 && here.present[this.selected] ? this.selected : -1;
+    const selected = this.selectedSlot;
     view.show({ here, next, share, links: this.links, selected, factor: this.factor });
     this.showTrails();
     this.legend.show(here);
@@ -97,6 +97,12 @@ class Player {
     element('link-count').textContent = (here.linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(here.linksInAll, 'link');
     this.describeSelection();
     return true;
+  }
+
+  /** The slot of the selected node in the frame on show; -1: there is none. */
+  get selectedSlot() {
+    const { slots, ids } = this.here;
+    return slots.find((slot) => ids[slot] === this.selected) ?? -1;
   }
 
   get links() {
@@ -116,8 +122,8 @@ class Player {
 
   showTrails() {
     const mode = element('trails').checked ? 'all' : 'none';
-    const selected = this.selected >= 0 && this.here.present[this.selected] ? [this.selected] : [];
-    const slots = mode === 'all' ? (selected.length ? selected : this.here.slots) : [];
+    const selected = this.selectedSlot;
+    const slots = mode === 'all' ? (selected >= 0 ? [selected] : this.here.slots) : [];
     const wanted = `${mode} ${this.here.index} ${this.selected}`;
     if (wanted === this.trails) return;
     this.trails = wanted;
@@ -129,15 +135,15 @@ class Player {
   }
 
   describeSelection() {
-    element('selection').hidden = this.selected < 0;
-    if (this.selected < 0) return;
-    const { selected, here: frame } = this;
-    element('selected-name').textContent = `Node ${this.recording.ids[selected]}`;
-    const here = frame.present[selected] === 1;
+    element('selection').hidden = this.selected === null;
+    if (this.selected === null) return;
+    const { selectedSlot: selected, here: frame } = this;
+    element('selected-name').textContent = `Node ${this.selected}`;
+    const here = selected >= 0;
     element('selected-position').textContent = here
       ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not there at this time';
-    if (this.described === frame && this.describedSlot === selected) return;
-    [this.described, this.describedSlot] = [frame, selected];
+    if (this.described === frame && this.describedNode === this.selected) return;
+    [this.described, this.describedNode] = [frame, this.selected];
     element('selected-values').replaceChildren(...(here ? this.fields : []).filter(({ name }) => name !== 'node' && name !== 'neighbours').flatMap((field) => [
       part('dt', field.name), part('dd', textOf(field, field.valuesOf(frame)[selected])),
     ]));
@@ -154,10 +160,10 @@ class Player {
 
   neighbours(slot) {
     const found = [];
-    const { pairs } = this.here;
+    const { pairs, ids } = this.here;
     for (let i = 0; i < pairs.length; i += 2) {
-      if (pairs[i] === slot) found.push(this.recording.ids[pairs[i + 1]]);
-      else if (pairs[i + 1] === slot) found.push(this.recording.ids[pairs[i]]);
+      if (pairs[i] === slot) found.push(ids[pairs[i + 1]]);
+      else if (pairs[i + 1] === slot) found.push(ids[pairs[i]]);
     }
     return found.sort((a, b) => a - b);
   }
@@ -218,16 +224,16 @@ class Player {
     this.show(this.time);
   }
 
-  select(slot) {
-    this.selected = slot;
-    element('find').value = slot < 0 ? '' : this.recording.ids[slot];
+  /** Selects the node of that id; null: none. */
+  select(id) {
+    this.selected = id;
+    element('find').value = id ?? '';
     this.refresh();
   }
 
   /** Selects the node with the next greater or lesser id of those on show. */
   selectNext(by) {
-    const { ids } = this.recording;
-    const order = Array.from(this.here.slots).sort((a, b) => ids[a] - ids[b]);
+    const order = Array.from(this.here.slots, (slot) => this.here.ids[slot]).sort((a, b) => a - b);
     if (order.length === 0) return;
     const at = order.indexOf(this.selected);
     const first = by > 0 ? 0 : order.length - 1;
@@ -235,14 +241,14 @@ class Player {
   }
 
   selectId(id) {
-    this.select(this.recording.slotOfId.get(id) ?? -1);
+    this.select(this.recording.has(id) ? id : null);
   }
 
   describeRun() {
-    const { metadata, count, ids } = this.recording;
+    const { metadata, count, nodes } = this.recording;
     document.title = metadata.title;
     element('title').textContent = metadata.title;
-    element('title').title = `seed ${metadata.seed}, ${plural(ids.length, 'node')} in all`;
+    element('title').title = `seed ${metadata.seed}, ${plural(nodes, 'node')} in all`;
     element('scrub').max = count - 1;
   }
 
@@ -318,12 +324,12 @@ class Player {
     element('links').addEventListener('change', (event) => this.setLinks(event.target.checked));
     element('factor').addEventListener('input', (event) => this.setFactor(Number(event.target.value)));
     element('find').addEventListener('change', (event) => {
-      const slot = event.target.value === '' ? -1 : this.recording.slotOfId.get(Number(event.target.value));
-      event.target.setCustomValidity(slot === undefined ? 'No node of this run has that id.' : '');
-      if (event.target.reportValidity()) this.select(slot);
+      const id = event.target.value === '' ? null : Number(event.target.value);
+      event.target.setCustomValidity(id === null || this.recording.has(id) ? '' : 'No node of this run has that id.');
+      if (event.target.reportValidity()) this.select(id);
     });
     element('deselect').addEventListener('click', () => {
-      this.select(-1);
+      this.select(null);
       element('canvas').focus(); // the button is gone
     });
     element('step-back').addEventListener('click', () => this.step(-1));
@@ -362,7 +368,7 @@ class Player {
     canvas.addEventListener('pointerup', (event) => {
       // A click, not the end of a turn.
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
-      this.select(this.view.pick(event.clientX, event.clientY));
+      this.select(this.here.ids[this.view.pick(event.clientX, event.clientY)] ?? null);
     });
   }
 
@@ -418,14 +424,14 @@ const ready = started.then(
       select: (id) => player.selectId(id),
       view: (from) => player.view.frame(from),
       /** The id of the node at a point of the page; null: there is none. */
-      at: (x, y) => recording.ids[player.view.pick(x, y)] ?? null,
+      at: (x, y) => player.here.ids[player.view.pick(x, y)] ?? null,
       /** Names of what can colour the nodes, and the choice of one. */
       fields: player.fields.map(({ name }) => name),
       colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
       /** The frame on show, in Unity's axes, as recorded. */
       state: () => {
         const { here } = player;
-        const { ids } = recording;
+        const { ids } = here;
         return {
           frame: here.index,
           time: player.time,

@@ -1,6 +1,6 @@
 // Reads a recording (FORMAT.md). Its header is read at once, a segment of frames when it is first looked at.
 
-const VERSION = 3;
+const VERSION = 4;
 const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
@@ -46,17 +46,26 @@ function fromBase64(text) {
 
 class Recording {
   constructor(header, texts) {
-    Object.assign(this, header); // times, ids, metadata, ... as in FORMAT.md
+    Object.assign(this, header); // times, slots, ids, metadata, ... as in FORMAT.md
     if (texts.length !== Math.ceil(this.times.length / this.framesPerSegment)) throw new Error('a wrong number of segments');
     this.texts = texts;
-    this.kept = Math.max(4, Math.floor(KEPT_NODES / (this.framesPerSegment * Math.max(this.ids.length, TEXELS))));
+    this.kept = Math.max(4, Math.floor(KEPT_NODES / (this.framesPerSegment * Math.max(this.slots, TEXELS))));
     this.segments = new Map(); // number -> promise of a segment, the one used last at the end
     this.open = new Map(); // number -> segment, those of `segments` that are there
-    this.slotOfId = new Map(this.ids.map((id, slot) => [id, slot]));
   }
 
   get count() {
     return this.times.length;
+  }
+
+  /** Nodes of the whole run. */
+  get nodes() {
+    return this.ids.reduce((sum, id, i) => sum + (i % 2 === 0 ? -id : id + 1), 0);
+  }
+
+  /** Whether a node of the run has that id. */
+  has(id) {
+    return this.ids.some((first, i) => i % 2 === 0 && first <= id && id <= this.ids[i + 1]);
   }
 
   /** The last frame at or before a time; the first one for earlier times. */
@@ -116,7 +125,8 @@ class Segment {
     this.first = first;
     this.count = count;
     this.frames = [];
-    const slots = recording.ids.length;
+    const { slots } = recording;
+    this.ids = this.readIds(slots);
     this.seen = new Uint8Array(slots);
     this.last = Array.from({ length: columns }, () => new Int32Array(slots));
     this.motion = Array.from({ length: columns }, () => new Int32Array(slots));
@@ -131,10 +141,11 @@ class Segment {
   read() {
     const frame = {
       index: this.first + this.frames.length,
+      ids: this.ids, // by slot
       ...this.readPresence(),
-      places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.ids.length / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
+      places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.slots / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
       // By field and slot; NaN: no value.
-      values: this.recording.fields.map(({ kind }) => new (kind === 'number' ? Float32Array : Float64Array)(this.recording.ids.length).fill(NaN)),
+      values: this.recording.fields.map(({ kind }) => new (kind === 'number' ? Float32Array : Float64Array)(this.recording.slots).fill(NaN)),
     };
     const { slots, places, values } = frame;
     const { positionStep } = this.recording;
@@ -166,8 +177,15 @@ class Segment {
     return frame;
   }
 
+  readIds(slots) {
+    const ids = new Int32Array(this.readNumber());
+    if (ids.length > slots) throw new Error('too many slots');
+    ids.forEach((_, slot) => { ids[slot] = (slot === 0 ? 0 : ids[slot - 1]) + this.readSigned(); });
+    return ids;
+  }
+
   readPresence() {
-    const present = new Uint8Array(this.recording.ids.length);
+    const present = new Uint8Array(this.recording.slots);
     const slots = new Int32Array(present.length);
     let count = 0;
     const first = this.at;
@@ -184,8 +202,7 @@ class Segment {
   readColumn(slots, last, motion) {
     const { seen } = this;
     for (const slot of slots) {
-      const coded = this.readNumber();
-      const step = (motion[slot] + ((coded >>> 1) ^ -(coded & 1))) | 0;
+      const step = (motion[slot] + this.readSigned()) | 0;
       last[slot] += step;
       if (seen[slot]) motion[slot] = step;
     }
@@ -202,6 +219,11 @@ class Segment {
       keys[i] = a * 0x1000000 + b;
     }
     return keys;
+  }
+
+  readSigned() {
+    const coded = this.readNumber();
+    return (coded >>> 1) ^ -(coded & 1);
   }
 
   readNumber() {

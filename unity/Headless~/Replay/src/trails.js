@@ -39,12 +39,13 @@ export class Trails {
 
   fill(frames, slots) {
     const [places, colours] = ['position', 'color'].map((name) => this.object.geometry.getAttribute(name));
+    const { ids } = frames.at(-1);
     let count = 0;
     for (let i = 1; i < frames.length; i++) {
       const [from, to] = [frames[i - 1], frames[i]];
       if (!from || !to) continue;
       for (const slot of slots) {
-        if (!from.present[slot] || !to.present[slot]) continue;
+        if (!from.present[slot] || !to.present[slot] || from.ids[slot] !== ids[slot] || to.ids[slot] !== ids[slot]) continue;
         [from, to].forEach((end, which) => {
           places.setXYZ(count, end.places[4 * slot], end.places[4 * slot + 1], -end.places[4 * slot + 2]);
           colours.setXYZW(count++, 1, 1, 1, (i - 1 + which) / (frames.length - 1));

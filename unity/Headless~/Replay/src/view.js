@@ -22,7 +22,7 @@ const LINE_GAP = 0.012; // metres between the floor and its lines, against flick
 
 export class View {
   /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
-  constructor(canvas, labels, { metadata, movers, ids, maxLinks }) {
+  constructor(canvas, labels, { metadata, movers, slots, maxLinks }) {
     this.canvas = canvas;
     this.labels = new CSS2DRenderer({ element: labels });
     this.arena = {
@@ -71,7 +71,7 @@ export class View {
     for (const shape of metadata.shapes) this.place(this.addShape(shape), shape.centre, shape.rotation ?? [0, 0, 0, 1]);
     this.movers = movers.map(({ shape, poses }) => ({ object: this.addShape(shape), poses }));
     for (const marker of metadata.markers) this.addMarker(marker);
-    this.swarm = new Swarm(this.scene, ids.length, maxLinks, this.materials);
+    this.swarm = new Swarm(this.scene, slots, maxLinks, this.materials);
   }
 
   addLights() {

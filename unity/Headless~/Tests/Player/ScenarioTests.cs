@@ -79,6 +79,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("converged", "{\"error\": {\"from\": 2, \"to\": 1}}", "'converged.error' has a 'from' that is above its 'to'")]
         [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
         [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is not below 'deltaTime'")]
+        [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be a number of seconds that is at most 1E+08")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
         public void So_is_what_is_wrong_with_the_keys_of_experiments(string key, string value, string message) =>
             What_is_wrong_is_named_with_its_place(key, value, message);
@@ -110,6 +111,10 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(found, Is.EqualTo(field));
         }
 
+        [TestCase("threads=010", "'threads' is \"010\", it must be of type whole number")]
+        [TestCase("threads=0x10", "'threads' is \"0x10\", it must be of type whole number")]
+        [TestCase("network.loss=0,5", "'network.loss' is \"0,5\", it must be of type number")]
+        [TestCase("deltaTime=1e39", "'deltaTime' is 1E+39, it must be of type number")]
         [TestCase("network.los=1", "unknown key 'network.los'")]
         [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is no object")]
         [TestCase("threads=many", "'threads' is \"many\", it must be of type whole number")]
@@ -193,6 +198,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("--module-path=x")]
         [TestCase("-Xmx1g\n-XX:LogFile=x")]
         [TestCase("-XX:SomethingOfTheNextRelease=x")]
+        [TestCase("-XX:MallocLimit=50m")]
         public void A_flag_that_may_write_files_open_ports_or_load_code_needs_trust(string flag)
         {
             var message = Assert.Throws<ScenarioException>(() => ReadWith(flag, false)).Message;
@@ -200,6 +206,39 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(message, Is.StringContaining("'jvm.flags[1]', " + flag + ", is refused"));
             Assert.That(message, Is.StringContaining("--trust-jvm"));
             Assert.That(ReadWith(flag, true).Jvm.flags, Has.Member(flag));
+        }
+
+        [TestCase("010")]
+        [TestCase("-010")]
+        [TestCase("0x10")]
+        [TestCase("1.")]
+        public void Numbers_that_JSON_does_not_have_are_refused_with_their_line(string number)
+        {
+            var text = Minimal().ToString().Replace("\"seconds\": 1", "\"seconds\": 1, // it's 007\n\"threads\": " + number);
+            var line = Array.FindIndex(text.Split('\n'), each => each.Contains("threads")) + 1;
+            var message = Assert.Throws<ScenarioException>(() => ReadText(text)).Message;
+            Assert.That(message, Is.StringContaining("scenario.json:" + line + ": not valid JSON: '" + number + "' is not a number of JSON"));
+        }
+
+        [TestCase("2.5e+3", 2500)]
+        [TestCase("-0.5E-1 /* 010 */", -0.05)]
+        public void Numbers_of_JSON_are_read(string text, double number) => Assert.That((double)JsonFile.Parse(text), Is.EqualTo(number));
+
+        [TestCase(0.01f, 10000)]
+        [TestCase(0.02f, 5000)]
+        [TestCase(0.04f, 2500)]
+        [TestCase(0.1f, 1000)]
+        [TestCase(0.03f, 3334)]
+        public void A_row_is_due_in_each_interval_however_many_ticks_there_are(float deltaTime, int ticks)
+        {
+            var rows = new RowSchedule(1, deltaTime);
+            for (var tick = 1; tick <= ticks; tick++)
+            {
+                if (!rows.IsDue(tick)) continue;
+                Assert.That(tick * (decimal)deltaTime, Is.InRange((decimal)rows.Next, (decimal)rows.Next + (decimal)deltaTime * 0.999m));
+                rows.Advance();
+            }
+            Assert.That(rows.Next, Is.EqualTo(101));
         }
 
         [TestCase("home", "\"jdk\"")]
@@ -227,11 +266,13 @@ namespace Collektive.Headless.Tests.Player
             return Scenario.Read(path, null, trustsJvm);
         }
 
-        private Scenario Read(JObject root, params string[] assignments)
+        private Scenario Read(JObject root, params string[] assignments) => ReadText(root.ToString(), assignments);
+
+        private Scenario ReadText(string text, params string[] assignments)
         {
             var path = Path.Combine(folder, "scenario.json");
-            File.WriteAllText(path, root.ToString());
-            return Scenario.Read(path, null, false, Array.ConvertAll(assignments, text => Assignment.Parse(text, out _)));
+            File.WriteAllText(path, text);
+            return Scenario.Read(path, null, false, Array.ConvertAll(assignments, each => Assignment.Parse(each, out _)));
         }
 
         private static JObject Minimal() => JObject.Parse(

@@ -28,7 +28,8 @@ namespace Collektive.Headless.Tests
         public readonly List<Frame> Frames = new List<Frame>();
 
         private readonly double step;
-        private readonly int[] ids;
+        private readonly int slots;
+        private int[] ids; // of the segment
         private readonly double[] times;
 
         public ReplayDecoder(string html, string before, string after)
@@ -38,10 +39,10 @@ namespace Collektive.Headless.Tests
             var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
             var lines = text.Split('\n');
             Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
-            if ((int)Header["version"] != 3) throw new InvalidDataException("version");
+            if ((int)Header["version"] != 4) throw new InvalidDataException("version");
             if ((int)Header["length"] != text.Length - lines[0].Length) throw new InvalidDataException("length");
             step = (double)Header["positionStep"];
-            ids = Header["ids"].ToObject<int[]>();
+            slots = (int)Header["slots"];
             times = Header["times"].ToObject<double[]>();
             var perSegment = (int)Header["framesPerSegment"];
             if (lines.Length - 1 != (times.Length + perSegment - 1) / perSegment) throw new InvalidDataException("number of segments");
@@ -62,6 +63,9 @@ namespace Collektive.Headless.Tests
             var ranges = new (float Min, float Max)[fields.Count];
             for (var field = 0; field < fields.Count; field++)
                 if ((string)fields[field]["kind"] == "number") ranges[field] = (reader.ReadSingle(), reader.ReadSingle());
+            ids = new int[ReadNumber(reader)];
+            if (ids.Length > slots) throw new InvalidDataException("number of slots");
+            for (var slot = 0; slot < ids.Length; slot++) ids[slot] = unchecked((slot == 0 ? 0 : ids[slot - 1]) + ReadSigned(reader));
             var last = new int[3 + fields.Count, ids.Length];
             var motion = new int[3 + fields.Count, ids.Length];
             var seen = new HashSet<int>();
@@ -74,8 +78,7 @@ namespace Collektive.Headless.Tests
                 {
                     foreach (var slot in present)
                     {
-                        var coded = ReadNumber(reader);
-                        var moved = unchecked(motion[column, slot] + ((int)(coded >> 1) ^ -(int)(coded & 1)));
+                        var moved = unchecked(motion[column, slot] + ReadSigned(reader));
                         last[column, slot] = unchecked(last[column, slot] + moved);
                         if (seen.Contains(slot)) motion[column, slot] = moved;
                     }
@@ -143,6 +146,12 @@ namespace Collektive.Headless.Tests
                 pairs.Add((a, b));
             }
             return pairs;
+        }
+
+        private static int ReadSigned(BinaryReader reader)
+        {
+            var coded = ReadNumber(reader);
+            return (int)(coded >> 1) ^ -(int)(coded & 1);
         }
 
         private static uint ReadNumber(BinaryReader reader)

@@ -74,6 +74,61 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void SlotsOfNodesThatLeftGoToOthersSoThatMemoryStaysFlat()
+        {
+            const int Nodes = 200, Stay = 5;
+            long Memory(ReplayWriter writer, ref int next, int segments)
+            {
+                for (var i = 0; i < segments * ReplayWriter.FramesPerSegment; i++)
+                {
+                    // A tenth of the nodes leaves in each frame, and others come.
+                    next += Nodes / 10;
+                    writer.BeginFrame(next);
+                    for (var id = 0; id < Stay; id++) writer.Node(id, 0, 0, 0, id);
+                    for (var id = next; id < next + Nodes; id++) writer.Node(id, 0, 0, 0, id);
+                    writer.EndFrame();
+                }
+                return GC.GetTotalMemory(true);
+            }
+            var ids = 0;
+            long before = 0, after = 0;
+            var replay = Record(writer =>
+            {
+                before = Memory(writer, ref ids, 20);
+                after = Memory(writer, ref ids, 200);
+            });
+            Assert.Less(after - before, 200000, "bytes, of 80,000 nodes that came and left");
+            Assert.Less((int)replay.Header["slots"], 4 * Nodes);
+            CollectionAssert.AreEqual(new[] { 0, Stay - 1, Nodes / 10, ids + Nodes - 1 }, replay.Header["ids"].ToObject<int[]>());
+            for (var i = 0; i < replay.Frames.Count; i++)
+            {
+                Assert.AreEqual(Stay + Nodes, replay.Frames[i].Nodes.Count);
+                Assert.IsTrue(replay.Frames[i].Nodes.ContainsKey((i + 1) * (Nodes / 10)));
+            }
+        }
+
+        [Test]
+        public void ANodeThatReturnsMayHaveAnotherSlot()
+        {
+            var replay = Record(writer =>
+            {
+                for (var time = 0; time < 5 * ReplayWriter.FramesPerSegment; time++)
+                {
+                    var round = time / ReplayWriter.FramesPerSegment;
+                    if (round % 2 == 0) Frame(writer, time, 1, 2, 3 + round);
+                    else Frame(writer, time, 2);
+                }
+            });
+            CollectionAssert.AreEqual(new[] { 1, 3, 5, 5, 7, 7 }, replay.Header["ids"].ToObject<int[]>());
+            Assert.AreEqual(3, (int)replay.Header["slots"]);
+            for (var time = 0; time < replay.Frames.Count; time++)
+            {
+                var round = time / ReplayWriter.FramesPerSegment;
+                CollectionAssert.AreEquivalent(round % 2 == 0 ? new[] { 1, 2, 3 + round } : new[] { 2 }, replay.Frames[time].Nodes.Keys);
+            }
+        }
+
+        [Test]
         public void LinksOfBothDirectionsAndRepeatedOnesAreOne()
         {
             var replay = Record(writer =>

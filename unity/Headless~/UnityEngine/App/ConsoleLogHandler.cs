@@ -6,6 +6,8 @@ namespace UnityEngine
     /// The player's log: messages to standard output, warnings and worse to standard error.
     sealed class ConsoleLogHandler : ILogHandler
     {
+        const int MaxLines = 60;
+
         public void LogFormat(LogType logType, Object context, string format, params object[] args)
         {
             var message = args.Length == 0 ? format : string.Format(CultureInfo.InvariantCulture, format, args);
@@ -15,7 +17,16 @@ namespace UnityEngine
         public void LogException(Exception exception, Object context)
         {
             var message = exception.GetType().Name + ": " + exception.Message;
-            Write(LogType.Exception, message, exception.ToString());
+            Write(LogType.Exception, message, Shortened(exception.ToString()));
+        }
+
+        /// Stacks of endless recursions have thousands of lines.
+        static string Shortened(string details)
+        {
+            var lines = details.Split('\n');
+            if (lines.Length <= MaxLines) return details;
+            return string.Join("\n", lines, 0, MaxLines / 2) + "\n  (" + (lines.Length - MaxLines) + " more lines)\n"
+                + string.Join("\n", lines, lines.Length - MaxLines / 2, MaxLines / 2);
         }
 
         static void Write(LogType type, string message, string details)

@@ -1,5 +1,6 @@
 package org.collektive.host.programs
 
+import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import java.io.ByteArrayInputStream
 import java.io.IOException
@@ -13,18 +14,20 @@ import java.util.zip.ZipInputStream
  */
 public class ProgramJar private constructor(public val path: String, internal val entries: Map<String, ByteArray>) {
     public companion object {
+        /** A small file can unpack to any size. */
+        private const val MAX_BYTES = 256 shl 20
         private const val END_RECORD_BYTES = 22
         private const val END_RECORD = 0x06054b50
 
         /**
          * Unpacks [jar].
          *
-         * @throws HostException when the jar is damaged.
+         * @throws HostException when the jar is damaged, or contains more than 256 MiB.
          */
         public fun open(jar: JarBytes): ProgramJar {
             if (!hasEndRecord(jar.bytes)) throw jar.damaged("its end is missing")
             return try {
-                ProgramJar(jar.path, unzip(jar.bytes))
+                ProgramJar(jar.path, unzip(jar))
             } catch (e: IOException) {
                 throw jar.damaged(e.message)
             } catch (e: IllegalArgumentException) {
@@ -32,12 +35,18 @@ public class ProgramJar private constructor(public val path: String, internal va
             }
         }
 
-        private fun unzip(bytes: ByteArray): Map<String, ByteArray> {
+        private fun unzip(jar: JarBytes): Map<String, ByteArray> {
             val entries = LinkedHashMap<String, ByteArray>()
-            ZipInputStream(ByteArrayInputStream(bytes)).use { zip ->
+            var left = MAX_BYTES
+            ZipInputStream(ByteArrayInputStream(jar.bytes)).use { zip ->
                 while (true) {
                     val entry = zip.nextEntry ?: break
-                    if (!entry.isDirectory) entries[entry.name] = zip.readAllBytes()
+                    val bytes = zip.readNBytes(left + 1)
+                    left -= bytes.size
+                    if (left < 0) {
+                        throw HostException(HostError.PROGRAM, "the jar ${jar.path} contains more than 256 MiB: divide it into several jars")
+                    }
+                    if (!entry.isDirectory) entries[entry.name] = bytes
                 }
             }
             return entries

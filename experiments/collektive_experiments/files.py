@@ -1,0 +1,91 @@
+"""Writes, renames and deletions in a sweep's folder. Nothing is written through a symbolic link, and only marked folders are deleted."""
+import os
+import shutil
+from typing import BinaryIO
+
+MARKER = ".collektive-sweep"
+"""A file in each folder that a sweep creates and may delete."""
+PART = ".part"
+"""End of the names of unfinished files and folders."""
+
+
+def make(folder: str) -> None:
+    """Creates a folder if it does not exist."""
+    if os.path.islink(folder):
+        raise OSError(f"'{folder}' is a symbolic link; remove it, or name another folder with --out")
+    os.makedirs(folder, exist_ok=True)
+
+
+def make_marked(folder: str) -> None:
+    """Creates an empty folder that `remove` deletes. An unfinished one of the same name is deleted first."""
+    remove(folder)
+    os.mkdir(folder)
+    os.close(_open(os.path.join(folder, MARKER), os.O_WRONLY | os.O_CREAT | os.O_EXCL))
+
+
+def is_marked(folder: str) -> bool:
+    """Returns whether a sweep created the folder."""
+    return not os.path.islink(folder) and os.path.isfile(os.path.join(folder, MARKER))
+
+
+def remove(folder: str) -> None:
+    """Deletes a marked or empty folder, if it exists. The marker goes last: an interrupted deletion can be repeated."""
+    if not os.path.lexists(folder):
+        return
+    if os.path.islink(folder) or not os.path.isdir(folder) or os.listdir(folder) and not is_marked(folder):
+        raise OSError(f"'{folder}' was not created by a sweep; move it, or name another folder with --out")
+    for entry in os.scandir(folder):
+        if entry.is_dir(follow_symlinks=False):
+            shutil.rmtree(entry.path)
+        elif entry.name != MARKER:
+            os.unlink(entry.path)
+    if is_marked(folder):
+        os.unlink(os.path.join(folder, MARKER))
+    os.rmdir(folder)
+
+
+def create(path: str) -> BinaryIO:
+    """Opens the unfinished file of a path, which `publish` completes."""
+    part = path + PART
+    if os.path.lexists(part):
+        os.unlink(part)
+    return os.fdopen(_open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL), "wb")
+
+
+def publish(path: str) -> None:
+    """Gives an unfinished file or folder its name, and makes it survive a power failure. An existing folder of that name must have been removed."""
+    part = path + PART
+    if os.path.isdir(part):
+        for folder, _, names in os.walk(part):
+            for name in names:
+                if not os.path.islink(os.path.join(folder, name)):
+                    _sync(os.path.join(folder, name))
+            _sync(folder)
+    else:
+        _sync(part)
+    os.replace(part, path)
+    _sync(os.path.dirname(os.path.abspath(path)))
+
+
+def write(path: str, text: str) -> None:
+    """Writes a file that is complete or absent."""
+    with create(path) as file:
+        file.write(text.encode())
+    publish(path)
+
+
+def open_log(path: str) -> BinaryIO:
+    """Opens a log to append to."""
+    return os.fdopen(_open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND), "ab")
+
+
+def _open(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+
+
+def _sync(path: str) -> None:
+    descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

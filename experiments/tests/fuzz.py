@@ -1,0 +1,271 @@
+"""
+Random experiments through sweep, tables and plot, compared with a model of the rows: `fuzz.py SECONDS SEED FINDINGS`. A finding is a folder of
+that name and the case's number, with the experiment and the sweep's results.
+"""
+import contextlib
+import io
+import itertools
+import json
+import math
+import os
+import random
+import shutil
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from collektive_experiments import ExperimentError, read
+from collektive_experiments.__main__ import main
+from collektive_experiments.experiment import identity, text
+from collektive_experiments.files import MARKER
+
+PROJECT = Path(__file__).parent / "fuzz"
+TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$", "<script>",
+         "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
+NAMES = [text for text in TEXTS if text and "|" not in text] + ["status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run", "name", "metric"]
+NUMBERS = [0, 1, -1, 2.5, 1e-7, 1e12, -3.25, 1 << 53, 123456789.125, 1 << 63, 7.0]
+DEFAULTS: dict[str, Any] = {"fields.names": "one", "fields.nodes": 2, "fields.slope": 1, "fields.odd": "", "fields.label": "", "fields.flag": False,
+                            "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "outputs.interval": 1, "seed": 1}
+VALUES: dict[str, list[Any]] = {
+    "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]], "fields.nodes": [1, 2, 5],
+    "fields.fate": [0, 0, 0, 1, 2], "seed": [0, 1, 2, 7, (1 << 64) - 1], "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2], "fields.odd": ["", "nan", "inf"]}
+MAX_RUNS = 12
+
+
+class Case:
+    """An experiment, and the rows that its tables must have."""
+
+    def __init__(self, chance: random.Random):
+        self.chance = chance
+        keys = chance.sample(sorted(VALUES), chance.randint(1, 5))
+        self.root: dict[str, Any] = {"version": 1, "scenario": str(PROJECT / "scenario.json"), "vary": {}, "zip": {}, "set": {}}
+        size = chance.randint(1, 3)
+        for key in keys:
+            part = chance.choice(["vary", "vary", "zip", "set"])
+            values = self._distinct(key)
+            if part == "vary":
+                self.root["vary"][key] = values[:chance.randint(1, 3)]
+            elif part == "zip" and len(values) >= size:
+                self.root["zip"][key] = values[:size]
+            else:
+                self.root["set"][key] = values[0]
+        while self._count() > MAX_RUNS:
+            key = chance.choice([key for key, values in self.root["vary"].items() if len(values) > 1])
+            self.root["vary"][key].pop()
+        names = chance.sample(NAMES, chance.randint(1, 4))
+        self.root["set"]["fields.names"] = "|".join(names)
+        if chance.random() < 0.3:
+            self.root["set"]["outputs.nodes"] = {"fields": ["level", "name", "position"], "interval": 1}
+        if chance.random() < 0.5:
+            measured = chance.sample(names, chance.randint(1, len(names)))
+            self.root["measure"] = measured if chance.random() < 0.5 else {name: chance.choice(TEXTS) for name in measured}
+
+    def _distinct(self, key: str) -> list[Any]:
+        chosen = {identity(value): value for value in self.chance.sample(VALUES[key], len(VALUES[key]))}
+        return list(chosen.values())
+
+    def _count(self) -> int:
+        return math.prod(len(values) for values in self.root["vary"].values()) * max([1, *(len(values) for values in self.root["zip"].values())])
+
+    def grow(self) -> bool:
+        """Adds a value to a key, as `--resume` allows; returns whether it did."""
+        for key, values in self.root["vary"].items():
+            more = [value for value in self._distinct(key) if identity(value) not in map(identity, values)]
+            if more and self._count() // len(values) * (len(values) + 1) <= MAX_RUNS:
+                values.append(more[0])
+                return True
+        return False
+
+    def text(self) -> str:
+        """The experiment as a file, in one of the forms that the player reads."""
+        written = json.dumps(self.root, indent=self.chance.choice([None, 1]), ensure_ascii=self.chance.random() < 0.5)
+        if self.chance.random() < 0.5:
+            written = "// a comment\n" + written[:-1] + ", /* the end */ }"
+        return ("\ufeff" if self.chance.random() < 0.3 else "") + written
+
+    def runs(self) -> list[dict[str, Any]]:
+        """The values of the keys that vary, for each run."""
+        vary, together = self.root["vary"], self.root["zip"]
+        rows = [dict(zip(together, row)) for row in zip(*together.values())] or [{}]
+        return [{**dict(zip(vary, chosen)), **row} for chosen in itertools.product(*vary.values()) for row in rows]
+
+    def measured(self) -> list[str]:
+        """The metrics of the tables."""
+        return list(self.root.get("measure") or self.root["set"]["fields.names"].split("|"))
+
+
+def metrics_at(settings: dict[str, Any], second: float) -> dict[str, float]:
+    """The scene's metrics: what FuzzScene.cs computes."""
+    names = settings["fields.names"].split("|")
+    offset = second + len(settings["fields.label"].encode("utf-16-le")) // 2 + 100 * settings["fields.flag"] + settings["fields.place"][0]
+    values = {name: settings["fields.slope"] * (index + 1) + offset for index, name in enumerate(names)}
+    if settings["fields.odd"] == "nan":
+        values[names[0]] = math.nan
+    if settings["fields.odd"] == "inf":
+        values[names[-1]] = -math.inf
+    return values
+
+
+def require(condition: bool, message: str) -> None:
+    if not condition:
+        raise AssertionError(message)
+
+
+def require_close(found: Any, expected: float, what: str) -> None:
+    if not math.isfinite(expected):
+        require(bool(pd.isna(found)), f"{what} is {found}, not empty")
+    else:
+        require(math.isclose(found, expected, rel_tol=1e-7, abs_tol=1e-3), f"{what} is {found}, not {expected}")
+
+
+def check(case: Case, out: Path) -> None:
+    """Compares the tables with the model."""
+    runs, series = pd.read_parquet(out / "runs.parquet"), pd.read_parquet(out / "series.parquet")
+    expected = case.runs()
+    require(len(runs) == len(expected) == len(set(runs["run"])), f"{len(runs)} rows of {len(expected)} runs")
+    columns = list(series.columns)
+    metrics = columns[columns.index("second") + 1:columns.index("links")]
+    require(len(metrics) == len(case.measured()), f"columns {metrics} of {case.measured()}")
+    nodes = pd.read_parquet(out / "nodes.parquet") if (out / "nodes.parquet").exists() else None
+    for (_, row), values in zip(runs.iterrows(), expected):
+        settings = {**DEFAULTS, **case.root["set"], **values}
+        is_complete = settings["fields.fate"] == 0
+        require(row["status"] == ("complete" if is_complete else "failed"), f"{row['run']} is {row['status']}: {row['message']}")
+        for key, value in values.items():
+            found = row[key]
+            same = found == text(value) if isinstance(found, str) else float(found) == float(value)
+            require(bool(same), f"{key} is {found!r}, not {value!r}")
+        mine = series[series["run"] == row["run"]]
+        seconds = [index * settings["outputs.interval"] for index in range(int(settings["seconds"] / settings["outputs.interval"]) + 1)] if is_complete else []
+        require(mine["second"].tolist() == seconds, f"{row['run']} has the seconds {mine['second'].tolist()}, not {seconds}")
+        for name, column in zip(case.measured(), metrics):
+            if is_complete:
+                require_close(row[column], metrics_at(settings, settings["seconds"])[name], f"{column} at the end of {row['run']}")
+            for second, found in zip(seconds, mine[column]):
+                require_close(found, metrics_at(settings, second)[name], f"{column} at {second} of {row['run']}")
+        if "outputs.nodes" in case.root["set"] and is_complete:
+            require(nodes is not None, "no table of nodes")
+            assert nodes is not None
+            cells = nodes[nodes["run"] == row["run"]]
+            require(len(cells) == settings["fields.nodes"] * (int(settings["seconds"]) + 1), f"{len(cells)} rows of nodes in {row['run']}")
+            require(set(cells["name"].dropna()) <= {"007"}, f"names of nodes are {set(cells['name'])}")
+
+
+def run_command(*words: str) -> tuple[int, str]:
+    """Runs a command of the package; returns its exit code and errors."""
+    errors = io.StringIO()
+    with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
+        code = main(list(words))
+    return code, errors.getvalue()
+
+
+def damage(chance: random.Random, out: Path) -> int:
+    """Damages results; returns how many runs must be repeated that were complete or failed."""
+    folders = sorted((out / "runs").iterdir())
+    chosen = chance.sample(folders, chance.randint(1, len(folders)))
+    count = 0
+    for folder in chosen:
+        path = folder / chance.choice(sorted(set(os.listdir(folder)) - {MARKER}))
+        content = path.read_bytes()
+        changed = chance.choice([b"", content[:len(content) // 2], content[:-1], b"\0" * len(content), b"[" * 100_000, None])
+        if changed == content:
+            continue
+        if changed is None:
+            path.unlink()
+        else:
+            path.write_bytes(changed)
+        count += 1
+    if chance.random() < 0.3:
+        (out / "sweep.json").write_bytes(b"")
+    if chance.random() < 0.3:
+        unfinished = out / "runs/left,over=1-0.part"
+        unfinished.mkdir()
+        (unfinished / MARKER).touch()
+        (unfinished / "manifest.json").write_text("{")
+    return count
+
+
+def mutate(chance: random.Random, content: bytes, path: Path) -> None:
+    """Reads damaged forms of an experiment: each is read, or is an error of one line."""
+    for _ in range(30):
+        changed = bytearray(content)
+        for _ in range(chance.randint(1, 4)):
+            at = chance.randrange(len(changed))
+            kind = chance.randrange(4)
+            if kind == 0:
+                changed[at] = chance.randrange(256)
+            elif kind == 1:
+                del changed[at:at + chance.randint(1, 20)]
+            elif kind == 2:
+                changed[at:at] = chance.choice([b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"])
+            else:
+                changed[at:at] = changed[at:at + chance.randint(1, 50)]
+            changed = changed or bytearray(b" ")
+        path.write_bytes(changed)
+        try:
+            read(str(path))
+        except ExperimentError:
+            code, errors = run_command("sweep", str(path), "--out", str(path.parent / "none"))
+            require(code == 1 and errors.startswith("collektive: ") and errors.count("\n") == 1, f"not one line: {errors}")
+            require(not (path.parent / "none").exists(), "a wrong experiment has created its folder")
+
+
+def try_case(case: Case, folder: Path) -> None:
+    """Sweeps, damages, resumes and plots an experiment."""
+    chance, path, out = case.chance, folder / "experiment.json", folder / "out"
+    fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+    words = ["sweep", str(path), "--out", str(out), "--jobs", "2", *(["--csv"] if chance.random() < 0.3 else [])]
+
+    def sweep(*more: str) -> str:
+        path.write_text(case.text(), encoding="utf-8")
+        code, errors = run_command(*words, *more)
+        require(code == int(fails) and "Traceback" not in errors, f"exit code {code}: {errors}")
+        require(not any(name.endswith(".part") for name in os.listdir(out / "runs")), "an unfinished folder is left")
+        check(case, out)
+        return errors
+
+    sweep()
+    if chance.random() < 0.5:
+        count = damage(chance, out)
+        require(sweep("--resume").count("is damaged: the run is repeated") == count, f"not {count} runs were damaged")
+    if chance.random() < 0.4 and case.grow():
+        fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+        sweep("--resume")
+    if chance.random() < 0.3:
+        code, errors = run_command("plot", str(out))
+        require(code == 0, f"plot: exit code {code}: {errors}")
+        page = (out / "figures.html").read_text(encoding="utf-8")
+        require("<script" not in page and "Content-Security-Policy" in page, "the page is not safe")
+        require({path.parent for path in out.glob("**/*.svg")} == {out / "figures"}, "figures are elsewhere")
+    mutate(chance, case.text().encode(), folder / "changed.json")
+
+
+def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None] = print) -> int:
+    """Tries experiments for so long, and at least one; returns the number of findings."""
+    end, count, found = time.monotonic() + seconds, 0, 0
+    while count == 0 or time.monotonic() < end:
+        case = Case(random.Random(f"{seed}/{count}"))
+        folder = Path(tempfile.mkdtemp(prefix="collektive-fuzz-"))
+        try:
+            try_case(case, folder)
+        except Exception:
+            found += 1
+            report(f"case {seed}/{count}: {traceback.format_exc()}")
+            kept = findings / f"{seed}-{count}"
+            shutil.rmtree(kept, ignore_errors=True)
+            shutil.copytree(folder, kept, ignore=shutil.ignore_patterns("bundle"))
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+        count += 1
+    report(f"Done {count} runs in {seconds:.0f} s")
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(min(1, fuzz(float(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]))))

@@ -1,0 +1,206 @@
+"""Runs of a sweep do not influence each other, and a sweep changes nothing but its own results."""
+import json
+import os
+import re
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from conftest import Project
+
+from collektive_experiments.__main__ import main
+from collektive_experiments.worker import Worker
+
+THREE = {"vary": {"seed": "1-3"}}
+
+
+def change_scene(project: Project, build: str = "", declared: str = "", measure: str = "", names: str | None = None) -> None:
+    """Adds C# to the scene: at the beginning of its building, to its namespace, and at the end of a measurement."""
+    scene = project.folder / "project/scene/Lamps.cs"
+    text = scene.read_text().replace("for (var i = 0; i < lamps; i++)\n", build + "\n            for (var i = 0; i < lamps; i++)\n", 1)
+    text = text.replace("public sealed class LampScene", declared + "\n    public sealed class LampScene")
+    text = text.replace("                values[1] += answer.SeenLength;\n            }", "                values[1] += answer.SeenLength;\n            }" + measure)
+    if names:
+        text = text.replace('{ "agreeing", "seen" }', names)
+    scene.write_text(text)
+
+
+def change_program(project: Project, statement: str) -> None:
+    """Adds Kotlin at the beginning of the program."""
+    program = project.folder / "project/programs/Brightest.kt"
+    program.write_text(program.read_text().replace("val mine = sensors.brightness()", statement + "\n    val mine = sensors.brightness()"))
+
+
+@pytest.mark.parametrize(("build", "declared"), [
+    ("lamps += Kept<int>.Count++;", "internal static class Kept<T> { public static int Count; }"),
+    ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
+    ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
+     'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
+    ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
+    ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
+    ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
+    ("if (Random.value != First.Value) lamps++;", "internal static class First { public static readonly float Value = Random.value; }"),
+])
+def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:
+    change_scene(project, build, declared)
+    result = project.sweep("--jobs", "1", **THREE)
+    assert result.returncode == 0, result.stderr
+    assert len(set(project.table()["nodes"])) == 1
+
+
+def test_a_run_sees_nothing_of_programs_before_it(project: Project) -> None:
+    change_program(project, 'val late = System.getProperty("lamps") != null || java.util.Locale.getDefault() == java.util.Locale.GERMANY\n'
+                            '    System.setProperty("lamps", "1")\n    java.util.Locale.setDefault(java.util.Locale.GERMANY)\n'
+                            '    java.util.TimeZone.setDefault(java.util.TimeZone.getTimeZone("UTC"))')
+    scene = project.folder / "project/programs/Brightest.kt"
+    scene.write_text(scene.read_text().replace("share(mine)", "share(if (late) mine else mine + 100)"))
+    (project.folder / "project/lamps.json").write_text((project.folder / "project/lamps.json").read_text().replace('"seconds": 1', '"seconds": 0.1'))
+    result = project.sweep("--jobs", "1", **THREE)
+    assert result.returncode == 0, result.stderr
+    assert len(set(project.digests().values())) == 1
+
+
+@pytest.mark.parametrize(("build", "is_used_again"), [("", True), ("System.GC.Collect();", False)])
+def test_a_process_is_used_again_only_for_scripts_that_keep_nothing(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
+    change_scene(project, build)
+    assert project.sweep(vary={"seed": [1]}).returncode == 0
+    worker = Worker(str(project.folder / "out/bundle"), str(tmp_path / "worker.txt"))
+    try:
+        kept = []
+        for index in range(2):
+            assert worker.run({"seed": index}, "{}", str(tmp_path / str(index)), 60, is_repeated=False).status == "complete"
+            kept.append(worker._idle)
+        assert kept[0] is not None
+        assert (kept[0] is kept[1]) == is_used_again
+    finally:
+        worker.stop()
+
+
+def test_a_difference_between_a_run_and_its_repetition_stops_the_sweep(project: Project) -> None:
+    change_scene(project, "lamps += (int)(System.Diagnostics.Stopwatch.GetTimestamp() % 1000);")
+    result = project.sweep(**THREE)
+    assert result.returncode == 1
+    assert re.search(r"differs: its digest was [0-9a-f]{16}, and [0-9a-f]{16} when it was repeated in a process of its own", result.stderr)
+    assert "the sweep stops" in result.stderr
+
+
+PRINTED = """
+            var output = System.Console.OpenStandardOutput();
+            var text = System.Text.Encoding.ASCII.GetBytes("collektive-run {\\"code\\": 0, \\"again\\": true}\\n{\\"code\\": 0, \\"again\\": true}\\n");
+            output.Write(text, 0, text.Length);
+            output.Flush();
+"""
+CLOSED = "new System.IO.FileStream(new Microsoft.Win32.SafeHandles.SafeFileHandle((System.IntPtr)1, true), System.IO.FileAccess.Write).Dispose();"
+
+
+def test_a_script_that_prints_an_answer_is_not_believed(project: Project) -> None:
+    change_scene(project, PRINTED + "System.Diagnostics.Process.GetCurrentProcess().Kill();")
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 1
+    assert list(project.table()["status"]) == ["crashed"]
+
+
+def test_a_script_that_closes_its_output_is_ended_by_the_limit(project: Project) -> None:
+    change_scene(project, CLOSED + "while (true) System.Threading.Thread.Sleep(10);")
+    result = project.sweep("--time-limit", "3", vary={"seed": [1]})
+    assert result.returncode == 1
+    assert list(project.table()["status"]) == ["timeout"]
+
+
+def test_a_folder_of_the_users_is_not_touched(project: Project) -> None:
+    out = project.folder / "out"
+    for name in ("bundle", "runs/x.part"):
+        (out / name).mkdir(parents=True)
+        (out / name / "thesis.txt").write_text("all of it")
+    result = project.sweep(**THREE)
+    assert result.returncode == 1
+    assert result.stderr.count("\n") == 1 and "was not created by a sweep" in result.stderr
+    assert [(out / name / "thesis.txt").read_text() for name in ("bundle", "runs/x.part")] == ["all of it"] * 2
+
+
+@pytest.mark.parametrize("name", ["", "runs", "bundle", "logs", "logs/check.txt", "sweep.json", "runs.parquet"])
+def test_nothing_is_written_through_a_symbolic_link(project: Project, name: str) -> None:
+    elsewhere = project.folder / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "thesis.txt").write_text("all of it")
+    out = project.folder / "out"
+    if name:
+        (out / "logs").mkdir(parents=name.startswith("logs/") or True)
+        (out / ".collektive-sweep").touch()
+        if name == "logs":
+            (out / "logs").rmdir()
+    (out / name).symlink_to(elsewhere if "." not in name else elsewhere / "thesis.txt")
+    result = project.sweep(vary={"seed": [1]})
+    assert os.listdir(elsewhere) == ["thesis.txt"]
+    assert (elsewhere / "thesis.txt").read_text() == "all of it"
+    assert "Traceback" not in result.stderr
+    # A file is replaced, and the link with it.
+    assert (result.returncode == 0) == (name in ("sweep.json", "runs.parquet"))
+
+
+@pytest.mark.parametrize("damage", ["empty", "truncated", "removed"])
+def test_damaged_results_are_repeated_by_resume(project: Project, damage: str) -> None:
+    keys = {"vary": {"seed": "1-4"}}
+    assert project.sweep(**keys).returncode == 0
+    before = project.digests()
+    names = ("run.json", "manifest.json", "metrics.csv")
+    for seed, name in enumerate(names, 1):
+        path = project.run(f"seed={seed}") / name
+        content = path.read_bytes()
+        if damage == "removed":
+            path.unlink()
+        else:
+            # At the end of a line, where the rest is a valid table.
+            path.write_bytes(b"" if damage == "empty" else content[:content.rindex(b"\n", 0, -1) + 1])
+    (project.folder / "out/sweep.json").write_text("")
+    result = project.sweep("--resume", **keys)
+    assert result.returncode == 0, result.stderr
+    assert result.stderr.count("is damaged: the run is repeated") == 3
+    assert "sweep.json' is damaged: it is written again" in result.stderr
+    assert "1 of 4 runs are done already" in result.stderr
+    assert project.digests() == before
+
+
+def test_a_scenario_is_read_as_the_player_reads_it(project: Project) -> None:
+    scenario = project.folder / "project/lamps.json"
+    scenario.write_text("\ufeff" + scenario.read_text().replace('"scene":', '// the scene\n  "scene":').replace('"metrics": true }', '"metrics": true, }, '))
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
+
+
+def test_names_and_values_of_metrics_are_data(project: Project) -> None:
+    names = ["<script>alert(1)</script>", '../../x, "y"\n$z$', "../../x, 'y'_$z$"]
+    change_scene(project, measure=" values[2] = lamps == 1 ? double.NaN : lamps == 2 ? double.PositiveInfinity : 7;",
+                 names="{ " + ", ".join(json.dumps(name) for name in names) + " }")
+    result = project.sweep(vary={"fields.lamps": [1, 2, 3]}, measure=names)
+    assert result.returncode == 0, result.stderr
+    runs, series = project.table(), project.table(name="series")
+    assert list(runs.columns[-len(names) - 8:-8]) == names
+    assert runs[names[2]].isna().tolist() == [True, True, False]
+    assert series[names[2]].dropna().tolist() == [7, 7]
+    assert "is NaN or infinite in 2 runs" in result.stderr
+    out = project.folder / "out"
+    everything = set(project.folder.rglob("*"))
+    assert main(["plot", str(out)]) == 0
+    assert all(path.is_relative_to(out / "figures") or path == out / "figures.html" for path in set(project.folder.rglob("*")) - everything)
+    page = (out / "figures.html").read_text()
+    assert "<script" not in page and "Content-Security-Policy" in page
+    assert len(list((out / "figures").glob("*.svg"))) == 6
+
+
+def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    from collektive_experiments import experiment, store, tables
+    read = experiment.read(str(lamps.folder / "experiment.json"))
+    records = tables._Columns.records
+    monkeypatch.setattr(tables._Columns, "records", lambda columns: list(records(columns))[1:])
+    before = pd.read_parquet(lamps.folder / "out/runs.parquet")
+    try:
+        assert tables.write(read, store.Store(str(lamps.folder / "out")), False) == len(before) - 1
+    finally:
+        monkeypatch.undo()
+        tables.write(read, store.Store(str(lamps.folder / "out")), True)
+
+
+def test_a_tables_folder_that_is_no_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(tmp_path)]) == 1
+    assert "is not a folder of a sweep" in capsys.readouterr().err

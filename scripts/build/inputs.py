@@ -1,0 +1,137 @@
+"""The files of users' projects, exactly as their compilers receive them: cache keys, manifests and bundles of sweeps come from these lists."""
+import hashlib
+import os
+import re
+import shutil
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+
+from build.console import Failure
+from build.places import ROOT
+
+MAX_FILES = 10_000
+# Folder of types.fbs, which schemas include without a path.
+CORE = ROOT / "schema"
+_TOKEN = re.compile(rb"""//[^\r\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|\w+|\S""", re.DOTALL)
+
+
+class Part:
+    """What one key of a scenario names: its files by their names, which are relative to its folder, and a hash of names and contents."""
+
+    def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
+        self.path = path
+        self.files: Mapping[str, Path] = list_files(path)
+        self.digest = _digest(self.files)
+        self._list_files = list_files
+
+    @property
+    def folder(self) -> Path:
+        """The folder that names are relative to."""
+        return self.path if self.path.is_dir() else self.path.parent
+
+    @property
+    def root(self) -> Path:
+        """The folder that contains all files: above `folder` if names go up."""
+        up = max((Path(name).parts.count("..") for name in self.files), default=0)
+        return (self.folder / "_").parents[up]
+
+    def copy(self, target: Path) -> Path:
+        """Copies the files to a folder as they lie in `root`, with what links lead to in place of the links. Returns the copy of `path`."""
+        for name, file in self.files.items():
+            copy = target / os.path.relpath(self.folder / name, self.root)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
+        return target / self.path.relative_to(self.root)
+
+    def require_unchanged(self) -> None:
+        """Raises `Failure` if a file was changed, added or removed since this part was read."""
+        if _digest(self._list_files(self.path)) != self.digest:
+            raise Failure(f"'{self.path}' was changed while it was compiled: run the command again")
+
+
+def scripts(folder: Path) -> Part:
+    """Reads a folder of C#. Generated code is left out, since each run generates it."""
+    return Part(folder, partial(_below, suffixes=(".cs",), left_out=("Generated", "obj")))
+
+
+def programs(path: Path) -> Part:
+    """Reads a folder of Kotlin and the Java that it refers to, or a jar."""
+    return Part(path, partial(_below, suffixes=(".kt", ".java"))) if path.is_dir() else jar(path)
+
+
+def jar(path: Path) -> Part:
+    """Reads a jar."""
+    return Part(path, lambda file: {file.name: file})
+
+
+def jars(folder: Path) -> Part:
+    """Reads the jars of a folder, without those of folders in it."""
+    return Part(folder, lambda place: {file.name: file for file in sorted(place.glob("*.jar"))})
+
+
+def schema(file: Path) -> Part:
+    """Reads a schema and the files that it includes, without those of the package."""
+    return Part(file, _with_includes)
+
+
+def _digest(files: Mapping[str, Path]) -> str:
+    total = hashlib.sha256()
+    for name, file in files.items():
+        total.update(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {name}\0".encode(errors="surrogateescape"))
+    return total.hexdigest()
+
+
+def _below(folder: Path, suffixes: tuple[str, ...], left_out: tuple[str, ...] = ()) -> dict[str, Path]:
+    """Returns the files below a folder in order of their names. Links are followed, except to a folder that contains them."""
+    found: dict[str, Path] = {}
+    count = 0
+    pending: list[tuple[str, str, frozenset[str]]] = [("", str(folder), frozenset({os.path.realpath(folder)}))]
+    while pending:
+        prefix, place, above = pending.pop()
+        for entry in os.scandir(place):
+            count += 1
+            if count > MAX_FILES:
+                # Hashing a whole disk would seem to hang.
+                raise Failure(f"the folder '{folder}' has more than {MAX_FILES:,} files: name the one that contains only the sources of this scenario")
+            real = os.path.realpath(entry.path)
+            if os.path.isdir(real):
+                if entry.name not in left_out and real not in above:
+                    pending.append((f"{prefix}{entry.name}/", entry.path, above | {real}))
+            elif entry.name.endswith(suffixes) and os.path.isfile(real):
+                found[prefix + entry.name] = Path(entry.path)
+    return dict(sorted(found.items()))
+
+
+def _with_includes(schema: Path) -> dict[str, Path]:
+    """Finds included files where flatc does: beside the file that includes them, in the package, beside the schema."""
+    found: dict[str, Path] = {}
+    folder = str(schema.parent)
+    pending = [str(schema)]
+    while pending:
+        file = pending.pop()
+        name = os.path.relpath(file, folder)
+        if name in found:
+            continue
+        found[name] = Path(file)
+        for include in _includes(file):
+            # flatc appends absolute paths, too.
+            candidates = {place: f"{place}/{include}" for place in (os.path.dirname(file), str(CORE), folder)}
+            place = next((place for place, candidate in candidates.items() if os.path.isfile(candidate)), str(CORE))
+            if place == str(CORE):
+                continue
+            included = os.path.normpath(candidates[place])
+            if os.path.realpath(os.path.dirname(included)) != os.path.realpath(os.path.dirname(candidates[place])):
+                raise Failure(f"{file}: the include \"{include}\" goes up from a linked folder: write the path without '..'")
+            pending.append(included)
+    return dict(sorted(found.items()))
+
+
+def _includes(file: str) -> list[str]:
+    """Returns the paths in a schema file's includes."""
+    tokens = [token for token in _TOKEN.findall(Path(file).read_bytes()) if not token.startswith((b"//", b"/*"))]
+    paths = [after[1:-1] for token, after in zip(tokens, tokens[1:]) if token == b"include" and len(after) > 1 and after[:1] in b"\"'"]
+    for path in paths:
+        if b"\\" in path:
+            raise Failure(f"{file}: an include has a backslash: write the path with '/'")
+    return [os.fsdecode(path) for path in paths]

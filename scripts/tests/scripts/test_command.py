@@ -1,0 +1,36 @@
+"""What the command reports about its surroundings. The checkout of these tests has no build."""
+import os
+import signal
+import subprocess
+
+import pytest
+from checkout import Checkout
+
+
+@pytest.mark.parametrize("separator", ":;")
+def test_a_checkout_whose_path_has_a_separator_is_refused(checkout: Checkout, separator: str) -> None:
+    checkout.root = checkout.root.rename(checkout.root.with_name(f"a{separator}b"))
+    command = checkout.start_command("clean")
+    errors = command.communicate()[1]
+    assert command.returncode == 1
+    assert f"a{separator}b', contains '{separator}', which separates paths" in errors
+
+
+@pytest.mark.parametrize("words, code", [(("diff", "a", "b"), 2), (("replay", "a"), 2), (("run", "a"), 1)])
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can mount")
+def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, words: tuple[str, ...], code: int) -> None:
+    mount = 'mount --bind "$1" "$1" && mount -o remount,ro,bind "$1" || exit 99; command=$1/collektive; shift; exec "$command" "$@"'
+    result = subprocess.run(["unshare", "--mount", "sh", "-c", mount, "sh", checkout.root, *words], capture_output=True, text=True)
+    if result.returncode == 99 or "unshare:" in result.stderr:
+        pytest.skip("this system lets nobody mount")
+    assert result.returncode == code
+    assert result.stderr.splitlines() == [f"collektive: '{checkout.root}/build': Read-only file system: the command must be able to write to its checkout; "
+                                          "use one that belongs to you"]
+
+
+def test_a_reader_that_closes_the_output_ends_the_command_silently(checkout: Checkout) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    result = subprocess.run([checkout.root / "collektive", "--help"], stdout=writer, stderr=subprocess.PIPE, text=True)
+    os.close(writer)
+    assert (result.returncode, result.stderr) == (-signal.SIGPIPE, "")

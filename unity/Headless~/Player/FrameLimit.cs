@@ -1,0 +1,80 @@
+using System;
+using System.Diagnostics;
+using System.Threading;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// Ends frames whose C# does not return. The JVM has <see cref="SimulationSettings.stepLimitMs"/> for its part of a tick, so a frame that takes twice as long
+    /// has used up as much in C#. Frames in which the simulation is not open yet have no limit.
+    /// </summary>
+    internal sealed class FrameLimit : IDisposable
+    {
+        private const int PollMs = 50;
+
+        /// <summary>How long a frame may take to end after it was aborted: native code does not see that.</summary>
+        private const int AbortMs = 3000;
+
+        private readonly object gate = new object();
+        private readonly Thread player = Thread.CurrentThread;
+        private readonly Stopwatch clock = new Stopwatch();
+        private readonly SimulationManager manager;
+        private readonly Action giveUp;
+        private int tick;
+        private bool isDisposed;
+
+        /// <param name="giveUp">Called on another thread if a frame does not end even then; does not return.</param>
+        internal FrameLimit(SimulationManager manager, Action giveUp)
+        {
+            this.manager = manager;
+            this.giveUp = giveUp;
+            new Thread(Watch) { IsBackground = true }.Start();
+        }
+
+        /// <summary>Whether the frame's thread was aborted.</summary>
+        internal bool IsExceeded { get; private set; }
+
+        internal string Message =>
+            "stopped at tick " + tick + ": sensors, actuators, rules or scripts took more than 'stepLimitMs', " + manager.Settings.stepLimitMs + " ms";
+
+        internal void Begin(int nextTick)
+        {
+            lock (gate)
+            {
+                tick = nextTick;
+                clock.Restart();
+            }
+        }
+
+        internal void End()
+        {
+            lock (gate) clock.Reset();
+        }
+
+        public void Dispose()
+        {
+            lock (gate) isDisposed = true;
+        }
+
+        private void Watch()
+        {
+            while (true)
+            {
+                Thread.Sleep(PollMs);
+                lock (gate)
+                {
+                    if (isDisposed) return;
+                    if (!clock.IsRunning) continue;
+                    if (!manager.Simulation.IsOpen) clock.Restart();
+                    if (clock.ElapsedMilliseconds <= 2L * manager.Settings.stepLimitMs) continue;
+                    IsExceeded = true;
+                    player.Abort();
+                }
+                Thread.Sleep(AbortMs);
+                lock (gate) if (isDisposed) return;
+                giveUp();
+            }
+        }
+    }
+}

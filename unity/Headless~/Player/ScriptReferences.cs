@@ -1,0 +1,152 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using System.Runtime.CompilerServices;
+using Collektive.Bridge;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// What compiled scripts refer to outside of their assembly. Unless all of it is known to leave nothing behind in the process, such as a culture, a
+    /// thread or an environment variable, each run needs a process of its own.
+    /// </summary>
+    internal static class ScriptReferences
+    {
+        private const int TypeReferences = 0x01000000;
+        private const int MemberReferences = 0x0A000000;
+        private const BindingFlags All =
+            BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.Instance | BindingFlags.DeclaredOnly;
+
+        private static readonly HashSet<string> Assemblies = new HashSet<string> { "Collektive.FlatBuffers", "Collektive.Bridge", "Collektive.Unity", "UnityEngine" };
+
+        private static readonly HashSet<string> Namespaces = new HashSet<string> { "System.Collections", "System.Collections.Generic", "System.Linq" };
+
+        private static readonly HashSet<string> SystemTypes = new HashSet<string>((
+            "Object String Boolean Byte SByte Char Int16 UInt16 Int32 UInt32 Int64 UInt64 Single Double Decimal Void Math MathF Array Enum ValueType Nullable`1 "
+            + "IDisposable IComparable IComparable`1 IEquatable`1 IFormattable IFormatProvider Delegate MulticastDelegate EventHandler EventHandler`1 EventArgs "
+            + "Predicate`1 Comparison`1 Converter`2 Exception ArgumentException ArgumentNullException ArgumentOutOfRangeException InvalidOperationException "
+            + "NotSupportedException NotImplementedException IndexOutOfRangeException FormatException Index Range Span`1 ReadOnlySpan`1 Random StringComparison "
+            + "StringComparer Convert HashCode RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
+
+        /// <summary>Types of any number of parameters.</summary>
+        private static readonly HashSet<string> Families = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
+
+        /// <summary>Types of which scripts may use some members only.</summary>
+        private static readonly Dictionary<string, string> Members = new Dictionary<string, string>
+        {
+            ["System.Type"] = "GetTypeFromHandle get_Name get_FullName op_Equality op_Inequality",
+            ["System.Console"] = "Write WriteLine",
+            ["System.Globalization.CultureInfo"] = "get_InvariantCulture",
+            ["System.Globalization.NumberFormatInfo"] = "get_InvariantInfo",
+            ["System.Runtime.CompilerServices.RuntimeHelpers"] = "InitializeArray",
+        };
+
+        private static readonly HashSet<string> OtherTypes = new HashSet<string>
+        {
+            "System.Text.StringBuilder", "System.Globalization.NumberStyles", "System.Reflection.MemberInfo", "System.Collections.IEnumerator",
+            "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Collections.Generic.List`1+Enumerator",
+        };
+
+        private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>
+        {
+            "System.ThreadStaticAttribute", "System.Security.UnverifiableCodeAttribute", "System.Security.Permissions.SecurityPermissionAttribute",
+            "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
+        };
+
+        private static readonly HashSet<string> ForbiddenMembers = new HashSet<string> { "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly" };
+
+        /// <summary>Returns the first reference that could leave something behind, or null.</summary>
+        internal static string FindProblem(Assembly scripts)
+        {
+            var module = scripts.ManifestModule;
+            foreach (var type in Resolve(row => module.ResolveType(TypeReferences | row)))
+            {
+                if (!IsAllowed(type)) return type.FullName;
+            }
+            foreach (var member in Resolve(row => module.ResolveMember(MemberReferences | row)))
+            {
+                if (ForbiddenMembers.Contains(member.Name)) return member.DeclaringType?.FullName + "." + member.Name;
+                var type = member.DeclaringType?.FullName;
+                if (type != null && Members.TryGetValue(type, out var known) && Array.IndexOf(known.Split(' '), member.Name) < 0) return type + "." + member.Name;
+            }
+            foreach (var type in scripts.GetTypes())
+            {
+                foreach (var method in type.GetMethods(All))
+                {
+                    if ((method.Attributes & MethodAttributes.PinvokeImpl) != 0) return type.FullName + "." + method.Name;
+                }
+                if (IsStateless(type) || typeof(DataSchema).IsAssignableFrom(type)) continue;
+                if (type.IsGenericTypeDefinition && HasVariables(type)) return type.FullName;
+                if (type.TypeInitializer != null && DependsOnRun(type)) return "the static fields of " + type.FullName;
+            }
+            return null;
+        }
+
+        /// <summary>Whether the compiler made a type for lambdas without variables and for constants: C# itself allows no such name.</summary>
+        internal static bool IsStateless(Type type) =>
+            type.Name.IndexOf('<') >= 0 && type.IsDefined(typeof(CompilerGeneratedAttribute), false)
+                && type.GetFields(BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance).Length == 0;
+
+        private static bool HasVariables(Type type) => Array.Exists(type.GetFields(All), field => field.IsStatic && !field.IsLiteral);
+
+        /// <summary>Whether the initial values of static fields could depend on the run that needs them first.</summary>
+        private static bool DependsOnRun(Type type)
+        {
+            foreach (var token in Instructions.Calls(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))
+            {
+                var called = Resolved(() => type.Module.ResolveMethod(token));
+                var owner = called?.DeclaringType;
+                if (owner == null) return true;
+                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner) || IsStateless(owner)
+                    || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
+                if (!isHarmless) return true;
+            }
+            return false;
+        }
+
+        /// <summary>Returns what the rows of a table of metadata name. Members of generic types that scripts construct cannot be resolved, but their types can.</summary>
+        private static IEnumerable<T> Resolve<T>(Func<int, T> resolve) where T : class
+        {
+            for (var row = 1;; row++)
+            {
+                T found;
+                try
+                {
+                    found = resolve(row);
+                }
+                catch (ArgumentOutOfRangeException)
+                {
+                    yield break;
+                }
+                catch (ArgumentException)
+                {
+                    continue;
+                }
+                yield return found;
+            }
+        }
+
+        private static T Resolved<T>(Func<T> resolve) where T : class
+        {
+            try
+            {
+                return resolve();
+            }
+            catch (ArgumentException)
+            {
+                return null;
+            }
+        }
+
+        private static bool IsAllowed(Type type)
+        {
+            var name = type.FullName ?? "";
+            if (ForbiddenTypes.Contains(name)) return false;
+            if (Assemblies.Contains(type.Assembly.GetName().Name)) return type.Namespace != "UnityEngine.Headless";
+            if (type.IsNested) return IsAllowed(type.DeclaringType) || OtherTypes.Contains(name);
+            if (type.Namespace != null && Namespaces.Contains(type.Namespace) || Members.ContainsKey(name) || OtherTypes.Contains(name)) return true;
+            if (name.EndsWith("Attribute", StringComparison.Ordinal)) return true;
+            return type.Namespace == "System" && (SystemTypes.Contains(type.Name) || Families.Contains(type.Name.Split('`')[0]));
+        }
+    }
+}

@@ -1,0 +1,48 @@
+using System.Collections.Generic;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>A set of ids as ranges, which are few when ids are given out in order.</summary>
+    internal sealed class IdRanges
+    {
+        // By range, ascending; there is a gap between two of them.
+        private readonly List<int> first = new List<int>();
+        private readonly List<int> last = new List<int>();
+
+        internal void Add(int id)
+        {
+            // The first range that ends at the id or behind it.
+            var place = last.BinarySearch(id);
+            if (place < 0) place = ~place;
+            if (place < first.Count && first[place] <= id) return;
+            var continues = place > 0 && last[place - 1] == id - 1;
+            var precedes = place < first.Count && first[place] == id + 1;
+            if (continues && precedes)
+            {
+                last[place - 1] = last[place];
+                first.RemoveAt(place);
+                last.RemoveAt(place);
+            }
+            else if (continues) last[place - 1] = id;
+            else if (precedes) first[place] = id;
+            else
+            {
+                first.Insert(place, id);
+                last.Insert(place, id);
+            }
+        }
+
+        /// <summary>First and last id of each range.</summary>
+        internal JArray ToJson()
+        {
+            var json = new JArray();
+            for (var range = 0; range < first.Count; range++)
+            {
+                json.Add(first[range]);
+                json.Add(last[range]);
+            }
+            return json;
+        }
+    }
+}

@@ -1,0 +1,56 @@
+using System;
+using System.IO;
+using System.Text;
+using Mono.Unix;
+using Mono.Unix.Native;
+
+namespace Collektive.Headless
+{
+    /// <summary>Creates the files of a run. None is written through a symbolic link, and synced ones survive a power failure.</summary>
+    internal static class ResultFile
+    {
+        /// <summary>Creates a file that grows during the run, in place of one of that name.</summary>
+        internal static StreamWriter Create(string path)
+        {
+            File.Delete(path);
+            return new StreamWriter(new FileStream(path, FileMode.CreateNew, FileAccess.Write, FileShare.Read), new UTF8Encoding(false));
+        }
+
+        /// <summary>Writes a file beside <paramref name="path"/>, syncs it, and replaces the file of that name. After an exception that one is unchanged.</summary>
+        internal static void Write(string path, Action<TextWriter> write)
+        {
+            var part = path + ".part";
+            try
+            {
+                using (var writer = Create(part)) write(writer);
+                Sync(part);
+                if (Stdlib.rename(part, path) != 0) throw Failure(path);
+                Sync(Path.GetDirectoryName(Path.GetFullPath(path)));
+            }
+            catch
+            {
+                File.Delete(part);
+                throw;
+            }
+        }
+
+        /// <summary>Waits until a file or the entries of a folder are on disk. A file that is not there is left out.</summary>
+        internal static void Sync(string path)
+        {
+            var descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_NOFOLLOW);
+            if (descriptor < 0 && Stdlib.GetLastError() == Errno.ENOENT) return;
+            if (descriptor < 0) throw Failure(path);
+            try
+            {
+                // File systems without such a call give EINVAL.
+                if (Syscall.fsync(descriptor) != 0 && Stdlib.GetLastError() != Errno.EINVAL) throw Failure(path);
+            }
+            finally
+            {
+                Syscall.close(descriptor);
+            }
+        }
+
+        private static IOException Failure(string path) => new IOException("'" + path + "': " + UnixMarshal.GetErrorDescription(Stdlib.GetLastError()));
+    }
+}
