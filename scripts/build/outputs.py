@@ -61,7 +61,9 @@ def _end(folder: Path) -> None:
     if not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():
-        # The manifest last: with it, the folder is no longer an earlier one's.
+        for name in _existing(folder, (*RESULTS, *UNFINISHED)):
+            (folder / name).unlink()
+        # The manifest last: with it, a run has begun.
         for name in reversed(_existing(earlier, RESULTS)):
             (earlier / name).rename(folder / name)
     shutil.rmtree(earlier)

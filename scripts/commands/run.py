@@ -62,8 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
         words += ["--recording", arguments.recording]
     if arguments.keep_going:
         words.append("--keep-going")
+    say(f"running {arguments.scenario}")
     with outputs.prepared(Path(out), arguments.overwrite):
-        say(f"running {arguments.scenario}")
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
     if code != 0:
         return code
