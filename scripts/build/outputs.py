@@ -61,7 +61,7 @@ def _end(folder: Path) -> None:
     if not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():
-        for name in _existing(folder, (*RESULTS, *UNFINISHED)):
+        for name in _existing(folder, UNFINISHED):
             (folder / name).unlink()
         # The manifest last: with it, a run has begun.
         for name in reversed(_existing(earlier, RESULTS)):
