@@ -45,11 +45,11 @@ def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
             pass
         if earlier:
             (folder / EARLIER).mkdir()
-        for name in earlier:
-            (folder / name).rename(folder / EARLIER / name)
     except OSError as error:
         raise Failure(f"cannot write to the output folder '{folder}': {error.strerror}; name another folder with --out") from error
     try:
+        for name in earlier:
+            (folder / name).rename(folder / EARLIER / name)
         yield
     finally:
         _end(folder)
