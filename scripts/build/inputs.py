@@ -21,8 +21,8 @@ class Part:
     """What one key of a scenario names: its files by their names, which are relative to its folder, and a hash of names and contents."""
 
     def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
-        self.path = path
-        self.files: Mapping[str, Path] = list_files(path)
+        self.path = Path(os.path.abspath(path))
+        self.files: Mapping[str, Path] = list_files(self.path)
         self.digest = _digest(self.files)
         self._list_files = list_files
 

@@ -29,7 +29,8 @@ def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, 
 
 
 def test_a_folder_that_is_not_a_jdk_is_reported_before_anything_is_fetched(checkout: Checkout) -> None:
-    result = subprocess.run([checkout.root / "collektive", "plot", "sweep"], capture_output=True, text=True, env={**os.environ, "COLLEKTIVE_JAVA_HOME": "/nope"})
+    command = [checkout.root / "collektive", "plot", "sweep"]
+    result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "COLLEKTIVE_JAVA_HOME": "/nope"})
     assert result.returncode == 1
     assert result.stderr == "collektive: COLLEKTIVE_JAVA_HOME is not a JDK: '/nope' has no lib/server/libjvm.so, bin/javac and release\n"
 
