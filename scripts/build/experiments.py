@@ -27,8 +27,9 @@ def environment() -> Mapping[str, str]:
 def run(*tools: str) -> int:
     """Runs this process's command line with the package; `tools` are fetched, too."""
     system.setup_system()
+    variables = environment()
     lock.shared()
     fetch.fetch("experiments", *tools)
     # Sweeps run copies, so others can build meanwhile.
     lock.release()
-    return processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=environment())
+    return processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)

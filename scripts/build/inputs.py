@@ -5,6 +5,7 @@ import re
 import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 from build.console import Failure
@@ -20,8 +21,8 @@ class Part:
     """What one key of a scenario names: its files by their names, which are relative to its folder, and a hash of names and contents."""
 
     def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
-        self.path = path
-        self.files: Mapping[str, Path] = list_files(path)
+        self.path = Path(os.path.abspath(path))
+        self.files: Mapping[str, Path] = list_files(self.path)
         self.digest = _digest(self.files)
         self._list_files = list_files
 
@@ -130,7 +131,7 @@ def _with_includes(schema: Path) -> dict[str, Path]:
 def _includes(file: str) -> list[str]:
     """Returns the paths in a schema file's includes."""
     tokens = [token for token in _TOKEN.findall(Path(file).read_bytes()) if not token.startswith((b"//", b"/*"))]
-    paths = [after[1:-1] for token, after in zip(tokens, tokens[1:]) if token == b"include" and len(after) > 1 and after[:1] in b"\"'"]
+    paths = [after[1:-1] for token, after in pairwise(tokens) if token == b"include" and len(after) > 1 and after[:1] in b"\"'"]
     for path in paths:
         if b"\\" in path:
             raise Failure(f"{file}: an include has a backslash: write the path with '/'")

@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable
 
 from build.console import say
-from build.places import ROOT
+from build.places import BUILD, ROOT
 
 _descriptor: int | None = None
 
@@ -37,6 +37,9 @@ def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
             return
         exclusive()
         try:
+            # Fails in a checkout that belongs to somebody else, or is read-only.
+            BUILD.mkdir(exist_ok=True)
+            os.utime(BUILD)
             make()
         finally:
             shared()

@@ -51,11 +51,11 @@ def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
             pass
         if earlier:
             (folder / EARLIER).mkdir()
-        for name in earlier:
-            (folder / name).rename(folder / EARLIER / name)
     except OSError as error:
         raise Failure(f"cannot write to the output folder '{folder}': {error.strerror}; name another folder with --out") from error
     try:
+        for name in earlier:
+            (folder / name).rename(folder / EARLIER / name)
         yield
     finally:
         _end(folder)
@@ -67,7 +67,9 @@ def _end(folder: Path) -> None:
     if not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():
-        # The manifest last: with it, the folder is no longer an earlier one's.
+        for name in _existing(folder, UNFINISHED):
+            (folder / name).unlink()
+        # The manifest last: with it, a run has begun.
         for name in reversed(_existing(earlier, RESULTS)):
             (earlier / name).rename(folder / name)
     shutil.rmtree(earlier)

@@ -59,15 +59,15 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     if programs.path.is_file():
         return programs.path
     fetch.fetch("kotlinc")
-    is_own = jars is not None and plugin is not None
-    parts = [schema, programs, *([jars, plugin, inputs.programs(LINKS)] if jars is not None and plugin is not None else [])]
-    key = _key(parts, [HOST_JAR, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if is_own else [LIBRARY_JAR, compiler_plugin()])])
+    runtime = [jars, plugin, inputs.programs(LINKS)] if jars and plugin else []
+    parts = [schema, programs, *runtime]
+    key = _key(parts, [HOST_JAR, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [LIBRARY_JAR, compiler_plugin()])])
 
     def compile_programs(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
         generated, classes = work / "generated", work / "classes"
         options: list[str | Path] = [f"-Xplugin={plugin.path if plugin else compiler_plugin()}"]
         library, mark = str(LIBRARY_JAR), "builtIn"
-        if jars is not None and plugin is not None:
+        if jars and plugin:
             _require_plugin(plugin.path)
             mark = f"collektive {_runtime_hash(jars)}"
             library = ":".join(str(jar) for jar in jars.files.values())
@@ -75,7 +75,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
         run(generator(schema.copy(work / "schema"), "--jvm", generated))
         sources = work / "sources"
         quoted = [re.sub(r'(["\\])', r"\\\1", str(file)) for file in programs.files.values()]
-        sources.write_text("".join(f'"{file}"\n' for file in quoted), errors="surrogateescape")
+        sources.write_text("".join(f'"{file}"\n' for file in quoted), encoding="utf-8", errors="surrogateescape")
         compile_jvm(run, library, generated, classes, [*options, f"@{sources}"])
         # The host refuses programs of another runtime by this.
         (work / "mark").write_text(f"Collektive-Runtime: {mark}\n")

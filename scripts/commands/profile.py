@@ -20,10 +20,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or f"out/{os.path.basename(arguments.scenario).removesuffix('.json')}-profile"
     recording = Path(out, "profile.jfr")
+    before = _modified(recording)
     # A run whose rounds failed has a recording, too: the one that is needed most.
     code = run_command.run(argparse.Namespace(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out,
                                                  "recording": str(recording), "folder": None}))
-    if recording.is_file():
+    # A run that could not begin leaves an earlier recording.
+    if _modified(recording) not in (0, before):
         processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",
                         recording])
     return code
+
+
+def _modified(file: Path) -> int:
+    return file.stat().st_mtime_ns if file.is_file() else 0

@@ -63,8 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.keep_going:
         words.append("--keep-going")
     has_pictures = plan["pictures"] == "yes"
+    say(f"running {arguments.scenario}")
     with outputs.prepared(Path(out), arguments.overwrite):
-        say(f"running {arguments.scenario}")
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
         outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:

@@ -1,5 +1,7 @@
 """Commands and options that are unknown or make no sense are refused by name."""
+import tempfile
 import unittest
+from pathlib import Path
 
 import pytest
 from command import Folder, collektive, last_error
@@ -26,9 +28,13 @@ class TheCommand(unittest.TestCase):
         self.assertIn("--nonesuch", last_error(result))
 
     def test_a_site_replaces_no_folder_of_something_else(self) -> None:
-        result = collektive("site", "--out", ROOT)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn(f"'{ROOT}' exists and was not made by this command", last_error(result))
+        with tempfile.TemporaryDirectory() as other:
+            Path(other, "sitemap.xml").touch()
+            for folder in (str(ROOT), other):
+                result = collektive("site", "--out", folder)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(f"'{folder}' exists and was not made by this command", last_error(result))
+            self.assertTrue(Path(other, "sitemap.xml").exists())
 
 
 class TheTests(unittest.TestCase):
@@ -46,9 +52,13 @@ class TheTests(unittest.TestCase):
 
 @pytest.mark.quick
 class BadDemos(Folder):
-    def test_numbers_that_make_no_sense_are_refused(self) -> None:
+    def test_numbers_that_make_no_sense_are_refused_and_earlier_results_are_kept(self) -> None:
+        manifest = Path(self.path("out", "manifest.json"))
+        manifest.parent.mkdir()
+        manifest.write_text("earlier")
         for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "no room for 20000"), (["--nodes", "many"], "--nodes"),
                                 (["--seconds", "-1"], "--seconds"), (["--seed", "1.5"], "--seed")]:
-            result = collektive("demo", *arguments, "--out", self.path("out"))
+            result = collektive("demo", *arguments, "--out", self.path("out"), "--overwrite")
             self.assertEqual(result.returncode, 1, arguments)
             self.assertIn(word, last_error(result))
+            self.assertEqual(manifest.read_text(), "earlier")

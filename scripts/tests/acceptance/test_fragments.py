@@ -74,10 +74,12 @@ class Fragments(Folder):
         return self.path(kind)
 
     def test_csharp_compiles(self) -> None:
-        projects.scripts_dll(inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(Path(self.written("csharp", csharp))))
+        folder = Path(self.written("csharp", csharp))
+        projects.scripts_dll(inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
 
     def test_kotlin_compiles(self) -> None:
-        projects.programs_jar(inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(Path(self.written("kotlin", kotlin))))
+        folder = Path(self.written("kotlin", kotlin))
+        projects.programs_jar(inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
 
     def test_json_is_json(self) -> None:
         for place, code in fragments("json"):

@@ -50,6 +50,13 @@ class Outputs(Project):
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
 
+    def test_a_run_that_cannot_begin_keeps_the_results_of_the_earlier_one(self) -> None:
+        self.assertEqual(self.run_it().returncode, 0)
+        before = self.contents()
+        for arguments in [("--seed", "1.5"), ("--seconds", "-1"), ("--set", "lamps=many"), ("--set", "candles=3"), ("--set", "scene=Lamps.Nonesuch")]:
+            self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
+            self.assertEqual(self.contents(), before, arguments)
+
     def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)

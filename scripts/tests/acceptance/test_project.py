@@ -31,6 +31,28 @@ class AForeignProject(Project):
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
+    def test_an_edit_counts_wherever_a_link_or_an_include_leads(self) -> None:
+        os.rename(self.path("project", "scene"), self.path("elsewhere"))
+        os.symlink(self.path("elsewhere"), self.path("project", "scene"))
+        os.makedirs(self.path("project", "programs", "target", ".git"))
+        os.rename(self.path("project", "programs", "Brightest.kt"), self.path("project", "programs", "target", ".git", "Brightest.kt"))
+        os.rename(self.path("project", "light.fbs"), self.path("light.fbs"))
+        os.symlink(self.path("light.fbs"), self.path("project", "linked.fbs"))
+        with open(self.path("project", "light.fbs"), "w") as file:
+            file.write('include "linked.fbs";\n')
+        digests = set()
+        for edit in [("programs/target/.git/Brightest.kt", "brightest = best", "brightest = best + 1"),
+                     ("scene/Lamps.cs", "Brightness = i + 1", "Brightness = i + 2"),
+                     ("linked.fbs", "brightest: float;\n  seen: [int];", "seen: [int];\n  brightest: float;"), None]:
+            result = self.run_it()
+            self.assertEqual(result.returncode, 0, result.stderr)
+            manifest = self.manifest(self.path("out"))
+            digests |= {manifest["digest"], *manifest["inputs"].values()}
+            if edit:
+                self.change(*edit)
+        # Of four runs, and of three versions of what was edited once.
+        self.assertEqual(len(digests), 4 + 3 * 2)
+
     def test_fields_can_be_set_on_the_command_line(self) -> None:
         result = self.run_it("--set", "lamps=6", "--set", "loop=true", "--seed", "3")
         self.assertEqual(result.returncode, 0, result.stderr)

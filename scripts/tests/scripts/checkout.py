@@ -9,6 +9,7 @@ from pathlib import Path
 from build.places import ROOT
 
 SETUP = """
+import signal
 import sys
 from pathlib import Path
 root = Path(sys.argv[1])

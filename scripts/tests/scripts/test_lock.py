@@ -1,4 +1,5 @@
 """The lock on the outputs of a checkout: commands that change them wait for all others, and report that."""
+import os
 import select
 import subprocess
 import time
@@ -44,16 +45,12 @@ def test_a_command_that_changes_outputs_lets_others_in_when_it_only_uses_them(ch
 
 
 def test_of_two_first_commands_the_second_waits_for_the_build_only(checkout: Checkout) -> None:
-    first_run = "import time\nlock.shared()\n(root / f'here{{}}').touch()\nwhile not (root / 'start').exists(): time.sleep(0.01)\n" \
-                "fetch.once('thing', '1', make)\nprint('runs', flush=True)\nwait_at_gate()"
-    runs = [checkout.start(first_run.format(number)) for number in range(2)]
-    while len(list(checkout.root.glob("here*"))) < 2:
-        time.sleep(0.01)
-    checkout.close_gate()
-    (checkout.root / "start").touch()
-    with open(checkout.root / "gate", "w"):  # one of them makes it
-        time.sleep(0.5)
+    os.mkfifo(checkout.root / "start")
+    runs = [checkout.start("lock.shared(); open(root / 'start').read(); fetch.once('thing', '1', make); print('runs', flush=True); signal.pause()")
+            for _ in range(2)]
     try:
+        with open(checkout.root / "start", "w"):
+            time.sleep(1)  # until the other one has opened it, too
         for run in runs:
             assert run.stdout is not None
             assert select.select([run.stdout], [], [], 20)[0], "it waits for the other run"

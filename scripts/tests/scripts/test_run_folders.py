@@ -20,7 +20,7 @@ def contents(folder: Path) -> dict[str, str]:
 
 
 def test_they_are_refused_unless_they_may_be_overwritten(folder: Path) -> None:
-    with pytest.raises(Failure, match="has results of a run: manifest.json, profile.jfr; name another folder"), outputs.prepared(folder, False):
+    with pytest.raises(Failure, match=r"has results of a run: manifest\.json, profile\.jfr; name another folder"), outputs.prepared(folder, False):
         pass
     assert len(contents(folder)) == 3
 

@@ -28,6 +28,13 @@ def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, 
                                           "use one that belongs to you"]
 
 
+def test_a_folder_that_is_not_a_jdk_is_reported_before_anything_is_fetched(checkout: Checkout) -> None:
+    command = [checkout.root / "collektive", "plot", "sweep"]
+    result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "COLLEKTIVE_JAVA_HOME": "/nope"})
+    assert result.returncode == 1
+    assert result.stderr == "collektive: COLLEKTIVE_JAVA_HOME is not a JDK: '/nope' has no lib/server/libjvm.so, bin/javac and release\n"
+
+
 def test_a_reader_that_closes_the_output_ends_the_command_silently(checkout: Checkout) -> None:
     reader, writer = os.pipe()
     os.close(reader)

@@ -1,0 +1,39 @@
+"""What a sweep copies of a project, and what it refuses to copy."""
+import json
+
+from conftest import Project
+
+
+def test_an_include_that_leads_outside_the_project_is_refused(project: Project) -> None:
+    schema = project.folder / "project/light.fbs"
+    outside = project.folder / "outside.fbs"
+    outside.write_text("// kept\n")
+    schema.write_text('include "../outside.fbs";\n' + schema.read_text())
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 1
+    assert f"the included file '../outside.fbs' is not in the folder '{schema.parent}', which a sweep copies: move it there" in result.stderr
+    assert outside.read_text() == "// kept\n"
+    assert not list((project.folder / "out").rglob("outside.fbs"))
+
+
+def test_runs_use_what_links_and_includes_led_to(project: Project) -> None:
+    folder = project.folder / "project"
+    (folder / "light.fbs").rename(project.folder / "light.fbs")
+    (folder / "common").mkdir()
+    (folder / "common/linked.fbs").symlink_to(project.folder / "light.fbs")
+    (folder / "light.fbs").write_text('include "common/linked.fbs";\n')
+    (folder / "programs").rename(project.folder / "target")
+    (folder / "programs").symlink_to(project.folder / "target")
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
+    bundle = project.folder / "out/bundle"
+    copies = sorted(str(file.relative_to(bundle / "inputs")) for file in (bundle / "inputs").rglob("*") if file.is_file())
+    assert copies == ["programs/Brightest.kt", "scenario.json", "schema/common/linked.fbs", "schema/light.fbs", "scripts/Lamps.cs"]
+    assert not any(file.is_symlink() for file in bundle.rglob("*"))
+    manifest = json.loads(next((project.folder / "out/runs").glob("*/manifest.json")).read_text())
+    assert manifest["inputs"] == json.loads((bundle / "inputs.json").read_text())["hashes"]
+    # A link to other contents is another project.
+    (project.folder / "light.fbs").write_text((project.folder / "light.fbs").read_text() + "// changed\n")
+    again = project.sweep("--resume", vary={"seed": [1]})
+    assert again.returncode == 1
+    assert "are not those that the runs in" in again.stderr
