@@ -65,7 +65,7 @@ class _Process:
             answer = self._receive(self._ready, MAX_START_SECONDS)
             if isinstance(answer, Outcome):
                 return answer
-            self._keeps_state = bool(answer["keepsState"])
+            self._keeps_state = answer["keepsState"] is not None
         return self._keeps_state
 
     def ask(self, request: dict[str, Any], limit: float) -> dict[str, Any] | Outcome:
