@@ -187,7 +187,7 @@ class Worker:
 
     def _run(self, settings: dict[str, Any], jvm: str, out: str, limit: float, fresh: bool) -> Outcome:
         process, self._idle = self._idle, None
-        if process is not None and (process.jvm != jvm or fresh and not process.is_fresh):
+        if process is not None and (process.jvm != jvm or (fresh and not process.is_fresh)):
             process.end()
             process = None
         self._busy = process = process or self._start(jvm)

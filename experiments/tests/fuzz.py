@@ -29,15 +29,17 @@ from collektive_experiments.experiment import identity, text
 from collektive_experiments.files import MARKER
 
 PROJECT = Path(__file__).parent / "fuzz"
-TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$", "<script>",
-         "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
-NAMES = [text for text in TEXTS if text and "|" not in text] + ["status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run", "name", "metric"]
+TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$",
+         "<script>", "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
+NAMES = [*(text for text in TEXTS if text and "|" not in text), "status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run", "metric"]
 NUMBERS = [0, 1, -1, 2.5, 1e-7, 1e12, -3.25, 1 << 53, 123456789.125, 1 << 63, 7.0]
 DEFAULTS: dict[str, Any] = {"fields.names": "one", "fields.nodes": 2, "fields.slope": 1, "fields.odd": "", "fields.label": "", "fields.flag": False,
                             "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "outputs.interval": 1, "seed": 1}
 VALUES: dict[str, list[Any]] = {
-    "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]], "fields.nodes": [1, 2, 5],
-    "fields.fate": [0, 0, 0, 1, 2], "seed": [0, 1, 2, 7, (1 << 64) - 1], "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2], "fields.odd": ["", "nan", "inf"]}
+    "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]],
+    "fields.nodes": [1, 2, 5], "fields.fate": [0, 0, 0, 1, 2], "fields.odd": ["", "nan", "inf"], "seed": [0, 1, 2, 7, (1 << 64) - 1],
+    "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2]}
+INSERTIONS = [b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"]
 MAX_RUNS = 12
 
 
@@ -206,7 +208,7 @@ def mutate(chance: random.Random, content: bytes, path: Path) -> None:
             elif kind == 1:
                 del changed[at:at + chance.randint(1, 20)]
             elif kind == 2:
-                changed[at:at] = chance.choice([b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"])
+                changed[at:at] = chance.choice(INSERTIONS)
             else:
                 changed[at:at] = changed[at:at + chance.randint(1, 50)]
             changed = changed or bytearray(b" ")
@@ -249,10 +251,12 @@ def try_case(case: Case, folder: Path) -> None:
     mutate(chance, case.text().encode(), folder / "changed.json")
 
 
+FAILING = {"os": ("open", "replace", "mkdir", "makedirs", "unlink", "rmdir", "fsync", "fdopen"), "subprocess": ("Popen", "run")}
+"""Functions of which one call fails."""
+
+
 class Fault:
     """Lets one write, rename, deletion, sync or start of a process fail in the package."""
-
-    CALLS = {"os": ("open", "replace", "mkdir", "makedirs", "unlink", "rmdir", "fsync", "fdopen"), "subprocess": ("Popen", "run")}
 
     def __init__(self, at: int):
         self.at = at
@@ -262,7 +266,7 @@ class Fault:
 
     def __enter__(self) -> "Fault":
         for module, name in self._modules:
-            setattr(module, name, Failing(getattr(module, name), self.CALLS[name], self.pass_one))
+            setattr(module, name, Failing(getattr(module, name), FAILING[name], self.pass_one))
         return self
 
     def __exit__(self, *_: object) -> None:
