@@ -31,7 +31,7 @@ from collektive_experiments.files import MARKER
 PROJECT = Path(__file__).parent / "fuzz"
 TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$",
          "<script>", "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
-NAMES = [*(text for text in TEXTS if text and "|" not in text), "status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run", "metric"]
+NAMES = [*(text for text in TEXTS if text and "|" not in text), "status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run"]
 NUMBERS = [0, 1, -1, 2.5, 1e-7, 1e12, -3.25, 1 << 53, 123456789.125, 1 << 63, 7.0]
 DEFAULTS: dict[str, Any] = {"fields.names": "one", "fields.nodes": 2, "fields.slope": 1, "fields.odd": "", "fields.label": "", "fields.flag": False,
                             "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "outputs.interval": 1, "seed": 1}
