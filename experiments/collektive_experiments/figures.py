@@ -173,5 +173,6 @@ def _page(title: str, results: Results, sections: list[str]) -> str:
     style = ("body{font:15px system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}figure{margin:2em 0}svg{max-width:100%;height:auto}"
              "table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;text-align:right}")
     policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
-    return (f"<!doctype html><html lang=en><meta charset=utf-8><meta http-equiv=Content-Security-Policy content=\"{policy}\"><title>{html.escape(title)}</title><style>{style}</style><h1>{html.escape(title)}</h1>"
+    return (f"<!doctype html><html lang=en><meta charset=utf-8><meta http-equiv=Content-Security-Policy content=\"{policy}\">"
+            f"<title>{html.escape(title)}</title><style>{style}</style><h1>{html.escape(title)}</h1>"
             f"<p>Runs: {html.escape(counts)}.</p>{''.join(sections)}</html>\n")

@@ -32,7 +32,7 @@ def remove(folder: str) -> None:
     """Deletes a marked or empty folder, if it exists. The marker goes last: an interrupted deletion can be repeated."""
     if not os.path.lexists(folder):
         return
-    if os.path.islink(folder) or not os.path.isdir(folder) or os.listdir(folder) and not is_marked(folder):
+    if os.path.islink(folder) or not os.path.isdir(folder) or (os.listdir(folder) and not is_marked(folder)):
         raise OSError(f"'{folder}' was not created by a sweep; move it, or name another folder with --out")
     for entry in os.scandir(folder):
         if entry.is_dir(follow_symlinks=False):

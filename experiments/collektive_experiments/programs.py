@@ -11,7 +11,8 @@ ALLOWED = {
                   "ClassCastException AssertionError Cloneable Class",
     "java/lang/invoke/": "LambdaMetafactory StringConcatFactory MethodHandles MethodHandles$Lookup CallSite MethodType MethodHandle",
     "java/util/": "Collection List Set Map Map$Entry Iterator ListIterator Comparator ArrayList LinkedList ArrayDeque PriorityQueue HashMap HashSet "
-                  "LinkedHashMap LinkedHashSet TreeMap TreeSet Arrays Collections Objects Optional NoSuchElementException BitSet Deque Queue SortedMap SortedSet",
+                  "LinkedHashMap LinkedHashSet TreeMap TreeSet Arrays Collections Objects Optional NoSuchElementException BitSet "
+                  "Deque Queue SortedMap SortedSet",
     "java/util/function/": None,
     "java/nio/": "ByteBuffer ByteOrder",
     "kotlin/": None,

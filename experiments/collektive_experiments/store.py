@@ -71,9 +71,9 @@ class Store:
         if not os.path.lexists(folder):
             return False
         record = self.record(run)
-        damaged = "run.json" if record is None else next((name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest), None)
+        damaged = ["run.json"] if record is None else [name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest]
         if record is None or damaged:
-            print(f"collektive: '{os.path.join(folder, damaged or '')}' is damaged: the run is repeated", file=sys.stderr)
+            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged: the run is repeated", file=sys.stderr)
             files.remove(folder)
             return False
         return bool(record["status"] == "complete")
@@ -95,7 +95,8 @@ class Store:
         """Gives the folder of a run that ended its name."""
         folder = os.path.join(self.runs, run.name)
         part = folder + PART
-        results = {name: _hash(os.path.join(part, name)) for name in sorted(os.listdir(part)) if name != MARKER and os.path.isfile(os.path.join(part, name))}
+        names = [entry.name for entry in os.scandir(part) if entry.is_file(follow_symlinks=False) and entry.name != MARKER]
+        results = {name: _hash(os.path.join(part, name)) for name in sorted(names)}
         if outcome.status == "complete" and not set(RESULTS) <= results.keys():
             outcome = Outcome("failed", f"the run wrote no {' or '.join(name for name in RESULTS if name not in results)}")
         record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}

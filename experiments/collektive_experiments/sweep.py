@@ -116,7 +116,8 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
     code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
-        raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; repeat the missing runs with --resume")
+        raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
+                              "repeat the missing runs with --resume")
     return code
 
 

@@ -254,7 +254,9 @@ def _type_of(values: list[Any]) -> pa.DataType:
         return pa.bool_()
     if any(isinstance(value, (bool, str, list)) for value in values) or not values:
         return pa.string()
-    if any(isinstance(value, float) for value in values) or min(values) < -1 << 63 or max(values) >= 1 << 64 or min(values) < 0 and max(values) >= 1 << 63:
+    if any(isinstance(value, float) for value in values) or min(values) < -1 << 63 or max(values) >= 1 << 64:
+        return pa.float64()
+    if min(values) < 0 and max(values) >= 1 << 63:
         return pa.float64()
     return pa.uint64() if max(values) >= 1 << 63 else pa.int64()
 

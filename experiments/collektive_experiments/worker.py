@@ -67,7 +67,7 @@ class _Process:
             answer = self._receive(self._ready, MAX_START_SECONDS)
             if isinstance(answer, Outcome):
                 return answer
-            self._keeps_state = bool(answer["keepsState"])
+            self._keeps_state = answer["keepsState"] is not None
         return self._keeps_state
 
     def ask(self, request: dict[str, Any], limit: float) -> dict[str, Any] | Outcome:
@@ -189,7 +189,7 @@ class Worker:
 
     def _run(self, settings: dict[str, Any], jvm: str, out: str, limit: float, fresh: bool) -> Outcome:
         process, self._idle = self._idle, None
-        if process is not None and (process.jvm != jvm or fresh and not process.is_fresh):
+        if process is not None and (process.jvm != jvm or (fresh and not process.is_fresh)):
             process.end()
             process = None
         self._busy = process = process or self._start(jvm)

@@ -3,6 +3,8 @@ Random experiments through sweep, tables and plot, compared with a model of the 
 that name and the case's number, with the experiment and the sweep's results.
 """
 import contextlib
+import errno
+import hashlib
 import io
 import itertools
 import json
@@ -12,6 +14,7 @@ import random
 import shutil
 import sys
 import tempfile
+import threading
 import time
 import traceback
 from collections.abc import Callable
@@ -20,21 +23,23 @@ from typing import Any
 
 import pandas as pd
 
-from collektive_experiments import ExperimentError, read
+from collektive_experiments import ExperimentError, bundle, files, read, worker
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import identity, text
 from collektive_experiments.files import MARKER
 
 PROJECT = Path(__file__).parent / "fuzz"
-TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$", "<script>",
-         "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
-NAMES = [text for text in TEXTS if text and "|" not in text] + ["status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run", "name", "metric"]
+TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines", "\u00fcn\u00ef\U0001f680", "true", "1", "01", "1.0", "_under", "$x$",
+         "<script>", "NaN", "null", "'", "\\", "y" * 300, "#", "%s{}", "\t", "\u2028", "-inf", "a|b"]
+NAMES = [*(text for text in TEXTS if text and "|" not in text), "status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run"]
 NUMBERS = [0, 1, -1, 2.5, 1e-7, 1e12, -3.25, 1 << 53, 123456789.125, 1 << 63, 7.0]
 DEFAULTS: dict[str, Any] = {"fields.names": "one", "fields.nodes": 2, "fields.slope": 1, "fields.odd": "", "fields.label": "", "fields.flag": False,
                             "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "outputs.interval": 1, "seed": 1}
 VALUES: dict[str, list[Any]] = {
-    "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]], "fields.nodes": [1, 2, 5],
-    "fields.fate": [0, 0, 0, 1, 2], "seed": [0, 1, 2, 7, (1 << 64) - 1], "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2], "fields.odd": ["", "nan", "inf"]}
+    "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]],
+    "fields.nodes": [1, 2, 5], "fields.fate": [0, 0, 0, 1, 2], "fields.odd": ["", "nan", "inf"], "seed": [0, 1, 2, 7, (1 << 64) - 1],
+    "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2]}
+INSERTIONS = [b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"]
 MAX_RUNS = 12
 
 
@@ -203,7 +208,7 @@ def mutate(chance: random.Random, content: bytes, path: Path) -> None:
             elif kind == 1:
                 del changed[at:at + chance.randint(1, 20)]
             elif kind == 2:
-                changed[at:at] = chance.choice([b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"])
+                changed[at:at] = chance.choice(INSERTIONS)
             else:
                 changed[at:at] = changed[at:at + chance.randint(1, 50)]
             changed = changed or bytearray(b" ")
@@ -246,6 +251,96 @@ def try_case(case: Case, folder: Path) -> None:
     mutate(chance, case.text().encode(), folder / "changed.json")
 
 
+FAILING = {"os": ("open", "replace", "mkdir", "makedirs", "unlink", "rmdir", "fsync", "fdopen"), "subprocess": ("Popen", "run")}
+"""Functions of which one call fails."""
+
+
+class Fault:
+    """Lets one write, rename, deletion, sync or start of a process fail in the package."""
+
+    def __init__(self, at: int):
+        self.at = at
+        self.count = 0
+        self._lock = threading.Lock()
+        self._modules = [(files, "os"), (worker, "os"), (worker, "subprocess"), (bundle, "subprocess")]
+
+    def __enter__(self) -> "Fault":
+        for module, name in self._modules:
+            setattr(module, name, Failing(getattr(module, name), FAILING[name], self.pass_one))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for module, name in self._modules:
+            setattr(module, name, sys.modules[name])
+
+    def pass_one(self) -> None:
+        with self._lock:
+            self.count += 1
+            if self.count == self.at:
+                raise OSError(errno.EIO, "Input/output error")
+
+
+class Failing:
+    """A module of which some functions may fail."""
+
+    def __init__(self, module: Any, calls: tuple[str, ...], pass_one: Callable[[], None]):
+        self._module, self._calls, self._pass_one = module, calls, pass_one
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(self._module, name)
+        if name not in self._calls:
+            return found
+
+        def call(*words: Any, **options: Any) -> Any:
+            self._pass_one()
+            return FailingFile(words[0], self._pass_one) if name == "fdopen" else found(*words, **options)
+        return call
+
+
+class FailingFile(io.FileIO):
+    """A file whose writes may fail."""
+
+    def __init__(self, descriptor: int, pass_one: Callable[[], None]):
+        super().__init__(descriptor, "wb")
+        self._pass_one = pass_one
+
+    def write(self, content: Any) -> int:
+        self._pass_one()
+        super().write(content)
+        return len(content)
+
+
+def check_folders(out: Path) -> None:
+    """Every folder is complete, marked as unfinished, or absent."""
+    for folder in [*out.glob("runs/*"), *out.glob("bundle*")]:
+        if folder.name.endswith(".part"):
+            require((folder / MARKER).exists() or not os.listdir(folder), f"{folder} is not marked")
+        elif folder.name == "bundle":
+            require((folder / "programs.jar").exists() and (folder / "Scenario.dll").exists(), "the bundle is not complete")
+        else:
+            record = json.loads((folder / "run.json").read_text())
+            for name, digest in record["files"].items():
+                require(hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest, f"{folder / name} is not what was measured")
+    for table in out.glob("*.parquet"):
+        pd.read_parquet(table)
+
+
+def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
+    """Sweeps while one call fails, then resumes; returns how many calls could have failed."""
+    path, out = folder / "experiment.json", folder / "out"
+    path.write_text(case.text(), encoding="utf-8")
+    with Fault(case.chance.randint(1, 200) if at is None else at) as fault:
+        code, errors = run_command("sweep", str(path), "--out", str(out), "--jobs", "2")
+    require("Traceback" not in errors and (code == 1 or fault.count < fault.at), f"exit code {code} with call {fault.at} of {fault.count} failing: {errors}")
+    check_folders(out)
+    fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+    code, errors = run_command("sweep", str(path), "--out", str(out), "--resume")
+    require(code == int(fails), f"exit code {code} after call {fault.at} failed: {errors}")
+    check_folders(out)
+    check(case, out)
+    return fault.count
+
+
 def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None] = print) -> int:
     """Tries experiments for so long, and at least one; returns the number of findings."""
     end, count, found = time.monotonic() + seconds, 0, 0
@@ -253,7 +348,7 @@ def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None
         case = Case(random.Random(f"{seed}/{count}"))
         folder = Path(tempfile.mkdtemp(prefix="collektive-fuzz-"))
         try:
-            try_case(case, folder)
+            (try_fault if case.chance.random() < 0.3 else try_case)(case, folder)
         except Exception:
             found += 1
             report(f"case {seed}/{count}: {traceback.format_exc()}")

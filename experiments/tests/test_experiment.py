@@ -64,7 +64,7 @@ def test_all_combinations_are_run_and_keys_of_zip_vary_together(tmp_path: Path) 
 
 def test_a_file_that_is_not_utf_8_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "experiment.json").write_bytes(b'{"version": "\xff"}')
-    with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8$"):
+    with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8"):
         read(str(tmp_path / "experiment.json"))
 
 

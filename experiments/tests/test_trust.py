@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest import Project
+from conftest import EIGHT, Project
 
+from collektive_experiments import read, tables
 from collektive_experiments.__main__ import main
+from collektive_experiments.store import Store
 from collektive_experiments.worker import Worker
 
 THREE = {"vary": {"seed": "1-3"}}
@@ -19,7 +21,8 @@ def change_scene(project: Project, build: str = "", declared: str = "", measure:
     scene = project.folder / "project/scene/Lamps.cs"
     text = scene.read_text().replace("for (var i = 0; i < lamps; i++)\n", build + "\n            for (var i = 0; i < lamps; i++)\n", 1)
     text = text.replace("public sealed class LampScene", declared + "\n    public sealed class LampScene")
-    text = text.replace("                values[1] += answer.SeenLength;\n            }", "                values[1] += answer.SeenLength;\n            }" + measure)
+    end = "                values[1] += answer.SeenLength;\n            }"
+    text = text.replace(end, end + measure)
     if names:
         text = text.replace('{ "agreeing", "seen" }', names)
     scene.write_text(text)
@@ -39,13 +42,18 @@ def change_program(project: Project, statement: str) -> None:
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
-    ("if (Random.value != First.Value) lamps++;", "internal static class First { public static readonly float Value = Random.value; }"),
 ])
 def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:
     change_scene(project, build, declared)
     result = project.sweep("--jobs", "1", **THREE)
     assert result.returncode == 0, result.stderr
     assert len(set(project.table()["nodes"])) == 1
+
+
+def test_static_fields_get_their_values_in_the_run_that_needs_them(project: Project) -> None:
+    change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
+    assert project.sweep("--jobs", "1", **THREE).returncode == 0
+    assert len(set(project.table()["nodes"])) > 1, "not the value of each run's seed"
 
 
 def test_a_run_sees_nothing_of_programs_before_it(project: Project) -> None:
@@ -125,7 +133,7 @@ def test_nothing_is_written_through_a_symbolic_link(project: Project, name: str)
     (elsewhere / "thesis.txt").write_text("all of it")
     out = project.folder / "out"
     if name:
-        (out / "logs").mkdir(parents=name.startswith("logs/") or True)
+        (out / "logs").mkdir(parents=True)
         (out / ".collektive-sweep").touch()
         if name == "logs":
             (out / "logs").rmdir()
@@ -189,16 +197,15 @@ def test_names_and_values_of_metrics_are_data(project: Project) -> None:
 
 
 def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:
-    from collektive_experiments import experiment, store, tables
-    read = experiment.read(str(lamps.folder / "experiment.json"))
+    experiment = read(lamps.experiment(**EIGHT))
     records = tables._Columns.records
     monkeypatch.setattr(tables._Columns, "records", lambda columns: list(records(columns))[1:])
     before = pd.read_parquet(lamps.folder / "out/runs.parquet")
     try:
-        assert tables.write(read, store.Store(str(lamps.folder / "out")), False) == len(before) - 1
+        assert tables.write(experiment, Store(str(lamps.folder / "out")), False) == len(before) - 1
     finally:
         monkeypatch.undo()
-        tables.write(read, store.Store(str(lamps.folder / "out")), True)
+        tables.write(experiment, Store(str(lamps.folder / "out")), True)
 
 
 def test_a_tables_folder_that_is_no_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

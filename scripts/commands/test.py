@@ -53,7 +53,7 @@ LONG_RUNS = {
                       "races between threads, with every compiler and mix of compilers: takes long"),
     "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe"), ("--each",), "inputs of any bytes against each fuzzer, or "
                     "those named, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under "
-                    "sanitizers); what it learns stays in build/fuzz"),
+                    "sanitizers), experiments; what it learns stays in build/fuzz"),
 }
 
 

@@ -14,9 +14,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import graph, jdk, lock, managed, processes
+from build import experiments, fetch, graph, jdk, lock, managed, processes
 from build.console import Failure, say
-from build.places import BUILD, CSHARP, FLATC, JVM, LOGS, ROOT, TEST_PYTHON
+from build.places import BUILD, CSHARP, EXPERIMENTS_PYTHON, FLATC, JVM, LOGS, ROOT, TEST_PYTHON
 
 FUZZ = BUILD / "fuzz"
 HOST = JVM / "host/target"
@@ -56,11 +56,15 @@ FUZZERS: dict[str, Callable[[int, int], list[str | Path]]] = {
     "scenario": fuzz_scenario,
     "schemas": fuzz_schemas,
     "shim": lambda seconds, seed: [BUILD / "sanitized/test/shim_test", "fuzz"],
+    "experiments": lambda seconds, seed: [EXPERIMENTS_PYTHON, "-P", "-s", ROOT / "experiments/tests/fuzz.py", str(seconds), str(seed),
+                                          FUZZ / "experiments/findings"],
 }
 
 
 def environment(name: str, seconds: int, seed: int) -> dict[str, str]:
     """Returns the environment of a fuzzer."""
+    if name == "experiments":
+        return dict(experiments.environment())
     if name != "shim":
         return dict(managed.environment("mono-sgen"))
     options = next((BUILD / "sanitized").rglob("asan_options")).read_text()
@@ -89,9 +93,11 @@ def run_each(words: list[str]) -> None:
 
 
 def prepare(names: list[str]) -> None:
-    """Builds what only these fuzzers need: Jazzer with all that it finds classes in, and the shim under sanitizers."""
+    """Builds what only these fuzzers need: Jazzer with all that it finds classes in, the shim under sanitizers, packages from PyPI."""
     if "shim" in names:
         graph.build("sanitized")
+    if "experiments" in names:
+        fetch.fetch("experiments")
     if not (HOST / "fuzz").exists() and {"open", "step", "control", "record"} & set(names):
         lock.exclusive()
         subprocess.run(["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "-Pfuzz", "-pl", "host", "-am", "-DskipTests", "-Dmdep.skip=false", "package"],

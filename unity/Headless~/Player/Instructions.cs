@@ -12,15 +12,16 @@ namespace Collektive.Headless
 
         private static readonly Dictionary<short, OpCode> Codes = ReadCodes();
 
-        /// <summary>Returns the tokens of the methods that a method calls or takes the address of.</summary>
-        internal static IEnumerable<int> Calls(byte[] body)
+        /// <summary>Returns the instructions in order, with the tokens of members that they refer to.</summary>
+        internal static IEnumerable<KeyValuePair<OpCode, int>> Of(byte[] body)
         {
             for (var at = 0; at < body.Length;)
             {
                 var code = body[at] == TwoBytes ? Codes[(short)(TwoBytes << 8 | body[at + 1])] : Codes[body[at]];
                 at += code.Size;
-                if (code.OperandType == OperandType.InlineMethod && code != OpCodes.Ldftn) yield return BitConverter.ToInt32(body, at);
-                at += SizeOfOperand(code.OperandType, body, at);
+                var size = SizeOfOperand(code.OperandType, body, at);
+                yield return new KeyValuePair<OpCode, int>(code, size == 4 ? BitConverter.ToInt32(body, at) : 0);
+                at += size;
             }
         }
 

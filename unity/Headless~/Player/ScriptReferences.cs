@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Reflection;
+using System.Reflection.Emit;
 using System.Runtime.CompilerServices;
 using Collektive.Bridge;
 
@@ -25,7 +26,7 @@ namespace Collektive.Headless
             "Object String Boolean Byte SByte Char Int16 UInt16 Int32 UInt32 Int64 UInt64 Single Double Decimal Void Math MathF Array Enum ValueType Nullable`1 "
             + "IDisposable IComparable IComparable`1 IEquatable`1 IFormattable IFormatProvider Delegate MulticastDelegate EventHandler EventHandler`1 EventArgs "
             + "Predicate`1 Comparison`1 Converter`2 Exception ArgumentException ArgumentNullException ArgumentOutOfRangeException InvalidOperationException "
-            + "NotSupportedException NotImplementedException IndexOutOfRangeException FormatException Index Range Span`1 ReadOnlySpan`1 Random StringComparison "
+            + "NotSupportedException NotImplementedException IndexOutOfRangeException FormatException Index Range Span`1 ReadOnlySpan`1 ArraySegment`1 Random StringComparison "
             + "StringComparer Convert HashCode RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
 
         /// <summary>Types of any number of parameters.</summary>
@@ -34,6 +35,8 @@ namespace Collektive.Headless
         /// <summary>Types of which scripts may use some members only.</summary>
         private static readonly Dictionary<string, string> Members = new Dictionary<string, string>
         {
+            ["System.Threading.Interlocked"] = "CompareExchange",
+            ["System.Environment"] = "get_CurrentManagedThreadId get_NewLine",
             ["System.Type"] = "GetTypeFromHandle get_Name get_FullName op_Equality op_Inequality",
             ["System.Console"] = "Write WriteLine",
             ["System.Globalization.CultureInfo"] = "get_InvariantCulture",
@@ -44,16 +47,20 @@ namespace Collektive.Headless
         private static readonly HashSet<string> OtherTypes = new HashSet<string>
         {
             "System.Text.StringBuilder", "System.Globalization.NumberStyles", "System.Reflection.MemberInfo", "System.Collections.IEnumerator",
-            "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Collections.Generic.List`1+Enumerator",
+            "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Security.Permissions.SecurityAction", "System.Collections.Generic.List`1+Enumerator",
         };
 
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>
         {
-            "System.ThreadStaticAttribute", "System.Security.UnverifiableCodeAttribute", "System.Security.Permissions.SecurityPermissionAttribute",
-            "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
+            "System.ThreadStaticAttribute", "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
         };
 
         private static readonly HashSet<string> ForbiddenMembers = new HashSet<string> { "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly" };
+
+        private static readonly OpCode[] PointerCodes =
+        {
+            OpCodes.Conv_U, OpCodes.Conv_I, OpCodes.Localloc, OpCodes.Cpblk, OpCodes.Initblk, OpCodes.Calli,
+        };
 
         /// <summary>Returns the first reference that could leave something behind, or null.</summary>
         internal static string FindProblem(Assembly scripts)
@@ -71,9 +78,9 @@ namespace Collektive.Headless
             }
             foreach (var type in scripts.GetTypes())
             {
-                foreach (var method in type.GetMethods(All))
+                foreach (var method in MethodsOf(type))
                 {
-                    if ((method.Attributes & MethodAttributes.PinvokeImpl) != 0) return type.FullName + "." + method.Name;
+                    if ((method.Attributes & MethodAttributes.PinvokeImpl) != 0 || UsesPointers(method)) return type.FullName + "." + method.Name;
                 }
                 if (IsStateless(type) || typeof(DataSchema).IsAssignableFrom(type)) continue;
                 if (type.IsGenericTypeDefinition && HasVariables(type)) return type.FullName;
@@ -89,12 +96,31 @@ namespace Collektive.Headless
 
         private static bool HasVariables(Type type) => Array.Exists(type.GetFields(All), field => field.IsStatic && !field.IsLiteral);
 
+        private static IEnumerable<MethodBase> MethodsOf(Type type)
+        {
+            foreach (var method in type.GetMethods(All)) yield return method;
+            foreach (var constructor in type.GetConstructors(All)) yield return constructor;
+        }
+
+        /// <summary>Whether a method can write to any address. Verifiable code has no native integers.</summary>
+        private static bool UsesPointers(MethodBase method)
+        {
+            var body = method.GetMethodBody()?.GetILAsByteArray();
+            if (body == null) return false;
+            foreach (var instruction in Instructions.Of(body))
+            {
+                if (Array.IndexOf(PointerCodes, instruction.Key) >= 0) return true;
+            }
+            return false;
+        }
+
         /// <summary>Whether the initial values of static fields could depend on the run that needs them first.</summary>
         private static bool DependsOnRun(Type type)
         {
-            foreach (var token in Instructions.Calls(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))
+            foreach (var instruction in Instructions.Of(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))
             {
-                var called = Resolved(() => type.Module.ResolveMethod(token));
+                if (instruction.Key.OperandType != OperandType.InlineMethod || instruction.Key == OpCodes.Ldftn) continue;
+                var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
                 var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner) || IsStateless(owner)

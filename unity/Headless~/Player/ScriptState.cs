@@ -18,34 +18,41 @@ namespace Collektive.Headless
 
         internal ScriptState(Assembly scripts)
         {
-            CanKeep = ScriptReferences.FindProblem(scripts) != null;
-            foreach (var type in scripts.GetTypes())
-            {
-                if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
-                foreach (var field in type.GetFields(Statics)) CanKeep |= !field.IsLiteral && !IsComparable(field);
-            }
-            // Reading a field runs its type's initializer, which must not be earlier than in a process with one run.
-            if (CanKeep) return;
+            Problem = ScriptReferences.FindProblem(scripts);
             foreach (var type in scripts.GetTypes())
             {
                 if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
                 foreach (var field in type.GetFields(Statics))
                 {
-                    if (field.IsLiteral) continue;
+                    if (!field.IsLiteral && !IsComparable(field)) Problem = Problem ?? type.FullName + "." + field.Name;
+                }
+            }
+            // Reading a field runs its type's initializer, which must not be earlier than in a process with one run.
+            if (Problem != null) return;
+            foreach (var type in scripts.GetTypes())
+            {
+                if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
+                foreach (var field in type.GetFields(Statics))
+                {
+                    if (field.IsLiteral || IsLambda(field)) continue;
                     var value = field.GetValue(null);
                     before.Add(new KeyValuePair<FieldInfo, object>(field, value is Array array ? array.Clone() : value));
                 }
             }
         }
 
-        /// <summary>Whether a run could leave something behind that is not compared.</summary>
-        internal bool CanKeep { get; }
+        /// <summary>What could leave something behind that is not compared, or null.</summary>
+        internal string Problem { get; }
 
         /// <summary>Whether the fields are as they were.</summary>
-        internal bool IsUnchanged => !CanKeep && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
+        internal bool IsUnchanged => Problem == null && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
 
         private static bool IsComparable(FieldInfo field) =>
-            IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType()) || field.IsInitOnly && IsWithoutState(field.FieldType);
+            IsLambda(field) || IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType()) || field.IsInitOnly && IsWithoutState(field.FieldType);
+
+        /// <summary>Whether the compiler keeps a lambda without variables in a field.</summary>
+        private static bool IsLambda(FieldInfo field) =>
+            field.Name.StartsWith("<>", StringComparison.Ordinal) && typeof(Delegate).IsAssignableFrom(field.FieldType);
 
         private static bool AreEqual(object before, object now)
         {
