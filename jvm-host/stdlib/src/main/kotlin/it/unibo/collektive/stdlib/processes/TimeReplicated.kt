@@ -4,9 +4,10 @@ package it.unibo.collektive.stdlib.processes
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
-import it.unibo.collektive.aggregate.api.neighboring
+import it.unibo.collektive.aggregate.api.share
 import it.unibo.collektive.stdlib.time.sharedTimeLeftTo
 import it.unibo.collektive.stdlib.util.aligned
+import kotlinx.serialization.Serializable
 import kotlin.time.Duration
 import kotlin.time.Instant
 
@@ -18,10 +19,11 @@ public typealias ReplicaID = ULong
  * `nonStabilizingGossip`, then follows changes, because each replica ends after [timeToSpawn] * [maxReplicas] and its state with it.
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
- * A device takes part in the youngest replica that a neighbour knows, and starts the next one whenever [sharedTimeLeftTo] of
- * [timeToSpawn] is over. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer
- * depends on earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component.
- * [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
+ * A device takes part in the youngest replica that a neighbour knows. It starts the next one in the round after [sharedTimeLeftTo] of
+ * [timeToSpawn] was over, unless it has just started or adopted a replica, or learns of a younger one: so replicas start two rounds apart
+ * at least. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer depends on
+ * earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component. [process] must
+ * settle within [timeToSpawn] * ([maxReplicas] - 1).
  *
  * @param currentTime this device's clock; only differences matter.
  * @param maxReplicas the number of replicas that run at the same time, 1 or greater.
@@ -49,10 +51,17 @@ internal fun <T> Aggregate<*>.replicated(currentTime: Instant, maxReplicas: Int,
     }
 }
 
-/** The youngest replica that this device or a neighbour knows. Where the wait [isOver], the next one starts in the next round. */
+/** The youngest replica that this device or a neighbour knows, or the next one if this device's wait for it was over in its last round. */
 private fun Aggregate<*>.youngestReplica(isOver: Boolean): ReplicaID = aligned("youngestReplica") {
-    evolving(0uL) { known ->
-        val youngest = aligned("neighbors") { neighboring(known) }.all.list.maxOf { it.value }
-        (if (isOver) maxOf(youngest, known + 1uL) else youngest).yielding { youngest }
+    val replica = share(Replica(0uL, false)) { seen ->
+        val own = seen.local.value
+        val known = seen.all.list.maxOf { it.value.id }
+        val youngest = if (own.isOver && own.id == known) known + 1uL else known
+        Replica(youngest, isOver && own.id == youngest)
     }
+    replica.id
 }
+
+/** The youngest replica that a device takes part in, and whether its wait for the next one [isOver]. */
+@Serializable
+private class Replica(val id: ReplicaID, val isOver: Boolean)

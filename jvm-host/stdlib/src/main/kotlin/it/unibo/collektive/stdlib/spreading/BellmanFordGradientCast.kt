@@ -27,12 +27,14 @@ import it.unibo.collektive.stdlib.util.forEachNeighborWith
  *
  * @param source whether this device is a source.
  * @param local what a source offers. Where no source is reached, the result is the data of a neighbour, or [local] without neighbours.
- * @param bottom the distance of a source to itself.
- * @param top infinity: the distance of a device before it is reached.
+ * @param bottom the distance of a source to itself, and the lower bound of [metric].
+ * @param top infinity: the distance of a device before it is reached, and the upper bound of [metric].
  * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
  *   neighbour's data.
- * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
- * @param metric the distances to the neighbours.
+ * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source. The sum is coerced to
+ *   [bottom]..[top].
+ * @param metric the distances to the neighbours, coerced to [bottom]..[top].
+ * @throws IllegalStateException when an aligned neighbour has no value in [metric], or when a sum is less than one of its parts.
  */
 public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.bellmanFordGradientCast(
     source: Boolean,
@@ -74,7 +76,12 @@ internal fun <ID : Any, V, D : Comparable<D>> Aggregate<ID>.bellmanFordGradientC
     metric: Field<ID, D>,
 ): V = aligned("bellmanFordGradientCast") {
     exchanging(top to local, sharing) { received ->
-        val result = if (source) bottom to local else nearest(received, metric, accumulateData, accumulateDistance) ?: (top to local)
+        val result = if (source) {
+            bottom to local
+        } else {
+            nearest(received, bottom, top, metric, accumulateData, accumulateDistance)
+                ?: (top to local)
+        }
         received.mapToConstant(result).yielding { result.second }
     }
 }
@@ -82,6 +89,8 @@ internal fun <ID : Any, V, D : Comparable<D>> Aggregate<ID>.bellmanFordGradientC
 /** The nearest neighbour's distance and data as they arrive here; `null` without neighbours. */
 private fun <ID : Any, V, D : Comparable<D>> nearest(
     received: Field<ID, Pair<D, V>>,
+    bottom: D,
+    top: D,
     metric: Field<ID, D>,
     accumulateData: (D, D, V) -> V,
     accumulateDistance: (D, D) -> D,
@@ -89,8 +98,9 @@ private fun <ID : Any, V, D : Comparable<D>> nearest(
     var least: D? = null
     var from: Pair<D, V>? = null
     var step: D? = null
-    received.forEachNeighborWith(metric) { _, offer, toNeighbor ->
-        val distance = accumulateDistance(offer.first, toNeighbor)
+    received.forEachNeighborWith(metric) { _, offer, length ->
+        val toNeighbor = length.coerceIn(bottom, top)
+        val distance = limitedSum(offer.first, toNeighbor, accumulateDistance(offer.first, toNeighbor), bottom, top)
         val best = least
         if (best == null || distance < best) {
             least = distance

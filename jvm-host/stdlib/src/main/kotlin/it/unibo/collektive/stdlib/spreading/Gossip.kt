@@ -4,7 +4,6 @@
 package it.unibo.collektive.stdlib.spreading
 
 import it.unibo.collektive.aggregate.Field
-import it.unibo.collektive.aggregate.FieldEntry
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
@@ -18,19 +17,21 @@ import kotlinx.serialization.Serializable
 /**
  * The best of all devices' [local] values: [reducer] chooses the better of two.
  *
- * This is gossip over self-avoiding paths: each value carries the devices that it passed. A device ignores a value that passed through
- * it, or through a neighbour whose own value has a shorter path. A value whose origin changed or left therefore cannot circulate and
- * dies out. Values with shorter paths are tried first.
+ * This is gossip over self-avoiding paths: each value carries the devices that it passed. Offers are filtered as in [gradientCast], with
+ * distances in hops, so a value whose origin changed or left cannot circulate and dies out. A device reduces its own value with each
+ * offer that is left, those with shorter paths first, and takes the result if it improves the best one so far.
  *
- * Self-stabilising: once values and links stop changing, every device has the best value of its connected component after as many
- * rounds of every device as the longest simple path has hops, plus the component's diameter.
+ * Self-stabilising if [reducer] chooses: once values and links stop changing, every device has the best value of its connected component
+ * after as many rounds of every device as the longest simple path has hops, plus the component's diameter.
+ *
+ * A reducer that merges its arguments, such as a union or a sum, has a result on each device, but it need not be the merge of all values
+ * and need not stabilise, because each offer arrives with its own history. To merge values, use [nonStabilizingGossip].
  *
  * @param local this device's value.
- * @param maxDiameter the greatest number of hops of a value, counted at the neighbour: it travels one hop farther. With a limit, a device may miss a value within reach, where a
- *   better value displaces it on the way but does not reach the device itself.
+ * @param maxDiameter the greatest number of hops of a value, counted at the neighbour: it travels one hop farther. With a limit, a device
+ *   may miss a value within reach, where a better value displaces it on the way but does not reach the device itself.
  * @param reducer returns the better of its arguments, as a maximum does; of equally good ones either. By default the first: every device
  *   keeps its own value.
- * @throws IllegalStateException when [reducer] returns neither of its arguments. To merge values, use [nonStabilizingGossip].
  */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossip(
     local: V,
@@ -108,31 +109,54 @@ private fun <ID : Any, V> best(
     reducer: Reducer<V>,
 ): GossipValue<ID, V> {
     var best = mine.value
-    var from: FieldEntry<ID, GossipValue<ID, V>>? = null
-    for (offer in freshOffers(received, maxDiameter)) {
-        val value = offer.value.value
-        val better = reducer(best, value)
-        if (better == best) continue
-        check(better == value) {
-            "gossip's reducer made $better of $best and $value; it must return one of them (nonStabilizingGossip merges values)"
+    var from = -1
+    var hops = received.shortestPath(0)
+    while (hops in 0..maxDiameter) {
+        for (index in 0 until received.neighborCount) {
+            val offer = received.neighborValue(index)
+            if (offer.path.size != hops) continue
+            val value = reducer(mine.value, offer.value)
+            // The filters are costly and matter only if the offer would be taken.
+            if (value == best || reducer(best, value) == best || !received.isCoherent(index)) continue
+            best = value
+            from = index
         }
-        best = value
-        from = offer
+        hops = received.shortestPath(hops + 1)
     }
-    val (id, offer) = from ?: return mine
+    if (from < 0) return mine
+    val id = received.neighborId(from)
+    val path = received.neighborValue(from).path
     val former = received.local.value
-    return if (former.value == best && former.path.extends(offer.path, id)) former else GossipValue(best, offer.path + id)
+    return if (former.value == best && former.path.extends(path, id)) former else GossipValue(best, path + id)
 }
 
-/** The offers that neither passed through this device nor through a neighbour with a shorter path; those with the shortest paths first. */
-private fun <ID : Any, V> freshOffers(
-    received: Field<ID, GossipValue<ID, V>>,
-    maxDiameter: Int,
-): List<FieldEntry<ID, GossipValue<ID, V>>> {
-    val myself = received.context.localId
-    val neighbors = received.neighbors.list.toList()
-    return neighbors.filter { (_, offer) ->
-        val path = offer.path
-        path.size <= maxDiameter && myself !in path && neighbors.none { it.value.path.size < path.size && it.id in path }
-    }.sortedBy { it.value.path.size }
+/** The least number of hops, [least] or more, of a path that was received; -1 without one. */
+private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.shortestPath(least: Int): Int {
+    var shortest = -1
+    for (index in 0 until neighborCount) {
+        val size = neighborValue(index).path.size
+        if (size >= least && (shortest < 0 || size < shortest)) shortest = size
+    }
+    return shortest
+}
+
+/** Whether the offer at [index] is usable and no usable offer over fewer hops shares hops with it in another order. */
+private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isCoherent(index: Int): Boolean {
+    if (!isUsable(index)) return false
+    val path = neighborValue(index).path
+    for (other in 0 until neighborCount) {
+        val shorter = neighborValue(other).path
+        if (shorter.size < path.size && !shorter.agreesWith(neighborId(other), path, neighborId(index)) && isUsable(other)) return false
+    }
+    return true
+}
+
+/** Whether the offer at [index] passed neither through this device nor through a neighbour with a shorter path. */
+private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isUsable(index: Int): Boolean {
+    val path = neighborValue(index).path
+    if (context.localId in path) return false
+    for (other in 0 until neighborCount) {
+        if (neighborValue(other).path.size < path.size && neighborId(other) in path) return false
+    }
+    return true
 }

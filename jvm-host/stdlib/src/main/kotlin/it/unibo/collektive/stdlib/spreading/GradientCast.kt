@@ -20,9 +20,10 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * Brings the data of the nearest source to every device along a shortest path; returns [local] where no source is reached.
  *
  * This is a gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as in path-vector routing: each offer carries the
- * devices that it passed. A device ignores an offer whose path contains it, or contains a neighbour that is nearer than the offer, or has
- * common hops in another order than an offer at another distance over as many hops or fewer. It takes the nearest of the others and sends the result to its
- * neighbours; the neighbour whose offer it took gets the next best one. On ties the neighbour with the lower id wins.
+ * devices that it passed. A device ignores an offer whose path contains it, or contains a neighbour that is nearer than the offer or offers
+ * nothing. It also ignores an offer that shares hops in another order with an offer over fewer hops, or with one over as many hops at another
+ * distance. It takes the nearest of the others and sends the result to its neighbours; the neighbour whose offer it took gets the next best
+ * one. On ties the neighbour with the lower id wins.
  *
  * Self-stabilising: once sources, links, data and metric stop changing, stale offers are gone after as many rounds of every device as
  * the longest simple path has hops (at most the number of devices, or [maxDiameter]). Values are those of the shortest paths after
@@ -37,8 +38,9 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * @param maxDiameter the greatest number of hops of an offer, counted at the neighbour: data travels one hop farther.
  * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
  *   neighbour's data. Called only for offers that are taken; must depend on its arguments alone.
- * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source.
- * @throws IllegalStateException when an aligned neighbour has no value in [metric].
+ * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source. The sum is coerced to
+ *   [bottom]..[top].
+ * @throws IllegalStateException when an aligned neighbour has no value in [metric], or when a sum is less than one of its parts.
  */
 public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.gradientCast(
     source: Boolean,
@@ -79,6 +81,19 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.hopGradientCast(
     maxDiameter: Int = Int.MAX_VALUE,
     noinline accumulateData: (fromSource: Int, toNeighbor: Int, data: V) -> V = { _, _, data -> data },
 ): V = intGradientCast(source, local, hops(), maxDiameter, accumulateData)
+
+/**
+ * The [sum] of a neighbour's distance and the distance to it, limited to [bottom]..[top].
+ *
+ * @throws IllegalStateException when it is less than [distance] or [step], as after an overflow.
+ */
+internal fun <D : Comparable<D>> limitedSum(distance: D, step: D, sum: D, bottom: D, top: D): D {
+    val limited = sum.coerceIn(bottom, top)
+    check(limited >= distance && limited >= step) {
+        "accumulateDistance violates the triangle inequality: it made $sum of $distance and $step; a sum must not be less than its parts"
+    }
+    return limited
+}
 
 /** One gradient cast in one round. */
 @PublishedApi
@@ -135,20 +150,21 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         received.forEachNeighborWith(metric) { id, value, distance ->
             val offer = offers[index++]
             val step = distance.coerceIn(bottom, top)
-            if (value !== offer.value || id != offer.id || step != offer.step || distanceBy(value, step) != offer.distance) return false
+            if (value !== offer.value || id != offer.id || step != offer.step || sum(value, step) != offer.sum) return false
         }
         return true
     }
 
-    /** From the source of [value], or from the neighbour that offers nothing. */
-    private fun distanceBy(value: PathValue<ID, V, D>?, step: D): D = accumulateDistance(value?.distance ?: bottom, step)
+    /** The distance from the source of [value] to here, before it is limited; of a neighbour that offers nothing its own distance. */
+    private fun sum(value: PathValue<ID, V, D>?, step: D): D = if (value == null) step else accumulateDistance(value.distance, step)
 
     /** What each neighbour offers, in the field's order. */
     private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
             val step = distance.coerceIn(bottom, top)
-            offers += Offer(id, step, distanceBy(value, step), value)
+            val sum = sum(value, step)
+            offers += Offer(id, step, sum, limitedSum(value?.distance ?: bottom, step, sum, bottom, top), value)
         }
         return offers
     }
@@ -167,7 +183,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         }
     }
 
-    /** Whether this offer neither passes through this device or a nearer neighbour nor is contradicted by such an offer. */
+    /** Whether this offer is usable and no usable offer contradicts it. */
     private fun Offer<ID, V, D>.isCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Boolean {
         if (!isUsable(offers, myself)) return false
         for (index in offers.indices) {
@@ -185,7 +201,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         if (path == null || path.size > maxDiameter || myself in path) return false
         for (index in offers.indices) {
             val other = offers[index]
-            if (other.id in path && other < this) return false
+            if (other.id in path && (other.value == null || other < this)) return false
         }
         return true
     }
@@ -216,21 +232,29 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
     val returned: PathValue<ID, V, D>?,
 )
 
-/** What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here. */
-private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, V, D>?) :
-    Comparable<Offer<ID, V, D>> {
+/**
+ * What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here: the
+ * [sum], limited.
+ */
+private class Offer<ID : Any, V, D : Comparable<D>>(
+    val id: ID,
+    val step: D,
+    val sum: D,
+    val distance: D,
+    val value: PathValue<ID, V, D>?,
+) : Comparable<Offer<ID, V, D>> {
     val path: HopPath<ID>? get() = value?.path
 
     var considered: Boolean = false
 
-    /** Whether the offer passes neither through this device nor through a nearer neighbour; `null` before somebody asked. */
+    /** Whether the offer passes neither through this device nor through a neighbour that refutes it; `null` before somebody asked. */
     var usable: Boolean? = null
 
-    /** Whether this offer, at another distance than the [other], has no more hops and some of the same in another order. */
+    /** Whether this offer shares hops with the [other] in another order, and has fewer of them, or as many at another distance. */
     fun contradicts(other: Offer<ID, V, D>): Boolean {
         val mine = path ?: return false
         val others = other.path ?: return false
-        return mine.size <= others.size && compareTo(other) != 0 && !mine.agreesWith(id, others, other.id)
+        return (mine.size < others.size || mine.size == others.size && compareTo(other) != 0) && !mine.agreesWith(id, others, other.id)
     }
 
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)

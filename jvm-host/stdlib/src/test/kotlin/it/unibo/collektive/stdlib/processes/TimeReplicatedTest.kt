@@ -35,6 +35,13 @@ class TimeReplicatedTest {
     }
 
     @Test
+    fun `replicas start two rounds apart, however rare rounds are`() {
+        val swarm = Swarm(1)
+        val ages = (1..8).map { now -> swarm.round { timeReplicated(at(now), 2, 0.8.seconds) { evolve(0) { it + 1 } } }.getValue(0) }
+        assertEquals(listOf(1, 2, 3, 4, 3, 4, 3, 4), ages)
+    }
+
+    @Test
     fun `arguments out of range are refused`() {
         assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 0, 1.seconds) { } } }
         assertFailsWith<IllegalArgumentException> { Swarm(1).round { timeReplicated(at(0), 1, Duration.ZERO) { } } }

@@ -6,6 +6,7 @@ import it.unibo.collektive.stdlib.shortestPaths
 import org.junit.jupiter.api.Test
 import kotlin.random.Random
 import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
 class BellmanFordGradientCastTest {
@@ -48,6 +49,32 @@ class BellmanFordGradientCastTest {
         swarm.unlink(1, 2)
         val seen = swarm.rounds(50) { distance(swarm, localId == 0) }
         assertEquals(mapOf(0 to 0.0, 1 to 1.0, 2 to 20.5, 3 to 20.0), seen)
+    }
+
+    @Test
+    fun `the metric and the distances are coerced to bottom and top`() {
+        val swarm = Swarm(4).line(-5.0, 50.0, 1.0)
+        val seen = swarm.rounds(5) {
+            bellmanFordGradientCast(
+                localId == 0,
+                0.0,
+                1.0,
+                10.0,
+                accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
+                accumulateDistance = { a, b -> a + b },
+                metric = with(swarm) { lengths() },
+            )
+        }
+        assertEquals(mapOf(0 to 0.0, 1 to 1.0 + 1.0, 2 to 2.0 + 10.0, 3 to 10.0 + 1.0), seen)
+    }
+
+    @Test
+    fun `a sum that is less than one of its parts is an error`() {
+        val swarm = Swarm(2).line(1.0)
+        val error = assertFailsWith<IllegalStateException> {
+            swarm.rounds(2) { bellmanFordGradientCast(localId == 0, 0, accumulateDistance = { a, b -> a - b }, metric = with(swarm) { lengths() }) }
+        }
+        assertTrue("triangle inequality" in error.message.orEmpty(), error.message)
     }
 
     @Test

@@ -1,5 +1,6 @@
 package it.unibo.collektive.stdlib.spreading
 
+import it.unibo.collektive.aggregate.api.mapNeighborhood
 import it.unibo.collektive.stdlib.Swarm
 import it.unibo.collektive.stdlib.hopsFrom
 import it.unibo.collektive.stdlib.perturbed
@@ -95,6 +96,37 @@ class GradientCastTest {
             distanceTo(localId == 0, 1.0, 10.0, with(swarm) { lengths() }) { a, b -> a + b }
         }
         assertEquals(mapOf(0 to 1.0, 1 to 2.0, 2 to 12.0), seen)
+    }
+
+    @Test
+    fun `an offer that passed a neighbour without an offer is refused, however near it is`() {
+        val swarm = Swarm(3).line(0.0, 0.0).apply { link(0, 2, 0.0) }
+        fun round(ids: Collection<Int>, source: Int?) =
+            swarm.round(ids) { gradientCast(localId == source, localId, with(swarm) { lengths() }) }
+        repeat(3) { round(swarm.ids, source = 0) }
+        round(listOf(0), source = null)
+        assertEquals(2, round(listOf(2), source = null).getValue(2), "device 1 still offers the data of device 0")
+    }
+
+    @Test
+    fun `an offer is refused where one over fewer hops has them in another order, also at the same distance`() {
+        val swarm = Swarm(4).apply { for ((a, b) in listOf(3 to 2, 2 to 1, 1 to 0, 3 to 0)) link(a, b, 0.0) }
+        fun round(id: Int, source: Int) =
+            swarm.round(listOf(id)) { gradientCast(localId == source, localId, with(swarm) { lengths() }) }.getValue(id)
+        for (id in listOf(3, 2, 1)) round(id, source = 3)
+        for (id in listOf(2, 3)) round(id, source = 2)
+        assertEquals(2, round(0, source = 2), "device 1 offers the data of 3 over 3 and 2, device 3 that of 2 over 2")
+    }
+
+    @Test
+    fun `a sum that is less than one of its parts is an error`() {
+        for (sum in listOf<(Int, Int) -> Int>({ a, b -> a - b }, { a, b -> a + b + Int.MAX_VALUE })) {
+            val swarm = Swarm(2).line(1.0)
+            val error = assertFailsWith<IllegalStateException> {
+                swarm.rounds(2) { intGradientCast(localId == 0, 0, mapNeighborhood { 1 }, accumulateDistance = sum) }
+            }
+            assertTrue("triangle inequality" in error.message.orEmpty(), error.message)
+        }
     }
 
     @Test
