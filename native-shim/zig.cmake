@@ -1,4 +1,4 @@
-# CMake toolchain file: builds for another platform with zig. COLLEKTIVE_ZIG is the command zig, COLLEKTIVE_TARGET zig's name of the platform.
+# CMake toolchain file for cross compiling with zig. COLLEKTIVE_ZIG is the path of zig, COLLEKTIVE_TARGET zig's name of the target.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES COLLEKTIVE_ZIG COLLEKTIVE_TARGET)
 if(COLLEKTIVE_TARGET MATCHES windows)
   set(CMAKE_SYSTEM_NAME Windows)
@@ -10,5 +10,5 @@ endif()
 string(REGEX REPLACE "-.*" "" CMAKE_SYSTEM_PROCESSOR "${COLLEKTIVE_TARGET}")
 set(CMAKE_C_COMPILER "${COLLEKTIVE_ZIG}" cc -target "${COLLEKTIVE_TARGET}")
 set(CMAKE_CXX_COMPILER "${COLLEKTIVE_ZIG}" c++ -target "${COLLEKTIVE_TARGET}")
-# The archives that the tools look for are those of the machine that builds.
+# Libraries are found on the build machine.
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY NEVER)

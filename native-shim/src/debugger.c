@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One word of the agent's list, not ended by NUL: `key=value`, of which `value` is empty when there is no '='. */
+/* One `key=value` of the agent's list, not NUL-terminated; `value` is empty if there is no '='. */
 struct word {
     const char *key, *value;
     size_t key_length, value_length;
@@ -29,7 +29,7 @@ static struct word word_at(const char *text, size_t length) {
     return word;
 }
 
-/* The agent's list, behind its name; NULL when the option loads another agent or none. */
+/* Returns the agent's list of sub-options, which follows its name, or NULL if the option loads another agent or none. */
 static const char *list_of(const char *option) {
     const char *name = NULL;
     if (strncmp(option, "-agentlib:jdwp", 14) == 0) name = option + 14;
@@ -40,29 +40,29 @@ static const char *list_of(const char *option) {
     return name[rest] == '\0' ? name + rest : name + rest + 1;
 }
 
-/* The agent takes the last of words with the same key. Keys that are not known may do anything: `launch` runs a command. */
-const char *debugger_fault(const char *option) {
+/* The agent uses the last of several equal keys. Unknown keys are rejected because they may do anything: `launch` runs a command. */
+const char *debugger_problem(const char *option) {
     const char *list = list_of(option);
-    bool goes_on = false, local = false;
+    bool no_suspend = false, loopback = false;
     if (list == NULL) return NULL;
     while (*list != '\0') {
         size_t length = strcspn(list, ",");
         struct word word = word_at(list, length);
         if (is(word.key, word.key_length, "suspend")) {
-            goes_on = is(word.value, word.value_length, "n");
+            no_suspend = is(word.value, word.value_length, "n");
         } else if (is(word.key, word.key_length, "address")) {
-            local = begins(&word, "127.0.0.1:") || begins(&word, "localhost:") || begins(&word, "[::1]:");
+            loopback = begins(&word, "127.0.0.1:") || begins(&word, "localhost:") || begins(&word, "[::1]:");
         } else if (is(word.key, word.key_length, "transport")) {
-            if (!is(word.value, word.value_length, "dt_socket")) return "only the transport dt_socket is known to stay on this machine";
+            if (!is(word.value, word.value_length, "dt_socket")) return "only transport=dt_socket is allowed";
         } else if (!is(word.key, word.key_length, "server") && !is(word.key, word.key_length, "quiet") &&
                    !is(word.key, word.key_length, "timeout")) {
-            return "of the debugger's options only transport, server, suspend, address, quiet and timeout are allowed: others run "
+            return "only the debugger options transport, server, suspend, address, quiet and timeout are allowed; others can run "
                    "commands, write files or end the process";
         }
         list += length;
         if (*list == ',') list++;
     }
-    if (!goes_on) return "the start would wait for a debugger; add suspend=n";
-    if (!local) return "whoever reaches a debugger's port runs code of his own here; use address=127.0.0.1:PORT";
+    if (!no_suspend) return "the JVM would wait for a debugger to attach; add suspend=n";
+    if (!loopback) return "anyone who can reach the debug port can run code in this process; use address=127.0.0.1:PORT";
     return NULL;
 }

@@ -1,9 +1,9 @@
-/* Options of the debugger's agent, jdwp. */
+/* Options of the debugger agent, jdwp. */
 #ifndef COLLEKTIVE_DEBUGGER_H
 #define COLLEKTIVE_DEBUGGER_H
 
-/* Why an option of the JVM that loads the debugger's agent is refused; NULL for an allowed one and for one that loads no such agent.
+/* Returns why a JVM option that loads the debugger agent is rejected, or NULL if it is allowed or loads no debugger agent.
  * Static text. Any thread. */
-const char *debugger_fault(const char *option);
+const char *debugger_problem(const char *option);
 
 #endif

@@ -8,17 +8,17 @@
 #include "prim.h"
 #include "text.h"
 
-/* Enough for class loading and static initialisers that nest deeply. */
+/* Enough for deeply nested class loading and static initialisers. */
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
-/* Of the work. ABANDONED: its caller gave up waiting. HANDED_OVER: the caller also left, so the engine thread ends the turn. */
+/* Phases of the work. ABANDONED: its caller stopped waiting. HANDED_OVER: the caller also left, so the engine thread ends the turn. */
 enum phase { IDLE, BUSY, ABANDONED, HANDED_OVER };
 
 static struct {
     prim_once once;
-    prim_semaphore turn;    /* one token: the right to use what the turn guards */
+    prim_semaphore turn;    /* one token: the right to use the data that the turn guards */
     prim_semaphore request; /* posted when `work` is set */
-    prim_semaphore done;    /* posted when `work` has ended, or the JVM */
+    prim_semaphore done;    /* posted when `work` or the JVM has ended */
     bool started;           /* the engine thread; guarded by the turn, as is `work` */
     engine_work *work;
     int32_t result;
@@ -34,11 +34,11 @@ static struct {
 
 static _Thread_local bool is_engine;
 
-/* A forked child has no engine thread. This takes no lock: a thread that exists only in the parent may hold it. */
+/* A forked child has no engine thread. This must not lock anything: a thread that exists only in the parent may hold the lock. */
 static void lose_in_child(void) {
     atomic_store(&engine.forked, true);
     if (engine_state() != CLK_STATE_RUNNING || atomic_flag_test_and_set(&engine.losing)) return;
-    snprintf(engine.reason, sizeof engine.reason, "this process was forked from the one that runs it");
+    snprintf(engine.reason, sizeof engine.reason, "this process was forked from the process that runs the JVM");
     engine_set_state(CLK_STATE_LOST);
 }
 
@@ -64,20 +64,20 @@ void engine_set_state(int32_t state) {
 int32_t engine_check_running(void) {
     switch (engine_state()) {
         case CLK_STATE_RUNNING: return CLK_OK;
-        case CLK_STATE_LOST: return error_set(CLK_JVM_LOST, "the JVM is lost, restart the process to get a new one: %s", engine.reason);
+        case CLK_STATE_LOST: return error_set(CLK_JVM_LOST, "the JVM is lost (%s); restart the process to get a new one", engine.reason);
         case CLK_STATE_STOPPED:
-            return error_set(CLK_JVM_NOT_RUNNING, "the JVM of this process was stopped; a process can start one only once");
+            return error_set(CLK_JVM_NOT_RUNNING, "the JVM was stopped, and a process can start one only once; restart the process");
         default: return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
     }
 }
 
-/* Takes the turn back from work that may never end. */
+/* Reclaims the turn from work that may never end. */
 static void reclaim_turn(void) {
     int handed_over = HANDED_OVER;
     if (atomic_compare_exchange_strong(&engine.phase, &handed_over, ABANDONED)) prim_semaphore_post(&engine.turn);
 }
 
-/* The caller that waits for work leaves its turn when it wakes; callers that wait for the turn then wake one after the other. */
+/* Wakes the caller that waits for work. It then leaves its turn, which wakes the callers that wait for the turn one by one. */
 static void wake_all(void) {
     prim_run_once(&engine.once, init);
     prim_semaphore_post(&engine.done);
@@ -113,7 +113,7 @@ void engine_leave(void) {
     if (!atomic_compare_exchange_strong(&engine.phase, &abandoned, HANDED_OVER)) {
         prim_semaphore_post(&engine.turn);
     } else if (atomic_load(&engine.state) != CLK_STATE_RUNNING) {
-        reclaim_turn(); /* wake_all came before */
+        reclaim_turn(); /* wake_all has already run */
     }
 }
 
@@ -139,19 +139,19 @@ static void engine_main(void) {
 
 uint64_t engine_signal_repairs(void) { return atomic_load_explicit(&engine.signal_repairs, memory_order_relaxed); }
 
-/* Java code that runs without HotSpot's handlers ends the process. The question costs four system calls: less than a microsecond. */
+/* Without HotSpot's signal handlers, Java code can end the process. The check costs four system calls, less than a microsecond. */
 static void repair_signals(void) {
     int32_t repaired = prim_signals_repair();
     if (repaired == 0) return;
     atomic_fetch_add_explicit(&engine.signal_repairs, (uint64_t)repaired, memory_order_relaxed);
-    log_format(CLK_LOG_WARNING, "%d signal handlers of the JVM had been replaced by another library, and were put back", repaired);
+    log_format(CLK_LOG_WARNING, "another library had replaced %d signal handlers of the JVM; they were restored", repaired);
 }
 
 int32_t engine_run(engine_work *work, int64_t deadline) {
     if (engine_state() == CLK_STATE_RUNNING) repair_signals();
     if (!engine.started) {
         engine.started = prim_thread_start(engine_main, "collektive", STACK_BYTES);
-        if (!engine.started) return error_set(CLK_MEMORY, "the system gives no thread with a stack of 16 MB for the JVM");
+        if (!engine.started) return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the limit of threads");
     }
     engine.work = work;
     atomic_store(&engine.phase, BUSY);
@@ -161,7 +161,7 @@ int32_t engine_run(engine_work *work, int64_t deadline) {
         if (atomic_compare_exchange_strong(&engine.phase, &busy, ABANDONED)) {
             return error_set(CLK_TIMEOUT, "the engine thread did not answer within the time limit");
         }
-        prim_semaphore_wait(&engine.done); /* it ended just now */
+        prim_semaphore_wait(&engine.done); /* the work ended after all */
     }
     if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken by wake_all */
     return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);

@@ -21,10 +21,10 @@ static bool is_error(int32_t code) { return code <= 0 && code > -(int32_t)(sizeo
 
 const char *clk_error_name(int32_t code) { return is_error(code) ? errors[-code].name : "CLK_UNKNOWN"; }
 
-const char *clk_error_text(int32_t code) { return is_error(code) ? errors[-code].text : "no error of this library has this code"; }
+const char *clk_error_text(int32_t code) { return is_error(code) ? errors[-code].text : "unknown error code"; }
 
 int32_t error_set(int32_t code, const char *format, ...) {
-    /* Not in place: the arguments may include the last error. */
+    /* A copy, because the arguments may include the last error. */
     char text[ERROR_CAPACITY + 4];
     va_list arguments;
     va_start(arguments, format);

@@ -7,10 +7,10 @@
 
 #define ERROR_CAPACITY 4096
 
-/* Sets the calling thread's last error, cut at a character if it is too long, and returns `code`. */
+/* Sets the calling thread's last error, truncated after a whole character if it is too long, and returns `code`. */
 __attribute__((format(printf, 2, 3))) int32_t error_set(int32_t code, const char *format, ...);
 
-/* The calling thread's last error; "" when it had none. Valid until the thread's next error. */
+/* Returns the calling thread's last error, or "" if it had none. Valid until the thread's next error. */
 const char *error_last(void);
 
 #endif

@@ -16,7 +16,7 @@ static struct {
     jmethodID to_string, get_name;
     jclass security_exception;
     struct host_call *running; /* NULL between calls */
-    bool error_given;          /* the running call has called Shim.error */
+    bool has_error_text;       /* the running call has called Shim.error */
     _Atomic uint64_t wrapped;
 } java;
 
@@ -24,7 +24,7 @@ uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_
 
 /* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates on neither side: the heap may be full. JNI's own "UTF" is not UTF-8 beyond the basic plane. */
+/* Copies a Java string as UTF-8 without allocating, as the heap may be full. JNI's "UTF" functions use modified UTF-8. */
 static void string_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
     jchar units[1024];
     jsize count = (*env)->GetStringLength(env, string);
@@ -33,7 +33,7 @@ static void string_text(JNIEnv *env, jstring string, char *buffer, int32_t capac
     text_from_utf16(units, count, buffer, capacity);
 }
 
-/* Text of object.method(); false when that throws or returns null. */
+/* Copies the string that object.method() returns. False if it throws or returns null. */
 static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffer, int32_t capacity) {
     jstring string = (*env)->CallObjectMethod(env, object, method);
     bool good = !(*env)->ExceptionCheck(env) && string != NULL;
@@ -46,14 +46,14 @@ static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffe
     return good;
 }
 
-/* Clears the pending exception and describes it: by toString() or, when the heap has no room for that, by its class. */
-static void take_exception(JNIEnv *env, char *buffer, int32_t capacity) {
+/* Clears the pending exception and describes it by toString() or, if the heap is too full for that, by its class. */
+static void describe_exception(JNIEnv *env, char *buffer, int32_t capacity) {
     jthrowable exception = (*env)->ExceptionOccurred(env);
     (*env)->ExceptionClear(env);
     if (!string_of(env, exception, java.to_string, buffer, capacity)) {
         jclass class = (*env)->GetObjectClass(env, exception);
         if (!string_of(env, class, java.get_name, buffer, capacity)) {
-            text_export("an exception that cannot tell its name (is the heap exhausted?)", buffer, capacity);
+            text_export("an exception without a readable name; the heap is probably exhausted", buffer, capacity);
         }
         (*env)->DeleteLocalRef(env, class);
     }
@@ -70,7 +70,7 @@ static void cache_name(JNIEnv *env, const char *class_name) {
 
 static int32_t java_error(JNIEnv *env, int32_t code, const char *where) {
     char text[2048];
-    take_exception(env, text, sizeof text);
+    describe_exception(env, text, sizeof text);
     return error_set(code, "%s threw %s", where, text);
 }
 
@@ -82,7 +82,7 @@ static void throw_new(JNIEnv *env, const char *class_name, const char *message) 
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* Makes the block's ByteBuffer unless it has one. False with a pending exception. */
+/* Creates the block's ByteBuffer unless it has one. False with a pending exception. */
 static bool wrap(JNIEnv *env, struct block *block) {
     if (block->wrapper != NULL) return true;
     jobject buffer = (*env)->NewDirectByteBuffer(env, block->address, block->capacity);
@@ -90,14 +90,14 @@ static bool wrap(JNIEnv *env, struct block *block) {
     block->wrapper = (*env)->NewGlobalRef(env, buffer);
     (*env)->DeleteLocalRef(env, buffer);
     if (block->wrapper == NULL) {
-        if (!(*env)->ExceptionCheck(env)) throw_new(env, "java/lang/OutOfMemoryError", "no room for a global reference");
+        if (!(*env)->ExceptionCheck(env)) throw_new(env, "java/lang/OutOfMemoryError", "cannot create a JNI global reference");
         return false;
     }
     atomic_fetch_add_explicit(&java.wrapped, 1, memory_order_relaxed);
     return true;
 }
 
-/* Only the engine thread can delete wrappers, so it frees the surplus blocks that have one. */
+/* Frees the surplus blocks that have a wrapper, which only the engine thread can delete. */
 static void free_surplus(JNIEnv *env) {
     for (struct block *block; (block = slots_take_surplus()) != NULL;) {
         (*env)->DeleteGlobalRef(env, block->wrapper);
@@ -111,7 +111,7 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
     (void)class;
     struct host_call *call = engine_is_current() ? java.running : NULL;
     if (call == NULL || call->slot != (clk_slot)slot) {
-        throw_new(env, "java/lang/IllegalStateException", "only the answer slot of the running call can grow, on the engine thread");
+        throw_new(env, "java/lang/IllegalStateException", "Shim.grow accepts only the answer slot of the running call, on the engine thread");
         return NULL;
     }
     if (capacity > call->answer->capacity) {
@@ -127,7 +127,7 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
     return wrap(env, call->answer) ? call->answer->wrapper : NULL;
 }
 
-/* Copies as many bytes as fit, and a NUL. No lock may be held: JNI may wait for a safepoint here. */
+/* Copies as many bytes as fit, and a NUL. The caller must not hold a lock: JNI may wait for a safepoint here. */
 static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t capacity) {
     jsize length = bytes != NULL ? (*env)->GetArrayLength(env, bytes) : 0;
     if (length > capacity - 1) length = capacity - 1;
@@ -138,10 +138,10 @@ static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t c
 
 static void JNICALL shim_error(JNIEnv *env, jclass class, jbyteArray utf8) {
     (void)class;
-    char text[ERROR_CAPACITY + 4]; /* longer than an error may be, so that error_set cuts at a character */
+    char text[ERROR_CAPACITY + 4]; /* longer than an error may be, so that error_set truncates after a whole character */
     bytes_text(env, utf8, text, sizeof text);
     error_set(CLK_OK, "%s", text);
-    if (engine_is_current()) java.error_given = true;
+    if (engine_is_current()) java.has_error_text = true;
 }
 
 static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray utf8) {
@@ -153,7 +153,7 @@ static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray u
 
 /* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */
 
-static void refuse_exit(JNIEnv *env) { (*env)->ThrowNew(env, java.security_exception, "a program inside another process must not end it"); }
+static void refuse_exit(JNIEnv *env) { (*env)->ThrowNew(env, java.security_exception, "System.exit and Runtime.halt are not allowed: they would end the whole process; return from the program instead"); }
 
 static void JNICALL shutdown_before_halt(JNIEnv *env, jclass class) {
     (void)class;
@@ -190,11 +190,11 @@ bool host_refuse_exit(JNIEnv *env) {
     return registered;
 }
 
-static int32_t does_not_fit(JNIEnv *env, const char *what) {
+static int32_t incompatible(JNIEnv *env, const char *what) {
     char text[2048];
     text_export("no exception", text, sizeof text);
-    if ((*env)->ExceptionCheck(env)) take_exception(env, text, sizeof text);
-    return error_set(CLK_HOST, "%s; check that the class path has the host jar of the shim's own version: %s", what, text);
+    if ((*env)->ExceptionCheck(env)) describe_exception(env, text, sizeof text);
+    return error_set(CLK_HOST, "%s (%s); check that the class path contains the host jar of the same version as the shim", what, text);
 }
 
 int32_t host_bind(JNIEnv *env) {
@@ -211,10 +211,10 @@ int32_t host_bind(JNIEnv *env) {
                                        NATIVE("log", "(I[B)V", shim_log)};
     jclass shim = find_class(env, "org/collektive/host/shim/Shim");
     if (shim == NULL || (*env)->RegisterNatives(env, shim, natives, COUNT(natives)) != JNI_OK) {
-        return does_not_fit(env, "org.collektive.host.shim.Shim cannot be bound");
+        return incompatible(env, "cannot register the native methods of org.collektive.host.shim.Shim");
     }
     java.host = find_class(env, "org/collektive/host/Host");
-    if (java.host == NULL) return does_not_fit(env, "org.collektive.host.Host cannot be loaded");
+    if (java.host == NULL) return incompatible(env, "cannot load org.collektive.host.Host");
 
 #define CALL_TYPE "(JLjava/nio/ByteBuffer;IIJLjava/nio/ByteBuffer;I)J"
     const struct {
@@ -229,7 +229,7 @@ int32_t host_bind(JNIEnv *env) {
                    {&java.stop, "stop", "(I)Z"}};
     for (jint i = 0; i < COUNT(entries); i++) {
         *entries[i].id = (*env)->GetStaticMethodID(env, java.host, entries[i].name, entries[i].type);
-        if (*entries[i].id == NULL) return does_not_fit(env, "org.collektive.host.Host lacks an entry");
+        if (*entries[i].id == NULL) return incompatible(env, "org.collektive.host.Host lacks a method that the shim calls");
     }
     return CLK_OK;
 }
@@ -241,17 +241,16 @@ int32_t host_start(char *version, int32_t capacity) {
     jstring string = (*env)->CallStaticObjectMethod(env, java.host, java.start);
     if ((*env)->ExceptionCheck(env)) {
         char text[2048];
-        take_exception(env, text, sizeof text);
-        return error_set(
-            CLK_HOST, "Host.start threw %s; if that speaks of classes, files of the JVM or the host jar are damaged: reinstall them", text);
+        describe_exception(env, text, sizeof text);
+        return error_set(CLK_HOST, "Host.start threw %s; if a class is missing or corrupt, reinstall the JVM and the package", text);
     }
-    if (string == NULL) return error_set(CLK_HOST, "Host.start gave no version");
+    if (string == NULL) return error_set(CLK_HOST, "Host.start returned null instead of a version; reinstall the package");
     string_text(env, string, version, capacity);
     (*env)->DeleteLocalRef(env, string);
     return CLK_OK;
 }
 
-/* docs/boundary.md lets the host return these; the other codes report the shim's own state. */
+/* The host may return only these (docs/boundary.md); the other codes report the shim's own state. */
 static bool is_host_code(jlong code) {
     static const int32_t codes[] = {CLK_ARGUMENT, CLK_HANDLE, CLK_HOST, CLK_FRAME, CLK_SCHEMA, CLK_PROGRAM, CLK_SESSION_FAILED, CLK_JAVA};
     bool found = false;
@@ -267,20 +266,20 @@ int32_t host_run(struct host_call *call) {
     if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");
     const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},  {.i = call->length},
                                 {.j = (jlong)call->slot},    {.l = call->answer->wrapper},  {.i = call->limit_ms}};
-    java.error_given = false;
+    java.has_error_text = false;
     java.running = call;
     jlong result = (*env)->CallStaticLongMethodA(env, java.host, java.calls[call->entry], arguments);
     java.running = NULL;
     if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, where);
     if (result < 0) {
-        if (!is_host_code(result)) return error_set(CLK_HOST, "%s returned %lld, which is no code of a host", where, (long long)result);
-        if (!java.error_given) error_set(CLK_OK, "%s: %s", where, clk_error_text((int32_t)result));
+        if (!is_host_code(result)) return error_set(CLK_HOST, "%s returned %lld, which is not an error code of the host", where, (long long)result);
+        if (!java.has_error_text) error_set(CLK_OK, "%s: %s", where, clk_error_text((int32_t)result));
         return (int32_t)result;
     }
     int64_t offset = result >> 32;
     int64_t length = result & INT64_C(0xFFFFFFFF);
     if (offset + length > call->answer->capacity) {
-        return error_set(CLK_HOST, "%s says that its answer is at %lld + %lld, but its slot has %d bytes", where, (long long)offset,
+        return error_set(CLK_HOST, "%s returned an answer at %lld + %lld, but its slot has %d bytes", where, (long long)offset,
                          (long long)length, call->answer->capacity);
     }
     call->answer_offset = (int32_t)offset;

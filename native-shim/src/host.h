@@ -1,6 +1,6 @@
 /*
- * The two Java classes of docs/boundary.md: calls of the host's entries, and the natives that the host calls. Engine thread only, unless
- * said otherwise; functions that return int32_t set the last error when they fail.
+ * The two Java classes of docs/boundary.md: calls of the host's entries, and the native methods that the host calls. Engine thread only,
+ * unless stated otherwise. Functions that return int32_t set the last error when they fail.
  */
 #ifndef COLLEKTIVE_HOST_H
 #define COLLEKTIVE_HOST_H
@@ -27,28 +27,28 @@ struct host_call {
     int32_t answer_length;
 };
 
-/* Loads and binds the classes: the first call of all but host_refuse_exit. CLK_HOST. */
+/* Loads and binds the classes. Call it before any other function except host_refuse_exit. Errors: CLK_HOST. */
 int32_t host_bind(JNIEnv *environment);
 
-/* Calls Host.start() and copies the version line that it returns. CLK_HOST. */
+/* Calls Host.start() and copies the version line that it returns. Errors: CLK_HOST. */
 int32_t host_start(char *version, int32_t capacity);
 
-/* Runs the call and fills in its result. A code of the host's, CLK_HOST or CLK_JAVA. */
+/* Runs the call and fills in its result. Errors: those of the host, CLK_HOST and CLK_JAVA. */
 int32_t host_run(struct host_call *call);
 
-/* Calls Host.close(). CLK_JAVA. */
+/* Calls Host.close(). Errors: CLK_JAVA. */
 int32_t host_close(clk_session session);
 
-/* Calls Host.stop() and sets `idle`: whether no thread is left that DestroyJavaVM would wait for. CLK_JAVA, with `idle` unchanged. */
+/* Calls Host.stop() and sets `idle` to whether DestroyJavaVM has no thread to wait for. Errors: CLK_JAVA, with `idle` unchanged. */
 int32_t host_stop(int32_t limit_ms, bool *idle);
 
-/* Runs the shutdown hooks, as DestroyJavaVM does after the last thread. False when this JVM's private names differ. */
+/* Runs the shutdown hooks, as DestroyJavaVM does after the last thread. False if this JVM lacks the private method. */
 bool host_run_exit_hooks(void);
 
-/* Makes System.exit and Runtime.halt throw SecurityException. False when this JVM's private names differ. */
+/* Makes System.exit and Runtime.halt throw SecurityException. False if this JVM lacks the private methods. */
 bool host_refuse_exit(JNIEnv *environment);
 
-/* Direct ByteBuffers made since the start. Any thread. */
+/* Returns the number of direct ByteBuffers created since the start. Any thread. */
 uint64_t host_wrapped(void);
 
 #endif

@@ -31,9 +31,9 @@ static struct {
     char version[256];
     int32_t stop_limit_ms;
     _Atomic(char *) description;
-    atomic_bool began;    /* JNI_CreateJavaVM was called */
+    atomic_bool creating; /* JNI_CreateJavaVM was called */
     atomic_bool created;  /* JNI_CreateJavaVM succeeded */
-    atomic_bool stopping; /* clk_jvm_stop asked for the end */
+    atomic_bool stopping; /* clk_jvm_stop was called */
     atomic_bool parked;   /* the JVM ended itself: one of its threads is parked in a hook */
 
     halt_function *halt;      /* NULL when this JVM has none */
@@ -41,29 +41,28 @@ static struct {
     atomic_bool halting;      /* the halt thread halts the JVM when it wakes; otherwise it detaches */
     prim_semaphore halt_wake; /* posted to wake it */
     prim_semaphore detached;  /* posted when it has left the JVM */
-    prim_semaphore halted;    /* posted when all threads of the JVM stand still */
+    prim_semaphore halted;    /* posted when all threads of the JVM are halted */
 } jvm;
 
 /* ---- Hooks of the JVM ------------------------------------------------------------------------------------------------ */
 
 static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file, const char *format, va_list arguments) {
-    if (file != stdout && file != stderr) return vfprintf(file, format, arguments); /* a log file of the JVM's own */
+    if (file != stdout && file != stderr) return vfprintf(file, format, arguments); /* a log file of the JVM */
     return log_jvm_output(file == stderr ? CLK_LOG_WARNING : CLK_LOG_INFO, format, arguments);
 }
 
-/* The JVM wants to end the process, so its thread must not return. A JVM that did not come up must not keep its signal handlers. One that
- * crashed has replaced its usual handlers by those that report a crash; under these, every null reference in the process's own language
- * would hang its thread. */
+/* Parks a thread of the JVM that would end the process if it returned. If the start failed, the JVM's signal handlers are removed. A JVM that
+ * crashed has installed handlers that report a crash; with these, every null reference in the process's own language would hang its thread. */
 static _Noreturn void lose_and_park(const char *what) {
     char why[1024] = "";
     atomic_store(&jvm.parked, true);
     if (atomic_load(&jvm.created)) {
         prim_signals_repair();
-        text_export("its report is on the standard error of the process and in hs_err_pid*.log", why, sizeof why);
+        text_export("see hs_err_pid*.log and the standard error of the process", why, sizeof why);
     } else {
         prim_signals_restore();
         log_jvm_last(why, sizeof why);
-        if (why[0] == '\0') text_export("what it wrote is on the standard error of the process", why, sizeof why);
+        if (why[0] == '\0') text_export("see the standard error of the process", why, sizeof why);
     }
     engine_lose("it %s: %s", what, why);
     prim_park();
@@ -89,18 +88,18 @@ static int32_t load(create_function **create) {
     char why[512];
     snprintf(path, sizeof path, "%s/" PRIM_LIBJVM, jvm.launch.home);
     void *library = prim_library_open(path, why, sizeof why);
-    if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s cannot be loaded: %s; the JVM must be one for " PRIM_PLATFORM, path, why);
+    if (library == NULL) return error_set(CLK_JVM_NOT_FOUND, "cannot load %s: %s; install a JVM for " PRIM_PLATFORM, path, why);
     created_function *created;
     *(void **)create = prim_library_symbol(library, "JNI_CreateJavaVM");
     *(void **)&created = prim_library_symbol(library, "JNI_GetCreatedJavaVMs");
-    if (*create == NULL || created == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s is no library of a JVM", path);
+    if (*create == NULL || created == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s is not a JVM library: it lacks JNI_CreateJavaVM; reinstall the JVM", path);
     *(void **)&jvm.halt = prim_library_symbol(library, "JVM_Halt");
-    /* Asked before JNI_CreateJavaVM: after a second one the answer is 0. */
+    /* Called before JNI_CreateJavaVM: after a second JNI_CreateJavaVM the count is 0. */
     JavaVM *other;
     jsize count = 0;
     if (created(&other, 1, &count) == JNI_OK && count > 0) {
         return error_set(CLK_JVM_START,
-                         "another library has started a JVM in this process, and there can be only one; remove that library");
+                         "another library has already started a JVM in this process, which can have only one; remove that library");
     }
     return CLK_OK;
 }
@@ -109,36 +108,36 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     enum { HOOKS = 3 };
     jint count = jvm.launch.option_count + HOOKS;
     JavaVMOption *options = malloc((size_t)count * sizeof *options);
-    if (options == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+    if (options == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", count);
     options[0] = (JavaVMOption){(char[]){"vfprintf"}, (void *)(uintptr_t)hook_print};
     options[1] = (JavaVMOption){(char[]){"exit"}, (void *)(uintptr_t)hook_exit};
     options[2] = (JavaVMOption){(char[]){"abort"}, (void *)(uintptr_t)hook_abort};
-    /* The JVM reads these texts as long as it lives. */
+    /* Not freed: the JVM reads these strings until it ends. */
     for (int32_t i = 0; i < jvm.launch.option_count; i++) {
         options[HOOKS + i] = (JavaVMOption){prim_jvm_text(jvm.launch.options[i]), NULL};
-        if (options[HOOKS + i].optionString == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+        if (options[HOOKS + i].optionString == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", count);
     }
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10, .nOptions = count, .options = options, .ignoreUnrecognized = JNI_FALSE};
     prim_signals_save();
     prim_semaphore_init(&jvm.halt_wake, 0);
     prim_semaphore_init(&jvm.detached, 0);
     prim_semaphore_init(&jvm.halted, 0);
-    atomic_store(&jvm.began, true);
+    atomic_store(&jvm.creating, true);
     jint result = create_vm(&jvm.vm, (void **)env, &arguments);
     free(options);
     if (result != JNI_OK) {
         char last[1024];
         prim_signals_restore();
         log_jvm_last(last, sizeof last);
-        return error_set(CLK_JVM_START, "correct the JVM options and restart the process; JNI_CreateJavaVM failed (%d): %s", result,
-                         last[0] != '\0' ? last : "the JVM gave no reason");
+        return error_set(CLK_JVM_START, "JNI_CreateJavaVM failed (%d): %s; correct the JVM options and restart the process", result,
+                         last[0] != '\0' ? last : "the JVM did not state a reason");
     }
     prim_signals_adopt();
     atomic_store(&jvm.created, true); /* only now may lose_and_park repair signal handlers */
     return CLK_OK;
 }
 
-/* Halts a JVM that cannot be ended in order. It attaches while the JVM is sound: a full heap has no room for one more thread. */
+/* Halts a JVM that does not shut down. The thread attaches at the start because a full heap has no room for another thread. */
 static void halt_main(void) {
     JNIEnv *env;
     JavaVMAttachArgs arguments = {.version = JNI_VERSION_10, .name = (char[]){"collektive-halt"}};
@@ -161,7 +160,7 @@ static int32_t work_start(void) {
     if (result != CLK_OK) return result;
     start_halt_thread();
     if (!host_refuse_exit(env)) {
-        log_format(CLK_LOG_WARNING, "this JVM cannot refuse System.exit: a program that calls it will cost the JVM");
+        log_format(CLK_LOG_WARNING, "this JVM does not allow the shim to block System.exit: a program that calls it ends the JVM");
     }
     result = host_bind(env);
     return result == CLK_OK ? host_start(jvm.version, sizeof jvm.version) : result;
@@ -169,7 +168,7 @@ static int32_t work_start(void) {
 
 /* ---- Start ----------------------------------------------------------------------------------------------------------- */
 
-/* Environment variables whose options the JVM would take unchecked. */
+/* Environment variables whose options the JVM would use unchecked. */
 static const char *const option_variables[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "JDK_JAVA_OPTIONS"};
 enum { OPTION_VARIABLES = sizeof option_variables / sizeof option_variables[0] };
 
@@ -180,14 +179,14 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     if (result != CLK_OK) return result;
     result = engine_run(work_start, deadline);
     if (result == CLK_TIMEOUT) {
-        engine_lose("it did not come up within %d ms", config->start_limit_ms);
+        engine_lose("it did not start within %d ms", config->start_limit_ms);
     } else if (result == CLK_JVM_LOST) {
         result = error_set(CLK_JVM_START, "%s", error_last());
-    } else if (result != CLK_OK && atomic_load(&jvm.began)) {
+    } else if (result != CLK_OK && atomic_load(&jvm.creating)) {
         engine_lose("its start failed: %s", error_last());
     }
     /* When the start failed, the engine thread may still write the version. */
-    if (atomic_load(&jvm.began)) atomic_store(&jvm.description, launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
+    if (atomic_load(&jvm.creating)) atomic_store(&jvm.description, launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
     if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
     return result;
 }
@@ -205,7 +204,7 @@ static int32_t without_option_variables(configured *work, const clk_jvm_config *
     char *hidden[OPTION_VARIABLES] = {NULL};
     for (int i = 0; i < OPTION_VARIABLES; i++) {
         if (prim_environment_hide(option_variables[i], &hidden[i])) {
-            log_format(CLK_LOG_WARNING, "the environment variable %s is ignored; give JVM options in the settings", option_variables[i]);
+            log_format(CLK_LOG_WARNING, "the environment variable %s is ignored; set JVM options in the JVM settings", option_variables[i]);
         }
     }
     int32_t result = work(config, deadline);
@@ -220,7 +219,7 @@ static int32_t compare(const clk_jvm_config *config) {
     bool equal = configuration != NULL && strcmp(configuration, jvm.launch.configuration) == 0;
     free(configuration);
     if (equal) return CLK_OK;
-    return error_set(CLK_JVM_RUNNING, "a JVM runs already with another home, class path or options; restart the process to change them");
+    return error_set(CLK_JVM_RUNNING, "a JVM is already running with another home, class path or options; restart the process to change them");
 }
 
 static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
@@ -262,19 +261,19 @@ static void detach_halt_thread(void) {
     prim_semaphore_wait_until(&jvm.detached, prim_now() + DETACH_LIMIT_MS * PRIM_MILLI);
 }
 
-/* A JVM removes the former archive of classes and opens a new one by the same name; two that end at once may write into one file. Negative
- * when there is nothing to lock, or no lock. */
+/* Locks the folder of the class archive. A JVM replaces its archive under the same name, so two that end at once could write to one file.
+ * Negative if there is no archive, or the lock is not available. */
 static int lock_archive(void) {
     const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
     return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + jvm.stop_limit_ms / 4 * PRIM_MILLI);
 }
 
-/* DestroyJavaVM waits for programs' threads that are not daemons. If some do not end, this runs the shutdown hooks itself and halts
- * the JVM: JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. When the process then ends, no
- * Java thread runs into signal handlers that are gone. */
+/* DestroyJavaVM waits for non-daemon threads of programs. If some do not end, this runs the shutdown hooks itself and halts the JVM:
+ * JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. So no Java thread still runs when the process
+ * removes its signal handlers. */
 static int32_t work_stop(void) {
     bool idle = true;
-    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the JVM goes down all the same: %s", error_last());
+    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
     session_forget_all();
     int lock = lock_archive();
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
@@ -285,8 +284,8 @@ static int32_t work_stop(void) {
     return CLK_OK;
 }
 
-/* Halts a JVM that cannot be ended in order. False when that is impossible: while JNI_CreateJavaVM runs, after the JVM ended
- * itself, and in a forked child, which has none of its threads. */
+/* Halts a JVM that does not shut down. False if that is impossible: while JNI_CreateJavaVM runs, after the JVM ended itself, and in a forked
+ * child, which has none of its threads. */
 static bool halt(void) {
     if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || engine_is_forked()) return false;
     atomic_store(&jvm.stopping, true);
@@ -300,7 +299,7 @@ static bool halt(void) {
 }
 
 int32_t clk_jvm_stop(int32_t limit_ms) {
-    if (limit_ms < 1) return error_set(CLK_ARGUMENT, "limit_ms is %d; it is 1 or greater", limit_ms);
+    if (limit_ms < 1) return error_set(CLK_ARGUMENT, "limit_ms is %d; it must be 1 or greater", limit_ms);
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = engine_enter(deadline);
     if (result != CLK_OK) return result;
@@ -312,7 +311,7 @@ int32_t clk_jvm_stop(int32_t limit_ms) {
             result = CLK_OK;
         } else if (result == CLK_TIMEOUT) {
             result = error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; %s", limit_ms,
-                               halt() ? "its threads were halted, and flight recordings may be missing" : "it runs on");
+                               halt() ? "its threads were halted, and flight recordings may be missing" : "it is still running");
         }
     } else if (engine_state() == CLK_STATE_LOST) {
         halt();

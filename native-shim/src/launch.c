@@ -9,7 +9,7 @@
 #include "options.h"
 #include "prim.h"
 
-#define ARCHIVE_BYTES (INT64_C(32) << 20) /* an archive has 5 to 10 MB */
+#define ARCHIVE_BYTES (INT64_C(32) << 20) /* required free space; an archive has 5 to 10 MB */
 #define OLDEST_JAVA 17
 
 /* ---- The caller's configuration -------------------------------------------------------------------------------------- */
@@ -19,23 +19,23 @@ int32_t launch_check_config(const clk_jvm_config *config) {
     if (config->size < sizeof *config) return error_set(CLK_ARGUMENT, "config->size is %u; set it to sizeof(clk_jvm_config)", config->size);
     /* Fields of a newer header must be 0. */
     for (const uint8_t *at = (const uint8_t *)config + sizeof *config; at < (const uint8_t *)config + config->size; at++) {
-        if (*at != 0) return error_set(CLK_ARGUMENT, "the configuration has fields that this shim does not know; update the shim");
+        if (*at != 0) return error_set(CLK_ARGUMENT, "config has fields that this version of the shim does not support; update the shim");
     }
-    if (config->home == NULL || config->home[0] == '\0') return error_set(CLK_ARGUMENT, "home is empty; give the root of a JRE or JDK");
+    if (config->home == NULL || config->home[0] == '\0') return error_set(CLK_ARGUMENT, "home is empty; set it to the root of a JRE or JDK");
     if (config->class_path == NULL || config->class_path[0] == '\0') {
-        return error_set(CLK_ARGUMENT, "class_path is empty; give the jars of the host");
+        return error_set(CLK_ARGUMENT, "class_path is empty; set it to the jars of the host");
     }
     if (config->option_count < 0 || (config->option_count > 0 && config->options == NULL)) {
-        return error_set(CLK_ARGUMENT, "option_count is %d and does not fit options", config->option_count);
+        return error_set(CLK_ARGUMENT, "option_count is %d, which does not match options", config->option_count);
     }
     for (int32_t i = 0; i < config->option_count; i++) {
         if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL", i);
     }
-    if (config->start_limit_ms < 1) return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it is 1 or greater", config->start_limit_ms);
+    if (config->start_limit_ms < 1) return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it must be 1 or greater", config->start_limit_ms);
     return CLK_OK;
 }
 
-/* All texts, each on a line of its own. */
+/* Joins all texts, one per line. */
 static char *join(const char *first, const char *second, const char *const *others, int32_t count) {
     size_t size = strlen(first) + strlen(second) + 2;
     for (int32_t i = 0; i < count; i++) size += strlen(others[i]) + 1;
@@ -70,14 +70,14 @@ static bool add_option(struct launch *launch, const char *prefix, const char *re
     return option != NULL;
 }
 
-/* A JVM that cannot write its archive to the end aborts: without room, or a path that it can read, it writes none. */
+/* Removes the options that write a class archive if the disk is almost full or the JVM cannot decode the path: the JVM would abort. */
 static void check_archive(struct launch *launch) {
     const char *archive = options_archive(launch->options, launch->option_count);
     if (archive == NULL) return;
-    if (!prim_jvm_reads(archive)) {
-        log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: " PRIM_FOREIGN_TEXT, archive);
-    } else if (prim_room(archive) < ARCHIVE_BYTES) {
-        log_format(CLK_LOG_WARNING, "the JVM writes no archive of its classes, so starts take longer: less than 32 MB are free for %s",
+    if (!prim_jvm_can_decode(archive)) {
+        log_format(CLK_LOG_WARNING, "no class archive is written, so the JVM starts more slowly: " PRIM_FOREIGN_TEXT, archive);
+    } else if (prim_disk_free(archive) < ARCHIVE_BYTES) {
+        log_format(CLK_LOG_WARNING, "no class archive is written, so the JVM starts more slowly: less than 32 MB of disk space are free for %s",
                    archive);
     } else {
         return;
@@ -93,9 +93,9 @@ static void check_archive(struct launch *launch) {
     launch->option_count = kept;
 }
 
-/* The shim's own options come first, so that the caller's may override them. -Xrs leaves signals such as SIGTERM to the process.
- * The log option silences a warning about host_refuse_exit. Without conditional card marks, threads of the host write to the same cache
- * lines of the card table, and two of them take up to twice the processor time. */
+/* The shim's own options come first, so that the caller's can override them. -Xrs leaves signals such as SIGTERM to the process.
+ * The log option suppresses a warning about host_refuse_exit. Conditional card marks avoid false sharing of the card table, which doubles the
+ * processor time of two host threads. */
 static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     static const char *const own[] = {"-Xrs", "-Djava.awt.headless=true", "-Xlog:jni+resolve=error", "-XX:+UseCondCardMark"};
     enum { OWN = sizeof own / sizeof own[0] };
@@ -107,7 +107,7 @@ static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     good = good && add_option(launch, "-Djava.class.path=", config->class_path);
     launch->own_count = launch->option_count;
     for (int32_t i = 0; good && i < config->option_count; i++) good = add_option(launch, config->options[i], "");
-    if (!good) return error_set(CLK_MEMORY, "no memory for %d JVM options", config->option_count);
+    if (!good) return error_set(CLK_MEMORY, "out of memory for %d JVM options", config->option_count);
     check_archive(launch);
     return CLK_OK;
 }
@@ -127,25 +127,24 @@ static int32_t check_home_file(const char *home, const char *file) {
     snprintf(path, sizeof path, "%s/%s", home, file);
     switch (prim_file_kind(path)) {
         case PRIM_FILE: return CLK_OK;
-        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "%s cannot be read; " PRIM_READ_ADVICE, path);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "cannot read %s; " PRIM_READ_ADVICE, path);
         default:
             return error_set(CLK_JVM_NOT_FOUND,
-                             "%s is missing; the JVM's home must be the root of a JRE or JDK of version 17 or newer for " PRIM_PLATFORM,
+                             "%s is missing; set the JVM's home to the root of a JRE or JDK 17 or newer for " PRIM_PLATFORM,
                              path);
     }
 }
 
 static int32_t check_release(const char *home, int version, const char *system, const char *architecture) {
     if (version < OLDEST_JAVA) {
-        return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is of Java %d; use a JRE or JDK of version %d or newer", home, version,
-                         OLDEST_JAVA);
+        return error_set(CLK_JVM_NOT_FOUND, "the JVM in %s is Java %d; use a JRE or JDK %d or newer", home, version, OLDEST_JAVA);
     }
     if (strcmp(system, PRIM_SYSTEM) == 0 && strcmp(architecture, PRIM_ARCHITECTURE) == 0) return CLK_OK;
-    return error_set(CLK_JVM_NOT_FOUND, "the JVM of %s is for %s on %s; this process needs one for " PRIM_PLATFORM, home, system,
+    return error_set(CLK_JVM_NOT_FOUND, "the JVM in %s is for %s on %s; this process needs one for " PRIM_PLATFORM, home, system,
                      architecture);
 }
 
-/* What the file `release` does not tell, or a home without one, is accepted. */
+/* A property that the file `release` lacks, or a home without this file, is accepted. */
 static int32_t check_version(const char *home) {
     char line[4096], system[32] = PRIM_SYSTEM, architecture[32] = PRIM_ARCHITECTURE;
     snprintf(line, sizeof line, "%s/release", home);
@@ -160,15 +159,15 @@ static int32_t check_version(const char *home) {
     return check_release(home, version, system, architecture);
 }
 
-/* Without these files JNI_CreateJavaVM ends the process before it knows the exit hook. */
+/* Without these files JNI_CreateJavaVM ends the process before it reads the exit hook. */
 static int32_t check_home(const char *home) {
     switch (prim_file_kind(home)) {
         case PRIM_DIRECTORY: break;
-        case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; give the root of a JRE or JDK", home);
-        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s cannot be read; " PRIM_READ_ADVICE, home);
-        default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is no folder; give the root of a JRE or JDK", home);
+        case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; set it to the root of a JRE or JDK", home);
+        case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "cannot read the JVM's home %s; " PRIM_READ_ADVICE, home);
+        default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is not a folder; set it to the root of a JRE or JDK", home);
     }
-    /* Another platform's JVM has other files. */
+    /* Before the files, which differ between platforms. */
     int32_t result = check_version(home);
     if (result == CLK_OK) result = check_home_file(home, PRIM_LIBJVM);
     return result != CLK_OK ? result : check_home_file(home, "lib/modules");
@@ -179,22 +178,22 @@ static int32_t check_class_path(const char *class_path) {
     for (const char *at = class_path; *at != '\0';) {
         const char *end = strchr(at, PRIM_PATH_SEPARATOR);
         size_t length = end != NULL ? (size_t)(end - at) : strlen(at);
-        if (length >= sizeof entry) return error_set(CLK_HOST, "an entry of the class path is longer than a path can be");
+        if (length >= sizeof entry) return error_set(CLK_HOST, "an entry of the host's class path is too long; move the package to a shorter path");
         memcpy(entry, at, length);
         entry[length] = '\0';
         enum prim_file kind = length > 0 ? prim_file_kind(entry) : PRIM_DIRECTORY;
         if (kind == PRIM_MISSING) {
-            return error_set(CLK_HOST, "%s of the host's class path does not exist; build or reinstall the host", entry);
+            return error_set(CLK_HOST, "%s on the host's class path does not exist; build or reinstall the package", entry);
         }
-        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "%s of the host's class path cannot be read; " PRIM_READ_ADVICE, entry);
+        if (kind == PRIM_UNREADABLE) return error_set(CLK_HOST, "cannot read %s on the host's class path; " PRIM_READ_ADVICE, entry);
         at = end != NULL ? end + 1 : at + length;
     }
     return CLK_OK;
 }
 
-/* A JVM that decodes a path wrongly finds neither its own files nor the host's; on Windows it then ends the process. */
+/* A JVM that decodes a path incorrectly does not find its files, and on Windows it then ends the process. */
 static int32_t check_characters(int32_t code, const char *path) {
-    return prim_jvm_reads(path) ? CLK_OK : error_set(code, PRIM_FOREIGN_TEXT, path);
+    return prim_jvm_can_decode(path) ? CLK_OK : error_set(code, PRIM_FOREIGN_TEXT, path);
 }
 
 /* ---- The whole check ------------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* What a JVM is started with: the caller's configuration, checked, and the JVM's whole command line. Guarded by the turn. */
+/* The checked configuration of the caller, and the JVM's complete command line. Guarded by the turn. */
 #ifndef COLLEKTIVE_LAUNCH_H
 #define COLLEKTIVE_LAUNCH_H
 
@@ -13,18 +13,18 @@ struct launch {
     int32_t own_count; /* the shim's own */
 };
 
-/* CLK_ARGUMENT when the struct itself is wrong; looks at no file. */
+/* Returns CLK_ARGUMENT if the struct is invalid. Does not access files. */
 int32_t launch_check_config(const clk_jvm_config *config);
 
-/* Checks files and options, with `check_options` in a child process too, and fills `launch`, which is all 0 before. After an error too,
- * launch_free frees what it holds. */
+/* Checks files and options, with `check_options` also in a child process, and fills in `launch`, which must be zeroed. Call launch_free
+ * afterwards, also after an error. */
 int32_t launch_prepare(struct launch *launch, const clk_jvm_config *config, int64_t deadline);
 void launch_free(struct launch *launch);
 
-/* The configuration as one text, equal for equal ones. The caller frees it; NULL when there is no memory. */
+/* Returns the configuration as one text, equal for equal configurations. The caller frees it; NULL if out of memory. */
 char *launch_configuration(const clk_jvm_config *config);
 
-/* The text of clk_jvm_description. The caller frees it; NULL when there is no memory. */
+/* Returns the text of clk_jvm_description. The caller frees it; NULL if out of memory. */
 char *launch_description(const struct launch *launch, const char *version);
 
 #endif

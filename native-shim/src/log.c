@@ -55,7 +55,7 @@ void log_write(int32_t level, const char *text, int32_t length) {
 }
 
 void log_format(int32_t level, const char *format, ...) {
-    char text[LOG_LINE_CAPACITY + 4]; /* longer than a line may be, so that log_write cuts at a character */
+    char text[LOG_LINE_CAPACITY + 4]; /* longer than a line may be, so that log_write truncates after a whole character */
     va_list arguments;
     va_start(arguments, format);
     int length = vsnprintf(text, sizeof text, format, arguments);
@@ -125,7 +125,7 @@ int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
             jvm_output.line[jvm_output.used++] = *at;
         }
     }
-    if ((size_t)length >= sizeof text) end_line(level); /* the rest is lost, and with it the end of the line */
+    if ((size_t)length >= sizeof text) end_line(level); /* the rest was truncated, including the end of the line */
     prim_unlock(&jvm_output.mutex);
     return length;
 }

@@ -6,21 +6,21 @@
 #include <stdint.h>
 #include "collektive_shim.h"
 
-#define LOG_LINE_CAPACITY 8192 /* bytes of one line, NUL included; longer ones are cut at a character */
+#define LOG_LINE_CAPACITY 8192 /* bytes of one line, including NUL; longer ones are truncated after a whole character */
 #define LOG_RING_BYTES (256 * 1024)
 
-/* Adds a line. Any thread, also one of the JVM: calls no JNI and holds one lock for the time of a copy. */
+/* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock for the duration of a copy. */
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* Takes a piece of the JVM's output; returns its length like vprintf. Whole lines go to the ring, those that contain "warning" at
- * least as one. Any thread. */
+/* Logs a piece of the JVM's output and returns its length, like vprintf. Only whole lines are written to the ring; a line that contains
+ * "warning" has at least that level. Any thread. */
 __attribute__((format(printf, 2, 0))) int32_t log_jvm_output(int32_t level, const char *format, va_list arguments);
 
 /* Copies the JVM's last lines, joined by "; ", at most 1023 bytes. */
 void log_jvm_last(char *buffer, int32_t capacity);
 
-/* Lines that did not fit into the ring. */
+/* Returns the number of lines that did not fit into the ring. */
 uint64_t log_dropped(void);
 
 #endif

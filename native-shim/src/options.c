@@ -18,26 +18,26 @@ struct rule {
     const char *reason;
 };
 
-static const struct rule refused[] = {
-    {"-Dcom.sun.management.*", "its ports are open to other machines; jcmd and JDK Mission Control find this JVM without a port"},
+static const struct rule forbidden[] = {
+    {"-Dcom.sun.management.*", "it opens ports to other machines; jcmd and JDK Mission Control find this JVM without a port"},
     {"-XX:+ExitOnOutOfMemoryError", "it ends the whole process when a program exhausts the heap"},
     {"-XX:+CrashOnOutOfMemoryError", "it crashes the whole process when a program exhausts the heap"},
-    {"-XX:OnOutOfMemoryError=*", "it forks the whole process to run a command"},
-    {"-XX:OnError=*", "it forks the whole process to run a command"},
+    {"-XX:OnOutOfMemoryError=*", "it forks the process to run a command"},
+    {"-XX:OnError=*", "it forks the process to run a command"},
     {"-XX:+AbortVMOn*", "it aborts the whole process"},
     {"-XX:AbortVMOnException*", "it aborts the whole process"},
     {"-XX:SelfDestructTimer=*", "it ends the whole process after that many minutes"},
-    {"-XX:+ShowMessageBoxOnError", "it waits at the console of the process for ever"},
-    {"-XX:+AllowUserSignalHandlers", "the signal handlers of the host process and of the JVM would shut each other out"},
-    {"-XX:-UseSignalChaining", "the signal handlers of the host process would not be called any more"},
-    {"-XX:-ReduceSignalUsage", "the JVM would take over the signals that end the host process"},
-    {"-XX:Flags=*", "options in a file cannot be checked; give them one by one"},
-    {"-XX:VMOptionsFile=*", "options in a file cannot be checked; give them one by one"},
-    {"-Djava.class.path=*", "the class path is that of the host; programs load from the jars of a session"},
-    {"-X", "only the java command knows it"},
+    {"-XX:+ShowMessageBoxOnError", "it waits for input on the console"},
+    {"-XX:+AllowUserSignalHandlers", "the signal handlers of the process and of the JVM would conflict"},
+    {"-XX:-UseSignalChaining", "the signal handlers of the process would no longer be called"},
+    {"-XX:-ReduceSignalUsage", "the JVM would handle the signals that end the process"},
+    {"-XX:Flags=*", "options in a file cannot be checked; list them one by one"},
+    {"-XX:VMOptionsFile=*", "options in a file cannot be checked; list them one by one"},
+    {"-Djava.class.path=*", "the class path is reserved for the host; programs are loaded from the jars of a session"},
+    {"-X", "only the java command supports it"},
     {"-Xinternalversion", "it prints the version and ends the process"},
-    {"-XshowSettings*", "only the java command knows it"},
-    {"-Xdiag*", "only the java command knows it"},
+    {"-XshowSettings*", "only the java command supports it"},
+    {"-Xdiag*", "only the java command supports it"},
 };
 
 /* clang-format off */
@@ -57,23 +57,23 @@ static bool matches(const char *option, const char *text) {
 }
 
 static int32_t refuse(const char *option, const char *reason) {
-    return error_set(CLK_JVM_OPTIONS, "remove '%s' from the JVM options; it is refused, as %s", option, reason);
+    return error_set(CLK_JVM_OPTIONS, "the JVM option '%s' is not allowed: %s", option, reason);
 }
 
 static int32_t check_one(const char *option) {
-    if (strchr(option, '\n') != NULL) return refuse(option, "it has a line break");
-    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        if (matches(option, refused[i].text)) return refuse(option, refused[i].reason);
+    if (strchr(option, '\n') != NULL) return refuse(option, "it contains a line break");
+    for (size_t i = 0; i < sizeof forbidden / sizeof forbidden[0]; i++) {
+        if (matches(option, forbidden[i].text)) return refuse(option, forbidden[i].reason);
     }
-    const char *fault = debugger_fault(option);
-    if (fault != NULL) return refuse(option, fault);
+    const char *problem = debugger_problem(option);
+    if (problem != NULL) return refuse(option, problem);
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
     }
-    return refuse(option, "a JVM inside another process knows no such option (give each as one word, with '=' before its value)");
+    return refuse(option, "an embedded JVM does not support it; write each option as one word, with '=' before its value");
 }
 
-/* What is longer could not be tried in a child: Windows has room for 32 KiB in a command line. */
+/* Longer options could not be tried in a child process: Windows limits a command line to 32 KiB. */
 enum { OPTION_BYTES = 8 << 10, ALL_BYTES = 24 << 10 };
 
 int32_t options_check(const char *const options[], int32_t count) {
@@ -83,7 +83,7 @@ int32_t options_check(const char *const options[], int32_t count) {
         size_t length = strlen(options[i]);
         bytes += length + 1;
         if (length > OPTION_BYTES || bytes > ALL_BYTES) {
-            return error_set(CLK_JVM_OPTIONS, "shorten the JVM options; '%.40s...' is refused, as %s", options[i],
+            return error_set(CLK_JVM_OPTIONS, "the JVM option '%.40s...' is too long: %s; shorten the JVM options", options[i],
                              length > OPTION_BYTES ? "one option has at most 8 KiB" : "all options together have at most 24 KiB");
         }
         result = check_one(options[i]);
@@ -93,8 +93,8 @@ int32_t options_check(const char *const options[], int32_t count) {
 
 /* ---- In a child process ---------------------------------------------------------------------------------------------- */
 
-/* Puts the JVM's output on one line, without the launcher's general message. */
-static void tidy(char *text) {
+/* Joins the JVM's output into one line, without the launcher's general message. */
+static void join_lines(char *text) {
     char *general = strstr(text, "Error: Could not create the Java Virtual Machine");
     if (general != NULL) *general = '\0';
     char *end = text + strlen(text);
@@ -124,18 +124,18 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     char output[16384]; /* some options make the JVM write a lot before the error */
     int status = 0;
     static char version[] = "-version";
-    static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* a child that crashes needs no report */
+    static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* a child that crashes must not write a report */
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
     if (!prim_executable(java)) {
-        log_format(CLK_LOG_INFO, "the JVM options are not tried before the start, as %s is missing or not executable", java);
+        log_format(CLK_LOG_INFO, "the JVM options are not checked before the start: %s is missing or not executable", java);
         return CLK_OK;
     }
     char **arguments = malloc(((size_t)count + 4) * sizeof *arguments);
-    if (arguments == NULL) return error_set(CLK_MEMORY, "no memory for %d JVM options", count);
+    if (arguments == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", count);
     arguments[0] = java;
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
-        /* The child would write an archive of its own few classes. */
+        /* The child would replace the archive by one with few classes. */
         if (!options_write_archive(options[i])) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;
@@ -143,27 +143,27 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[used] = NULL;
     enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);
     free(arguments);
-    /* Some options end the JVM with code 0 before it is up, and so before it prints its version. */
-    bool came_up = strstr(output, " version \"") != NULL;
+    /* Some options end the JVM with exit code 0 during its start, before it prints its version. */
+    bool has_started = strstr(output, " version \"") != NULL;
     size_t length = strlen(output);
     char *end = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
-    tidy(end);
-    const char *wrote = end[0] != '\0' ? end : "nothing";
+    join_lines(end);
+    const char *printed = end[0] != '\0' ? end : "nothing";
     switch (run) {
         case PRIM_NOT_STARTED:
-            log_format(CLK_LOG_WARNING, "the JVM options are not tried before the start, as %s could not be run", java);
+            log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
             return CLK_OK;
         case PRIM_TIMED_OUT:
-            return error_set(CLK_TIMEOUT, "trying the JVM options took longer than the time limit; %s wrote: %s", java, wrote);
+            return error_set(CLK_TIMEOUT, "the check of the JVM options took longer than the time limit; %s printed: %s", java, printed);
         default: break;
     }
-    if (status == 0 && came_up) return CLK_OK;
-    if (status == 0) return error_set(CLK_JVM_OPTIONS, "correct the JVM options: one of them ends the JVM of %s before it is up", home);
+    if (status == 0 && has_started) return CLK_OK;
+    if (status == 0) return error_set(CLK_JVM_OPTIONS, "one of the JVM options ends the JVM in %s during its start; remove it", home);
     if (status > 128) {
         return error_set(CLK_JVM_OPTIONS,
-                         "the JVM of %s crashes with these options (signal %d): correct them, or reinstall it if its files are "
-                         "damaged; it wrote: %s",
-                         home, status - 128, wrote);
+                         "the JVM in %s crashes with these options (signal %d); correct them, or reinstall the JVM if its files are "
+                         "corrupt; it printed: %s",
+                         home, status - 128, printed);
     }
-    return error_set(CLK_JVM_OPTIONS, "correct the JVM options; the JVM of %s refuses them (exit code %d): %s", home, status, wrote);
+    return error_set(CLK_JVM_OPTIONS, "the JVM in %s rejects its options (exit code %d): %s; correct the JVM options", home, status, printed);
 }

@@ -115,7 +115,7 @@ bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FIL
 
 #define LOCK_POLL_MS 5
 
-/* False when the path has no folder, or one that is too long. */
+/* Copies the folder of a path, with a slash. False if the path has no folder or is too long. */
 static bool folder_of(const char *file, char *folder, size_t size) {
     const char *end = strrchr(file, '/');
     if (end == NULL || (size_t)(end - file) + 2 > size) return false;
@@ -123,7 +123,7 @@ static bool folder_of(const char *file, char *folder, size_t size) {
     return true;
 }
 
-int64_t prim_room(const char *file) {
+int64_t prim_disk_free(const char *file) {
     char folder[4096];
     struct statvfs disk;
     if (!folder_of(file, folder, sizeof folder) || statvfs(folder, &disk) != 0) return INT64_MAX;
@@ -162,7 +162,7 @@ static bool locale_is_utf8(void) {
 #endif
 }
 
-bool prim_jvm_reads(const char *text) {
+bool prim_jvm_can_decode(const char *text) {
     for (const char *at = text; *at != '\0'; at++) {
         if ((unsigned char)*at >= 0x80) return locale_is_utf8();
     }
@@ -184,7 +184,7 @@ void *prim_library_symbol(void *library, const char *name) { return dlsym(librar
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Replaces one pointer of environ: unsetenv and setenv could move or free the array while other threads read it. */
+/* Replaces one pointer of environ, because unsetenv and setenv could move or free the array while other threads read it. */
 static char hidden_entry[] = "COLLEKTIVE_HIDDEN=";
 
 static bool swap_environment(const char *from, size_t from_length, char *to, char **previous) {
@@ -215,7 +215,7 @@ static int poll_limit(int64_t deadline) {
     return left < 0 ? 0 : left > INT32_MAX ? INT32_MAX : (int)left;
 }
 
-/* Reads until all writers have closed the pipe; when the output is full, drops its older half. False when the deadline passed first. */
+/* Reads until all writers have closed the pipe; drops the older half of a full output. False if the deadline passed first. */
 static bool read_all(int descriptor, int64_t deadline, char *output, size_t output_size) {
     size_t used = 0;
     output[0] = '\0';
@@ -237,8 +237,8 @@ static bool read_all(int descriptor, int64_t deadline, char *output, size_t outp
     }
 }
 
-/* False when the deadline passed first. In a process that ignores SIGCHLD, or reaps every child, the status is lost: it counts as 0, and
- * the caller judges by the output. */
+/* Waits for a child. False if the deadline passed first. In a process that ignores SIGCHLD or reaps every child, the status is unknown and set
+ * to 0; the caller must check the output. */
 static bool reap(pid_t child, int64_t deadline, int *status) {
     for (;;) {
         int state = 0;
@@ -269,7 +269,7 @@ static bool spawn(char *const argv[], int output, pid_t *child) {
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGCHLD);
-    /* A process group of its own, so that kill also reaches its children. */
+    /* A separate process group, so that kill also reaches the child's children. */
     bool spawned = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
                    posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 &&
                    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF) == 0 &&
@@ -282,7 +282,7 @@ static bool spawn(char *const argv[], int output, pid_t *child) {
     return spawned;
 }
 
-/* Without pipe2 a process that another thread spawns meanwhile inherits the pipe; it then ends the wait for output late. */
+/* Without pipe2, a process that another thread spawns meanwhile inherits the pipe, which delays the end of the output. */
 static bool make_pipe(int ends[2]) {
 #if defined(__APPLE__)
     return pipe(ends) == 0 && fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;

@@ -1,4 +1,4 @@
-/* A semaphore on a futex: sem_clockwait, the only wait of glibc's semaphores that a changed clock does not disturb, needs glibc 2.30. */
+/* A semaphore on a futex. glibc's only wait on the monotonic clock, sem_clockwait, needs glibc 2.30. */
 #define _GNU_SOURCE /* syscall */
 #include <linux/futex.h>
 #include <stdatomic.h>

@@ -8,18 +8,18 @@
 #include <string.h>
 #include <wchar.h>
 
-_Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK) && sizeof(prim_once) == sizeof(INIT_ONCE), "prim.h does without windows.h");
+_Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK) && sizeof(prim_once) == sizeof(INIT_ONCE), "prim.h does not include windows.h");
 
 #define PATH_UNITS 4096
 
 /* ---- Text ------------------------------------------------------------------------------------------------------------ */
 
-/* False when the text does not fit, or is not UTF-8. */
+/* False if the text does not fit or is not UTF-8. */
 static bool to_wide(const char *text, wchar_t *wide, int units) {
     return MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, text, -1, wide, units) > 0;
 }
 
-/* The text in UTF-16; the caller frees it. NULL when there is no memory, or the text is of no such code page. */
+/* Returns the text in UTF-16; the caller frees it. NULL if out of memory, or if the text is not in the code page. */
 static wchar_t *wide_of(UINT code_page, const char *text) {
     int units = MultiByteToWideChar(code_page, 0, text, -1, NULL, 0);
     wchar_t *wide = units > 0 ? malloc((size_t)units * sizeof *wide) : NULL;
@@ -27,9 +27,9 @@ static wchar_t *wide_of(UINT code_page, const char *text) {
     return wide;
 }
 
-/* The text in a code page; the caller frees it. NULL when there is no memory. `lost` is set when the code page lacks a character. */
+/* Returns the text in a code page; the caller frees it. NULL if out of memory. Sets `lost` if the code page lacks a character. */
 static char *narrow_of(UINT code_page, const wchar_t *wide, BOOL *lost) {
-    BOOL *flag = code_page == CP_UTF8 ? NULL : lost; /* which may not be asked for UTF-8 */
+    BOOL *flag = code_page == CP_UTF8 ? NULL : lost; /* not allowed for UTF-8 */
     DWORD exact = code_page == CP_UTF8 ? 0 : WC_NO_BEST_FIT_CHARS;
     int bytes = WideCharToMultiByte(code_page, exact, wide, -1, NULL, 0, NULL, flag);
     char *text = bytes > 0 ? malloc((size_t)bytes) : NULL;
@@ -37,7 +37,7 @@ static char *narrow_of(UINT code_page, const wchar_t *wide, BOOL *lost) {
     return text;
 }
 
-/* Puts text of another code page, such as output of the JVM, into UTF-8 where it is, as far as that fits. */
+/* Converts text in another code page, such as output of the JVM, to UTF-8 in place, if it fits. */
 static void to_utf8_in_place(UINT code_page, char *text, size_t size) {
     wchar_t *wide = wide_of(code_page, text);
     char *utf8 = wide != NULL ? narrow_of(CP_UTF8, wide, NULL) : NULL;
@@ -56,14 +56,14 @@ char *prim_jvm_text(const char *text) {
     return converted;
 }
 
-bool prim_jvm_reads(const char *text) {
+bool prim_jvm_can_decode(const char *text) {
     wchar_t *wide = wide_of(CP_UTF8, text);
     BOOL lost = FALSE;
     char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, &lost) : NULL;
-    bool reads = converted != NULL && !lost;
+    bool decodable = converted != NULL && !lost;
     free(converted);
     free(wide);
-    return reads;
+    return decodable;
 }
 
 /* ---- Time ------------------------------------------------------------------------------------------------------------ */
@@ -129,7 +129,7 @@ static unsigned __stdcall thread_main(void *argument) {
     return 0;
 }
 
-/* Threads, natives and hooks of the JVM use this library until the process ends. */
+/* Pins this library: threads, native methods and hooks of the JVM use it until the process ends. */
 static void stay_loaded(void) {
     HMODULE self;
     GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (LPCWSTR)(uintptr_t)&stay_loaded, &self);
@@ -169,7 +169,7 @@ void prim_signals_save(void) {
 
 void prim_signals_restore(void) { SetUnhandledExceptionFilter(before); }
 
-/* HotSpot handles its own faults by tables of its code, which no library can replace, and passes unhandled exceptions on to the former filter. */
+/* HotSpot handles its exceptions by tables that no library can replace, and passes unhandled exceptions on to the previous filter. */
 void prim_signals_adopt(void) {}
 
 int32_t prim_signals_repair(void) { return 0; }
@@ -197,7 +197,7 @@ enum prim_file prim_file_kind(const char *path) {
 
 bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE; }
 
-/* Puts the folder of a file into `folder`, with a name in it. False when the path has no folder, or one that is too long. */
+/* Writes the path of `name` in the folder of a file to `folder`. False if the file's path has no folder or is too long. */
 static bool beside(const char *file, const wchar_t *name, wchar_t *folder) {
     if (!to_wide(file, folder, PATH_UNITS)) return false;
     wchar_t *end = folder + wcslen(folder);
@@ -207,16 +207,16 @@ static bool beside(const char *file, const wchar_t *name, wchar_t *folder) {
     return true;
 }
 
-int64_t prim_room(const char *file) {
+int64_t prim_disk_free(const char *file) {
     wchar_t folder[PATH_UNITS];
-    ULARGE_INTEGER room;
-    if (!beside(file, L"", folder) || !GetDiskFreeSpaceExW(folder, &room, NULL, NULL)) return INT64_MAX;
-    return room.QuadPart > INT64_MAX ? INT64_MAX : (int64_t)room.QuadPart;
+    ULARGE_INTEGER bytes;
+    if (!beside(file, L"", folder) || !GetDiskFreeSpaceExW(folder, &bytes, NULL, NULL)) return INT64_MAX;
+    return bytes.QuadPart > INT64_MAX ? INT64_MAX : (int64_t)bytes.QuadPart;
 }
 
 #define LOCK_POLL_MS 5
 
-/* A folder cannot be locked: the lock is a file in it that only one process can open, and that goes when it is closed. */
+/* Windows cannot lock a folder, so the lock is a file in it, which only one process can open and which is deleted when it is closed. */
 int prim_folder_lock(const char *file, int64_t deadline) {
     wchar_t path[PATH_UNITS];
     if (!beside(file, L".collektive-lock", path)) return -1;
@@ -248,7 +248,7 @@ static void describe(DWORD error, char *why, size_t why_size) {
     free(utf8);
 }
 
-/* A JVM's library lies in bin/server, what it needs in bin. Windows looks there only when it is told to, and wants backslashes then. */
+/* jvm.dll is in bin/server and depends on libraries in bin. Windows searches bin only if it is added, with backslashes. */
 void *prim_library_open(const char *path, char *why, size_t why_size) {
     wchar_t wide[PATH_UNITS], full[PATH_UNITS], bin[PATH_UNITS];
     DWORD units = to_wide(path, wide, PATH_UNITS) ? GetFullPathNameW(wide, PATH_UNITS, full, NULL) : 0;
@@ -321,7 +321,7 @@ static bool add_word(const char *word, wchar_t *line, size_t units) {
 
 enum { LINE_UNITS = 32767 };
 
-/* The caller frees the command line; NULL when it is longer than Windows allows, or there is no memory. */
+/* Returns the command line, which the caller frees. NULL if it is longer than Windows allows, or if out of memory. */
 static wchar_t *command_line(char *const argv[]) {
     wchar_t *line = malloc(LINE_UNITS * sizeof *line);
     if (line != NULL) line[0] = L'\0';
@@ -334,7 +334,7 @@ static wchar_t *command_line(char *const argv[]) {
     return line;
 }
 
-/* Starts a program in a job, which takes its children along, with these two handles and no others. NULL when it does not start. */
+/* Starts a program in a job, which includes its children, and lets it inherit only these two handles. NULL if it does not start. */
 static HANDLE spawn(wchar_t *line, HANDLE input, HANDLE output, HANDLE job) {
     HANDLE handles[] = {input, output};
     STARTUPINFOEXW startup = {
@@ -361,7 +361,7 @@ static HANDLE spawn(wchar_t *line, HANDLE input, HANDLE output, HANDLE job) {
     return child.hProcess;
 }
 
-/* Reads until all writers have closed the pipe; when the output is full, drops its older half. False when the deadline passed first. */
+/* Reads until all writers have closed the pipe; drops the older half of a full output. False if the deadline passed first. */
 static bool read_all(HANDLE pipe, int64_t deadline, char *output, size_t output_size) {
     size_t used = 0;
     for (;;) {
@@ -382,7 +382,7 @@ static bool read_all(HANDLE pipe, int64_t deadline, char *output, size_t output_
     }
 }
 
-/* False when it did not end before the deadline. */
+/* Waits for a child. False if it did not end before the deadline. */
 static bool reap(HANDLE child, int64_t deadline, int *status) {
     DWORD code;
     if (WaitForSingleObject(child, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child, &code)) return false;
@@ -390,7 +390,7 @@ static bool reap(HANDLE child, int64_t deadline, int *status) {
     return true;
 }
 
-/* An unnamed job that ends its processes when its handle is closed; NULL when there is none. */
+/* Creates an unnamed job that ends its processes when its handle is closed. NULL on failure. */
 static HANDLE make_job(void) {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits = {.BasicLimitInformation = {.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE}};
     HANDLE job = CreateJobObjectW(NULL, NULL);

@@ -41,11 +41,11 @@ static clk_session session_handle(const struct session *session) {
 static struct session *session_find(clk_session handle) {
     uint32_t index = (uint32_t)handle;
     if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32) return &sessions.all[index];
-    error_set(CLK_HANDLE, "session 0x%llx is closed already or was never given out", (unsigned long long)handle);
+    error_set(CLK_HANDLE, "session 0x%llx is already closed or was never issued; open a new one", (unsigned long long)handle);
     return NULL;
 }
 
-/* Gives a session its slot for answers. */
+/* Acquires the slot for the answers of a session. */
 static int32_t session_begin(struct session *session) {
     clk_memory memory = {.size = sizeof memory};
     int32_t result = clk_slot_acquire(FIRST_ANSWER_BYTES, &session->answer, &memory);
@@ -66,7 +66,7 @@ static int32_t session_take(struct session **taken) {
     return CLK_OK;
 }
 
-static void session_give(struct session *session) {
+static void session_release(struct session *session) {
     clk_slot_release(session->answer);
     session->open = false;
     atomic_fetch_sub(&sessions.count, 1);
@@ -76,7 +76,7 @@ void session_forget_all(void) {
     if (sessions.control.open) clk_slot_release(sessions.control.answer);
     sessions.control.open = false;
     for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
-        if (session->open) session_give(session);
+        if (session->open) session_release(session);
     }
 }
 
@@ -84,13 +84,13 @@ void session_forget_all(void) {
 
 static int32_t check_limit(int32_t limit_ms) {
     if (limit_ms >= 1) return CLK_OK;
-    return error_set(CLK_ARGUMENT, "limit_ms is %d; it is 1 or greater", limit_ms);
+    return error_set(CLK_ARGUMENT, "limit_ms is %d; it must be 1 or greater", limit_ms);
 }
 
 static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, const clk_answer *answer) {
     if (answer == NULL) return error_set(CLK_ARGUMENT, "answer is NULL");
     if (answer->size < sizeof *answer) return error_set(CLK_ARGUMENT, "answer->size is %u; set it to sizeof(clk_answer)", answer->size);
-    if (offset < 0 || length < 0) return error_set(CLK_ARGUMENT, "the range %d + %d is negative", offset, length);
+    if (offset < 0 || length < 0) return error_set(CLK_ARGUMENT, "offset %d and length %d must not be negative", offset, length);
     return check_limit(limit_ms);
 }
 
@@ -99,16 +99,16 @@ static int32_t enter(int32_t limit_ms, int64_t *deadline) {
     *deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = engine_check_running(); /* without waiting */
     if (result == CLK_OK) result = engine_enter(*deadline);
-    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the better reason, even after a time-out */
+    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the more useful error, even after a time-out */
     if (running != CLK_OK && result == CLK_OK) engine_leave();
     return running != CLK_OK ? running : result;
 }
 
-/* Runs work that the host should end by the deadline. If it has not ended when the grace time is over, the JVM is lost. */
+/* Runs work that the host should end by the deadline. If it has not ended after the grace period, the JVM is lost. */
 static int32_t run(engine_work *work, int64_t deadline) {
     int32_t result = engine_run(work, deadline + SESSION_GRACE_MS * PRIM_MILLI);
     if (result != CLK_TIMEOUT) return result;
-    engine_lose("the engine thread did not answer within the time limit and %d ms more", SESSION_GRACE_MS);
+    engine_lose("the engine thread did not answer within the time limit and a grace period of %d ms", SESSION_GRACE_MS);
     return engine_check_running();
 }
 
@@ -133,7 +133,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
     struct block *request = slots_pin(slot);
     if (request == NULL) return CLK_HANDLE;
     if ((int64_t)offset + length > request->capacity) {
-        int32_t result = error_set(CLK_ARGUMENT, "the range %d + %d is outside of the slot's %d bytes", offset, length, request->capacity);
+        int32_t result = error_set(CLK_ARGUMENT, "offset %d + length %d is outside the slot's %d bytes", offset, length, request->capacity);
         slots_unpin(request);
         return result;
     }
@@ -152,7 +152,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
                                .answer = own,
                                .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms};
     int32_t result = run(work_call, deadline);
-    /* These blocks stay pinned, and so are never used again: Java threads that did not end may still read or write them. */
+    /* These blocks stay pinned and are never reused: Java threads that did not end may still read or write them. */
     if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED) return result;
     if (result == CLK_OK) {
         answer->offset = call->answer_offset;
@@ -179,7 +179,7 @@ int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t 
         if (result == CLK_OK) {
             *session = session_handle(taken);
         } else if (result != CLK_JVM_LOST) {
-            session_give(taken);
+            session_release(taken);
         }
     }
     engine_leave();
@@ -221,7 +221,7 @@ int32_t clk_session_close(clk_session session, int32_t limit_ms) {
     } else {
         sessions.call.session = session;
         result = run(work_close, deadline);
-        if (result != CLK_JVM_LOST) session_give(found);
+        if (result != CLK_JVM_LOST) session_release(found);
     }
     engine_leave();
     return result;

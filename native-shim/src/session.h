@@ -4,14 +4,14 @@
 
 #include <stdint.h>
 
-/* How long after the caller's limit the host may still answer before the JVM counts as lost. With a full heap on a busy machine, even
- * the text of an error takes seconds. */
+/* Grace period after the caller's limit, before the JVM counts as lost. With a full heap on a busy machine, even composing an error text takes
+ * seconds. */
 #define SESSION_GRACE_MS 10000
 
-/* Removes all sessions and releases their slots, for the end of the JVM. Needs the turn. */
+/* Removes all sessions and releases their slots when the JVM ends. Needs the turn. */
 void session_forget_all(void);
 
-/* Sessions open now, and calls of clk_step that reached the host. Any thread. */
+/* Return the number of open sessions, and of calls of clk_step that reached the host. Any thread. */
 int32_t session_count(void);
 uint64_t session_steps(void);
 

@@ -28,7 +28,7 @@ static struct {
     uint64_t bytes;
     uint64_t unused_bytes;
     struct block *unused[MAX_CLASS + 1]; /* by class */
-    struct block *surplus;               /* no longer wanted, but with a wrapper */
+    struct block *surplus;               /* to be freed, once the engine thread has deleted their wrappers */
 } pool = {.mutex = PRIM_MUTEX_INIT};
 
 /* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
@@ -51,7 +51,7 @@ static struct block *block_take(int32_t capacity) {
         if (block == NULL || address == NULL) {
             free(block);
             prim_free(address);
-            error_set(CLK_MEMORY, "no native memory for a slot of %d bytes", 1 << class);
+            error_set(CLK_MEMORY, "out of native memory for a slot of %d bytes", 1 << class);
             return NULL;
         }
         *block = (struct block){.address = address, .capacity = 1 << class};
@@ -61,7 +61,7 @@ static struct block *block_take(int32_t capacity) {
     return block;
 }
 
-static void block_give(struct block *block) {
+static void block_release(struct block *block) {
     block->abandoned = false;
     if (pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES) {
         int class = class_of(block->capacity);
@@ -79,10 +79,10 @@ static void block_give(struct block *block) {
     }
 }
 
-/* Takes the block from its slot. Calls that use it keep it until their last unpin. */
+/* Detaches the block from its slot. It stays valid until its last unpin. */
 static void block_abandon(struct block *block) {
     if (block->pins == 0) {
-        block_give(block);
+        block_release(block);
     } else {
         block->abandoned = true;
     }
@@ -93,13 +93,13 @@ static void block_abandon(struct block *block) {
 static struct slot *slot_find(clk_slot handle) {
     uint32_t index = (uint32_t)handle;
     if (index >= pool.length || pool.slots[index].block == NULL || pool.slots[index].generation != handle >> 32) {
-        error_set(CLK_HANDLE, "slot 0x%llx is released already or was never given out", (unsigned long long)handle);
+        error_set(CLK_HANDLE, "slot 0x%llx is already released or was never issued; acquire a new one", (unsigned long long)handle);
         return NULL;
     }
     return &pool.slots[index];
 }
 
-/* Index of a free slot, or -1. */
+/* Returns the index of a free slot, or -1 if out of memory. */
 static int64_t slot_take(void) {
     if (pool.first_free != 0) {
         uint32_t index = pool.first_free - 1;
@@ -117,7 +117,7 @@ static int64_t slot_take(void) {
     return pool.length++;
 }
 
-static void slot_give(struct slot *slot) {
+static void slot_free(struct slot *slot) {
     slot->block = NULL;
     slot->generation = slot->generation == UINT32_MAX ? 1 : slot->generation + 1; /* 0 would allow a handle 0 */
     slot->next_free = pool.first_free;
@@ -128,7 +128,7 @@ static void slot_give(struct slot *slot) {
 
 static int32_t check_capacity(int32_t capacity) {
     if (capacity >= 1 && capacity <= MAX_CAPACITY) return CLK_OK;
-    return error_set(CLK_ARGUMENT, "capacity is %d; a slot has 1 to %d bytes", capacity, MAX_CAPACITY);
+    return error_set(CLK_ARGUMENT, "capacity is %d; it must be 1 to %d bytes", capacity, MAX_CAPACITY);
 }
 
 static int32_t check_memory(const clk_memory *memory) {
@@ -151,8 +151,8 @@ int32_t clk_slot_acquire(int32_t capacity, clk_slot *slot, clk_memory *memory) {
     if (block != NULL) {
         int64_t index = slot_take();
         if (index < 0) {
-            block_give(block);
-            error_set(CLK_MEMORY, "no native memory for more than %u slots", pool.length);
+            block_release(block);
+            error_set(CLK_MEMORY, "out of native memory for more than %u slots", pool.length);
         } else {
             pool.slots[index].block = block;
             pool.taken++;
@@ -169,8 +169,8 @@ static int32_t grow(clk_slot handle, int32_t capacity, int32_t keep, clk_memory 
     struct slot *slot = slot_find(handle);
     if (slot == NULL) return CLK_HANDLE;
     struct block *old = slot->block;
-    if (keep < 0 || keep > old->capacity) return error_set(CLK_ARGUMENT, "keep is %d; the slot has %d bytes", keep, old->capacity);
-    if (old->pins > 0) return error_set(CLK_ARGUMENT, "the slot is in use by a running call; grow it before or after");
+    if (keep < 0 || keep > old->capacity) return error_set(CLK_ARGUMENT, "keep is %d; it must be 0 to %d, the size of the slot", keep, old->capacity);
+    if (old->pins > 0) return error_set(CLK_ARGUMENT, "the slot is in use by a running call; grow it after the call");
     if (capacity > old->capacity) {
         struct block *block = block_take(capacity);
         if (block == NULL) return CLK_MEMORY;
@@ -195,7 +195,7 @@ int32_t clk_slot_release(clk_slot handle) {
     struct slot *slot = slot_find(handle);
     if (slot != NULL) {
         block_abandon(slot->block);
-        slot_give(slot);
+        slot_free(slot);
         pool.taken--;
     }
     prim_unlock(&pool.mutex);
@@ -215,7 +215,7 @@ struct block *slots_pin(clk_slot handle) {
 
 void slots_unpin(struct block *block) {
     prim_lock(&pool.mutex);
-    if (--block->pins == 0 && block->abandoned) block_give(block);
+    if (--block->pins == 0 && block->abandoned) block_release(block);
     prim_unlock(&pool.mutex);
 }
 

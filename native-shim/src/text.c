@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Whether the byte is 10xxxxxx: one of a character, but not its first. */
+/* Returns whether the byte is a UTF-8 continuation byte. */
 static bool continues(char byte) { return ((unsigned char)byte & 0xC0) == 0x80; }
 
 char *text_next_character(char *text) {

@@ -1,4 +1,4 @@
-/* A benchmark, not a test: prints what a step that does nothing costs, back to back and with pauses. */
+/* A benchmark: measures an empty step, back to back and with pauses. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

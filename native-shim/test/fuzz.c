@@ -1,4 +1,4 @@
-/* Calls of any kind in any order, with handles, places and sizes that are right, former, or invented. A sequence follows from its seed alone. */
+/* Random calls in random order, with valid, stale and random handles, offsets and sizes. The seed determines the sequence. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +8,10 @@
 #define CALLS 300
 #define LIMIT_MS 60000
 
-/* Seeds whose sequences have shown a defect, and some others: `calls_in_any_order` repeats them. */
+/* Seeds that `calls_in_any_order` repeats, including those that found a defect. */
 static const uint64_t corpus[] = {1, 2, 3};
 
-/* Those of the host's commands after which the session goes on. */
+/* The commands of the host after which the session continues. */
 static const enum command commands[] = {EMPTY, ECHO,    GROW,         THROW,          FAIL,         FAIL_SILENTLY,
                                         LOG,   OUTSIDE, GROW_FOREIGN, GROW_TOO_LARGE, IMPLICIT_NULL};
 
@@ -21,7 +21,7 @@ static clk_session sessions[HANDLES];
 
 static int below(int count) { return (int)(random_next() % (uint64_t)count); }
 
-/* A handle of the table, or sometimes one that was never given. */
+/* Returns a handle of the table, or sometimes a random number. */
 static uint64_t any_handle(const uint64_t *table) { return below(8) == 0 ? random_next() : table[below(HANDLES)]; }
 
 static int32_t any_number(int32_t usual) {
@@ -29,10 +29,10 @@ static int32_t any_number(int32_t usual) {
     return below(8) == 0 ? odd[below(7)] : below(usual);
 }
 
-/* The last calls of a place of the table overwrite its former handle without an end: what is left is cleared up after the sequence. */
+/* Writes a random command to the memory of a slot. */
 static void write_command(int place) {
     enum command command = commands[below((int)(sizeof commands / sizeof commands[0]))];
-    /* So many lines. */
+    /* The log has room for this number of lines. */
     int32_t words[] = {(int32_t)command, command == LOG ? below(100) : any_number(100000)};
     if (memories[place].address != NULL && memories[place].capacity >= (int32_t)sizeof words) {
         memcpy(memories[place].address, words, sizeof words);
@@ -54,7 +54,7 @@ static void release(int place) {
 }
 
 static void acquire(int place) {
-    /* Its slot would be nobody's. */
+    /* Otherwise the slot would leak. */
     if (memories[place].address != NULL) release(place);
     clk_memory memory = {.size = sizeof memory};
     clk_slot slot;
@@ -69,7 +69,7 @@ static void grow(int place) {
     clk_memory memory = {.size = sizeof memory};
     if (clk_slot_grow(any_handle(slots), any_number(200000), any_number(1000), &memory) == CLK_OK) {
         for (int i = 0; i < HANDLES; i++) {
-            /* Which one it was: the address of the others stays. */
+            /* Updates the address of the slot that grew. */
             clk_memory same = {.size = sizeof same};
             if (memories[i].address != NULL && clk_slot_grow(slots[i], 1, 0, &same) == CLK_OK) memories[i] = same;
         }
@@ -100,7 +100,7 @@ static void call(int place) {
     check_answer(code, &given);
 }
 
-static void ask(void) {
+static void query(void) {
     char text[64];
     int32_t level;
     int32_t capacity = below((int)sizeof text + 1);
@@ -122,7 +122,7 @@ static void run_sequence(uint64_t seed) {
             case 2: release(place); break;
             case 3: open(place); break;
             case 4: clk_session_close(any_handle(sessions), LIMIT_MS); break;
-            case 5: ask(); break;
+            case 5: query(); break;
             default: call(place); break;
         }
     }
@@ -140,7 +140,7 @@ static void run_sequence(uint64_t seed) {
 static void warm_up(void) {
     clk_session session;
     start_plain();
-    /* The answers of control have a slot of their own from the first call on. */
+    /* The first call of control acquires a slot for its answers. */
     CHECK_OK(open_session(&session));
     CHECK_OK(clk_session_close(session, LIMIT_MS));
 }
@@ -161,7 +161,7 @@ void fuzz(void) {
     uint64_t count = 0;
     warm_up();
     for (; now_ns() < end; count++) {
-        /* What a crash leaves of it. */
+        /* Shows the seed after a crash. */
         printf("\rseed %llu", (unsigned long long)(first + count));
         fflush(stdout);
         run_sequence(first + count);

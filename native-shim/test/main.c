@@ -48,14 +48,14 @@ void check_code(const char *file, int line, const char *call, int32_t expected, 
         if (mention != NULL) printf("%s: %s\n", clk_error_name(got), text);
         return;
     }
-    snprintf(what, sizeof what, "%s gave %s instead of %s%s%s", call, clk_error_name(got), clk_error_name(expected),
+    snprintf(what, sizeof what, "%s returned %s instead of %s%s%s", call, clk_error_name(got), clk_error_name(expected),
              mention != NULL ? " with " : "", mention != NULL ? mention : "");
     fail(file, line, what);
 }
 
-/* ---- Places ---------------------------------------------------------------------------------------------------------- */
+/* ---- Paths ---------------------------------------------------------------------------------------------------------- */
 
-/* The variable CLK_TEST_JAVA_HOME in UTF-8; NULL without one. */
+/* Returns the variable CLK_TEST_JAVA_HOME in UTF-8, or NULL if it is not set. */
 static const char *named_java_home(void) {
 #if defined(_WIN32)
     static char home[4096];
@@ -157,7 +157,7 @@ int32_t step(clk_session session, enum command command, int32_t argument, int32_
     return clk_step(session, request, 0, 8, limit_ms, &answer);
 }
 
-/* ---- Small things ---------------------------------------------------------------------------------------------------- */
+/* ---- Utilities ---------------------------------------------------------------------------------------------------- */
 
 /* SplitMix64 */
 uint64_t random_next(void) {
@@ -177,7 +177,7 @@ int64_t now_ns(void) {
 
 void sleep_ms(int ms) { nanosleep(&(struct timespec){.tv_nsec = ms * 1000000L}, NULL); }
 
-/* Processor time of this process; clock() measures the wall's on Windows. */
+/* Returns the processor time of this process; on Windows, clock() measures wall time. */
 static int64_t processor_ms(void) {
 #if defined(_WIN32)
     FILETIME started, ended, kernel, user;

@@ -1,4 +1,4 @@
-/* Each case is a process of its own: `shim_test CASE`. Its name is the specification; a CHECK that fails ends it. */
+/* Each case runs in a separate process: `shim_test CASE`. Its name is the specification; a failed CHECK ends it. */
 #ifndef COLLEKTIVE_TEST_H
 #define COLLEKTIVE_TEST_H
 
@@ -15,13 +15,13 @@
 #define CHECK_CODE(code, mention, call) check_code(__FILE__, __LINE__, #call, code, mention, call)
 #define CHECK_OK(call) CHECK_CODE(CLK_OK, NULL, call)
 
-/* Ends a case that this platform, or this JVM, has no place for. */
+/* Skips a case that this platform or JVM does not support. */
 _Noreturn void skip(const char *reason);
 
 _Noreturn void fail(const char *file, int line, const char *what);
 void check_code(const char *file, int line, const char *call, int32_t expected, const char *mention, int32_t got);
 
-/* The JVM under test, the classes of the test host, and those of a host that does not fit. */
+/* The JVM under test, the classes of the test host, and those of an incompatible host. */
 const char *java_home(void);
 bool java_is_17(void);
 extern const char *const host_classes;
@@ -35,7 +35,7 @@ void make_folder(const char *folder, const char *name);
 /* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
 int32_t start(const char *const *options);
 int32_t check(const char *const *options);       /* the same checks without the start */
-int32_t check_texts(const char *const *options); /* without the try in a child process, too */
+int32_t check_texts(const char *const *options); /* also without the child process */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
 void start_plain(void);
 

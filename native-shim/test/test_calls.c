@@ -114,8 +114,8 @@ void session_handles(void) {
     CHECK_CODE(CLK_HANDLE, NULL, clk_session_close(UINT64_MAX, 1000));
     CHECK_CODE(CLK_HANDLE, "slot 0x0", clk_step(first, 0, 0, 8, 1000, &answer));
     CHECK_OK(clk_session_close(first, 1000));
-    CHECK_CODE(CLK_HANDLE, "closed already", clk_session_close(first, 1000));
-    CHECK_CODE(CLK_HANDLE, "closed already", step(first, EMPTY, 0, 1000));
+    CHECK_CODE(CLK_HANDLE, "already closed", clk_session_close(first, 1000));
+    CHECK_CODE(CLK_HANDLE, "already closed", step(first, EMPTY, 0, 1000));
     CHECK_OK(open_session(&second));
     CHECK(second != first);
     CHECK_CODE(CLK_HANDLE, NULL, step(first, EMPTY, 0, 1000));

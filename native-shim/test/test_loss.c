@@ -70,10 +70,10 @@ void waiting_callers_learn_of_the_loss(void) {
     CHECK(now_ns() - begin < 40000000000);
 }
 
-/* ---- Faults: the host process has handlers of its own ---------------------------------------------------------------- */
+/* ---- Faults: the process has its own handlers ---------------------------------------------------------------- */
 
 #if defined(_WIN32)
-/* As Mono's: it knows the faults of its own memory and passes on all others. */
+/* Like Mono's handler: handles faults in its own memory and passes on all others. */
 static char *guarded;
 
 static LONG CALLBACK on_fault(EXCEPTION_POINTERS *exception) {
@@ -112,7 +112,7 @@ __attribute__((no_sanitize("address", "undefined"))) static void fault(void) {
     static int *volatile nowhere = NULL;
     if (sigsetjmp(recover, 1) == 0) {
         *(volatile int *)nowhere = 1;
-        fail(__FILE__, __LINE__, "the fault was not noticed");
+        fail(__FILE__, __LINE__, "the fault was not handled");
     }
 }
 #endif
@@ -129,7 +129,7 @@ void implicit_null_checks_and_host_faults(void) {
     }
 }
 
-/* The process has no handler of its own here: HotSpot would offer the crash to that one first. */
+/* Without catch_faults: HotSpot would pass the crash to the process's handler first. */
 void crash_loses_the_jvm(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, "it aborted", step(session, CRASH, 0, 60000));
@@ -141,7 +141,7 @@ void signal_handlers_are_repaired(void) { skip("Windows has no signal handlers")
 
 void fork_loses_the_jvm(void) { skip("Windows has no fork"); }
 
-void stop_while_the_start_hangs(void) { skip("Windows has no pipes among the files, on which a start would hang"); }
+void stop_while_the_start_hangs(void) { skip("Windows has no named pipes in the file system, on which a start would hang"); }
 #else
 void signal_handlers_are_repaired(void) {
     struct sigaction before, now;
@@ -152,7 +152,7 @@ void signal_handlers_are_repaired(void) {
     catch_faults();
     CHECK_OK(open_session(&other));
     CHECK(sigaction(SIGSEGV, NULL, &now) == 0 && now.sa_sigaction == before.sa_sigaction && (now.sa_flags & SA_ONSTACK) != 0);
-    CHECK(stats().signal_repairs == 1 && log_mentions("put back"));
+    CHECK(stats().signal_repairs == 1 && log_mentions("restored"));
     CHECK_OK(open_session(&other));
     CHECK(stats().signal_repairs == 1);
     catch_faults();
@@ -182,19 +182,19 @@ void fork_loses_the_jvm(void) {
     CHECK_OK(step(session, EMPTY, 0, 60000));
 }
 
-/* JNI_CreateJavaVM hangs: it opens a pipe that nobody reads. */
+/* JNI_CreateJavaVM hangs because it opens a pipe without a reader. */
 void stop_while_the_start_hangs(void) {
     char pipe[128], log[192];
     snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());
     snprintf(log, sizeof log, "-Xlog:gc:file=%s", pipe);
     CHECK(mkfifo(pipe, 0600) == 0);
     CHECK_CODE(CLK_TIMEOUT, NULL, start_at(java_home(), host_classes, (const char *const[]){log, NULL}, false, 1000));
-    CHECK_CODE(CLK_JVM_LOST, "did not come up within 1000 ms", clk_jvm_stop(1000));
+    CHECK_CODE(CLK_JVM_LOST, "did not start within 1000 ms", clk_jvm_stop(1000));
 }
 
 #endif
 
-/* ---- The end in order ------------------------------------------------------------------------------------------------ */
+/* ---- Orderly stop ------------------------------------------------------------------------------------------------ */
 
 void stop_ends_all(void) {
     clk_session other;
@@ -219,10 +219,10 @@ static void *stop_in_a_thread(void *unused) {
 
 void stop_waits_while_another_writes_its_classes(void) {
     char option[128], base[4096];
-    if (java_is_17()) skip("Java 17 has no such option");
+    if (java_is_17()) skip("Java 17 lacks -XX:+AutoCreateSharedArchive");
     snprintf(base, sizeof base, "%s/" PRIM_LIBJVM, java_home());
     snprintf(strrchr(base, '/'), sizeof "/classes.jsa", "/classes.jsa");
-    if (access(base, F_OK) != 0) skip("this JVM has no archive of its own classes, and so makes none");
+    if (access(base, F_OK) != 0) skip("this JVM has no default class archive, so it does not create one");
     const char *folder = scratch_folder();
     pthread_t stopping;
     snprintf(option, sizeof option, "-XX:SharedArchiveFile=%s/classes.jsa", folder);
@@ -270,12 +270,12 @@ void stop_after_a_hang(void) {
     catch_faults(); /* threads stop at a fault that only HotSpot's handler understands */
     int64_t begin = now_ns();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
-    CHECK(now_ns() - begin < 900000000); /* halted, not given up */
+    CHECK(now_ns() - begin < 900000000); /* halted, not timed out */
     CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
     CHECK(now_ns() - begin < 1800000000);
 }
 
-/* The heap has no room for another thread, and the collector does not rest. */
+/* The heap has no room for another thread, and the collector runs continuously. */
 void stop_while_the_heap_is_full(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, THRASH, 0, 5000));

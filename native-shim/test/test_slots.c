@@ -30,7 +30,7 @@ void slot_handles(void) {
     CHECK_CODE(CLK_HANDLE, NULL, clk_slot_release(first + ((uint64_t)1 << 32)));
     CHECK_CODE(CLK_HANDLE, NULL, clk_slot_release(first + 1));
     CHECK_OK(clk_slot_release(first));
-    CHECK_CODE(CLK_HANDLE, "released already", clk_slot_release(first));
+    CHECK_CODE(CLK_HANDLE, "already released", clk_slot_release(first));
     CHECK_CODE(CLK_HANDLE, NULL, clk_slot_grow(first, 100, 0, &memory));
     CHECK_OK(clk_slot_acquire(100, &second, &memory));
     CHECK(second != first);

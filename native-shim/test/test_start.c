@@ -24,7 +24,7 @@ static void write_file(const char *folder, const char *name, const char *text, m
     CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, mode) == 0);
 }
 
-/* A home with the real JVM's lib folder and nothing else. */
+/* Makes a home with only the real JVM's lib folder. */
 static const char *make_home_with_lib(void) {
 #if defined(_WIN32)
     skip("a JVM without its bin/java.exe: its libraries are in bin, and symbolic links are for administrators only");
@@ -55,7 +55,7 @@ void home_missing(void) {
 void home_is_a_file(void) {
     char path[4096];
     snprintf(path, sizeof path, "%s/release", java_home());
-    CHECK_CODE(CLK_JVM_NOT_FOUND, "is no folder", start_home(path));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "is not a folder", start_home(path));
     check_start_still_works();
 }
 
@@ -100,13 +100,13 @@ void home_of_another_platform(void) {
 void home_with_a_broken_libjvm(void) {
     const char *home = make_broken_home();
     write_file(home, "lib/modules", "", 0644);
-    CHECK_CODE(CLK_JVM_NOT_FOUND, "; the JVM must be one for " PRIM_PLATFORM, start_home(home));
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "; install a JVM for " PRIM_PLATFORM, start_home(home));
     check_start_still_works();
 }
 
 #if defined(_WIN32)
-/* As another program does that opens a file for itself. */
-static void *withhold(const char *folder, const char *name) {
+/* Opens the file exclusively, as another program could. */
+static void *block_reading(const char *folder, const char *name) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     HANDLE file = CreateFileA(path, GENERIC_READ, 0, NULL, OPEN_EXISTING, 0, NULL);
@@ -114,17 +114,17 @@ static void *withhold(const char *folder, const char *name) {
     return file;
 }
 
-static void give_back(void *file) { CloseHandle(file); }
+static void unblock_reading(void *file) { CloseHandle(file); }
 #else
-/* Nobody may read it; this process may be of root's, who may read all. */
-static void *withhold(const char *folder, const char *name) {
+/* Removes the permissions of a file, and drops root privileges: root can read everything. */
+static void *block_reading(const char *folder, const char *name) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     CHECK(chmod(path, 0) == 0 && (geteuid() != 0 || setreuid(65534, (uid_t)-1) == 0));
     return NULL;
 }
 
-static void give_back(void *file) {
+static void unblock_reading(void *file) {
     (void)file;
     CHECK(geteuid() != 0 || setreuid(0, (uid_t)-1) == 0);
 }
@@ -136,19 +136,19 @@ void files_that_cannot_be_read(void) {
     write_file(home, "lib/modules", "", 0644);
     write_file(home, "host.jar", "", 0644);
     snprintf(path, sizeof path, "%s/host.jar", home);
-    void *library = withhold(home, PRIM_LIBJVM);
-    CHECK_CODE(CLK_JVM_NOT_FOUND, PRIM_LIBJVM " cannot be read; " PRIM_READ_ADVICE, start_home(home));
-    give_back(library);
-    void *jar = withhold(home, "host.jar");
-    CHECK_CODE(CLK_HOST, "host.jar of the host's class path cannot be read; " PRIM_READ_ADVICE,
+    void *library = block_reading(home, PRIM_LIBJVM);
+    CHECK_CODE(CLK_JVM_NOT_FOUND, PRIM_LIBJVM "; " PRIM_READ_ADVICE, start_home(home));
+    unblock_reading(library);
+    void *jar = block_reading(home, "host.jar");
+    CHECK_CODE(CLK_HOST, "host.jar on the host's class path; " PRIM_READ_ADVICE,
                start_at(java_home(), path, NULL, true, 60000));
-    give_back(jar);
+    unblock_reading(jar);
     check_start_still_works();
 }
 
 void home_without_java_command(void) {
     CHECK_OK(start_home(make_home_with_lib()));
-    CHECK(log_mentions("not tried before the start"));
+    CHECK(log_mentions("not checked before the start"));
 }
 
 void class_path_missing(void) {
@@ -159,7 +159,7 @@ void class_path_missing(void) {
 }
 
 #if defined(_WIN32)
-/* No code page but UTF-8 has both characters. */
+/* Only the UTF-8 code page has both characters. */
 void class_path_beyond_ascii(void) {
     char path[4096];
     if (GetACP() == CP_UTF8) skip("this Windows uses UTF-8 as its code page, which has all characters");
@@ -167,7 +167,7 @@ void class_path_beyond_ascii(void) {
     wchar_t wide[4096];
     MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 4096);
     CHECK(_wmkdir(wide) == 0);
-    CHECK_CODE(CLK_HOST, "the code page of Windows cannot express", start_at(java_home(), path, NULL, true, 60000));
+    CHECK_CODE(CLK_HOST, "the Windows code page cannot encode", start_at(java_home(), path, NULL, true, 60000));
     CHECK_CODE(CLK_JVM_NOT_FOUND, "is missing", start_home(path));
     check_start_still_works();
 }
@@ -197,9 +197,9 @@ void class_path_without_host(void) {
 }
 
 void class_path_with_misfit(void) {
-    CHECK_CODE(CLK_HOST, "lacks an entry", start_at(java_home(), misfit_classes, NULL, true, 60000));
+    CHECK_CODE(CLK_HOST, "lacks a method", start_at(java_home(), misfit_classes, NULL, true, 60000));
     check_lost();
-    check_threads_stand_still(); /* clk_jvm_stop halted the misfit's */
+    check_threads_stand_still(); /* clk_jvm_stop halted the thread of the misfit */
 }
 
 /* ---- Options --------------------------------------------------------------------------------------------------------- */
@@ -229,16 +229,16 @@ void options_refused_by_text(void) {
     };
     /* clang-format on */
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        CHECK_CODE(CLK_JVM_OPTIONS, "refused", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
+        CHECK_CODE(CLK_JVM_OPTIONS, "is not allowed", start_at(java_home(), host_classes, OPTIONS(refused[i]), false, 60000));
     }
     check_start_still_works();
 }
 
-/* What was tried to get past the check of the debugger's options, and what is allowed. */
+/* Attempts to bypass the check of the debugger options, and the allowed forms. */
 void options_of_debuggers(void) {
     static const struct {
         const char *list;
-        const char *fault; /* NULL: allowed */
+        const char *problem; /* NULL: allowed */
     } tried[] = {
         {"transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005", NULL},
         {"transport=dt_socket,server=y,suspend=n,quiet=y,timeout=100,address=localhost:5005", NULL},
@@ -255,7 +255,7 @@ void options_of_debuggers(void) {
         {"server=y,suspend=n,address=127.0.0.1:5005,address=*:5005", "use address=127.0.0.1:PORT"},
         {"server=y,suspend=n,address=127.0.0.1.example.org:5005", "use address=127.0.0.1:PORT"},
         {"server=y,suspend=n,address=localhost.example.org:5005", "use address=127.0.0.1:PORT"},
-        {"transport=dt_other,server=y,suspend=n,address=127.0.0.1:5005", "transport dt_socket"},
+        {"transport=dt_other,server=y,suspend=n,address=127.0.0.1:5005", "transport=dt_socket"},
         {"server=y,suspend=n,address=127.0.0.1:5005,onthrow=java.lang.Error,launch=/bin/ls", "are allowed"},
         {"server=y,suspend=n,address=127.0.0.1:5005,onuncaught=y,launch=/bin/ls", "are allowed"},
         {"server=y,suspend=n,address=127.0.0.1:5005,logfile=/x", "are allowed"},
@@ -267,7 +267,7 @@ void options_of_debuggers(void) {
         for (size_t agent = 0; agent < sizeof agents / sizeof agents[0]; agent++) {
             char option[256];
             snprintf(option, sizeof option, "%s%s", agents[agent], tried[i].list);
-            CHECK_CODE(tried[i].fault == NULL ? CLK_OK : CLK_JVM_OPTIONS, tried[i].fault, check_texts(OPTIONS(option)));
+            CHECK_CODE(tried[i].problem == NULL ? CLK_OK : CLK_JVM_OPTIONS, tried[i].problem, check_texts(OPTIONS(option)));
         }
     }
     CHECK_CODE(CLK_JVM_OPTIONS, "add suspend=n", check_texts(OPTIONS("-agentlib:jdwp")));
@@ -338,7 +338,7 @@ void refusals_are_cut_at_a_character(void) {
 }
 
 void option_that_ends_the_jvm(void) {
-    CHECK_CODE(CLK_JVM_OPTIONS, "before it is up", start(OPTIONS("-Xlog:help")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "during its start", start(OPTIONS("-Xlog:help")));
     check_start_still_works();
 }
 
@@ -349,7 +349,7 @@ void refused_start_may_be_repeated(void) {
 
 void check_starts_nothing(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "-Xmx64q", check(OPTIONS("-Xmx64q")));
-    CHECK_CODE(CLK_JVM_OPTIONS, "refused", check(OPTIONS("-XX:-UseSignalChaining")));
+    CHECK_CODE(CLK_JVM_OPTIONS, "is not allowed", check(OPTIONS("-XX:-UseSignalChaining")));
     CHECK_OK(check(OPTIONS("-Xmx64m")));
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
     /* A configuration that passed is not tried again. */
@@ -370,7 +370,7 @@ void check_while_a_jvm_runs(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m")));
 }
 
-/* A home whose java command makes the file bin/java.running and does not end. */
+/* Makes a home whose java command creates bin/java.running and runs for 30 s. */
 static const char *make_home_with_slow_java(void) {
     const char *home = make_home_with_lib();
     make_folder(home, "bin");
@@ -408,7 +408,7 @@ void check_writes_no_archive(void) {
     snprintf(automatic, sizeof automatic, "-XX:SharedArchiveFile=%s/classes.jsa", folder);
     CHECK_OK(check(OPTIONS("-Xmx64m", at_exit)));
     CHECK(access(strchr(at_exit, '=') + 1, F_OK) != 0);
-    if (java_is_17()) return; /* which has no such option */
+    if (java_is_17()) return; /* Java 17 lacks the option */
     CHECK_OK(check(OPTIONS("-Xmx64m", "-XX:+AutoCreateSharedArchive", automatic)));
     CHECK(access(strchr(at_exit, '=') + 1, F_OK) != 0);
 }
@@ -474,7 +474,7 @@ void environment_is_ignored(void) {
     CHECK(strcmp(getenv("JAVA_TOOL_OPTIONS"), "-XX:+NoSuchOption") == 0 && strcmp(getenv("JDK_JAVA_OPTIONS"), "-version") == 0);
 }
 
-/* ---- Which start counts ---------------------------------------------------------------------------------------------- */
+/* ---- Repeated starts ---------------------------------------------------------------------------------------------- */
 
 void second_start(void) {
     char text[4096];

@@ -66,7 +66,7 @@ def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, t
     code, text = start(platform, str(home))
     print(text)
     assert code == 1
-    assert "the code page of Windows cannot express" in text and FOREIGN in text and "use a path of plain ASCII" in text
+    assert "the Windows code page cannot encode" in text and FOREIGN in text and "use an ASCII path" in text
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform != "win-x64"])
@@ -76,4 +76,4 @@ def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(pl
     assert start(platform, str(home), LC_ALL="C.UTF-8")[0] == 0
     code, text = start(platform, str(home), LC_ALL="C")
     assert code == 1
-    assert "the locale of the process cannot express" in text and "set LC_ALL=C.UTF-8" in text
+    assert "the locale of the process cannot encode" in text and "set LC_ALL=C.UTF-8" in text

@@ -152,7 +152,7 @@ final class Host {
         try {
             for (;;) hoard.add(new byte[size]);
         } catch (OutOfMemoryError full) {
-            // the heap is full, as wanted
+            // the heap is full, as intended
         }
     }
 
@@ -198,7 +198,7 @@ final class Host {
         return deeper(depth + 1) + 1;
     }
 
-    /** Null checks that compiled code leaves to SIGSEGV. */
+    /** Runs null checks that compiled code implements by SIGSEGV. */
     private static long implicitNulls(int rounds, ByteBuffer answer) {
         Session[] sessions = {new Session(), null};
         int caught = 0;
