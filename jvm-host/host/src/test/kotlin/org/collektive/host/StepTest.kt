@@ -186,7 +186,7 @@ class StepTest {
             "recurse" to "java.lang.StackOverflowError: the recursion does not end [node 2 at deeper > deeper > ",
             "memory" to "java.lang.OutOfMemoryError",
             "exit" to "java.lang.SecurityException: System.exit is refused",
-            "null" to "the result is null",
+            "null" to "the program returned null",
             "surrogate" to "text holds half a surrogate pair",
             "share-view" to "a probe.SensorData is a view of this tick's memory",
             "keep-view" to "a probe.SensorData is a view of this tick's memory",
@@ -271,7 +271,7 @@ class StepTest {
             sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop"))
         }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(endless.bytes(), limitMillis = 300))
-        assertContains(shim.error, "tick 2: rounds did not finish within the limit")
+        assertContains(shim.error, "tick 2: rounds did not finish within the time limit")
         assertTrue(shim.logs.any { "in the round of node 2" in it.second })
         assertTrue(shim.logs.any { "probe.Programs.probe(Programs.java:" in it.second })
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(2).bytes()))
@@ -294,8 +294,8 @@ class StepTest {
             },
         )
         val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
-            Triple(-12, "tick 2: node 7 cannot be removed: there is none") { removed = listOf(7) },
-            Triple(-12, "tick 2: due node 7: there is no such node") { due = listOf(7) },
+            Triple(-12, "tick 2: node 7 cannot be removed: unknown node") { removed = listOf(7) },
+            Triple(-12, "tick 2: due node 7: unknown node") { due = listOf(7) },
             Triple(-12, "sensor data of 1 nodes, but 2 are due") {
                 due = listOf(1, 2)
                 sensors = listOf(Step.Sensor(1))
@@ -311,7 +311,7 @@ class StepTest {
             assertContains(shim.error, message)
         }
         assertEquals(-12, session.step(Step(3).bytes()))
-        assertContains(shim.error, "tick 3: tick 2 must come next")
+        assertContains(shim.error, "tick 3: expected tick 2")
         assertEquals(2, session.ok(Step(2)).nodeCount())
     }
 

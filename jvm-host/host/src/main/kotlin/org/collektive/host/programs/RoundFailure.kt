@@ -1,6 +1,6 @@
 package org.collektive.host.programs
 
-import org.collektive.engine.UnusableAnswer
+import org.collektive.engine.InvalidAnswerException
 
 /** Describes the failure of a round to the program's author: one line, then the stack frames in the user's code. */
 internal object RoundFailure {
@@ -23,12 +23,12 @@ internal object RoundFailure {
     private fun lineWithPlace(failure: Throwable, place: String?): String {
         val line = line(failure)
         // An answer is packed after the program has returned, and errors of the runtime already contain their place.
-        return if (place == null || failure is UnusableAnswer || place in line) line else "$line [$place]"
+        return if (place == null || failure is InvalidAnswerException || place in line) line else "$line [$place]"
     }
 
     private fun line(failure: Throwable): String {
         val text = when {
-            failure is UnusableAnswer -> failure.message.orEmpty()
+            failure is InvalidAnswerException -> failure.message.orEmpty()
 
             failure is StackOverflowError -> "$failure: the recursion does not end"
 
