@@ -187,9 +187,9 @@ class StepTest {
             "memory" to "java.lang.OutOfMemoryError",
             "exit" to "java.lang.SecurityException: System.exit is refused",
             "null" to "the program returned null",
-            "surrogate" to "text holds half a surrogate pair",
-            "share-view" to "a probe.SensorData is a view of this tick's memory",
-            "keep-view" to "a probe.SensorData is a view of this tick's memory",
+            "surrogate" to "text contains an unpaired surrogate",
+            "share-view" to "a probe.SensorData is a view of the frame's memory",
+            "keep-view" to "a probe.SensorData is a view of the frame's memory",
         )
         val session = session(program = "probe")
         session.ok(

@@ -61,7 +61,7 @@ internal class Difference(private val whose: String, private val field: String, 
         }
     }
 
-    /** A `StepRequest`, converted to objects and trees. */
+    /** A `StepRequest`, converted to objects and reflection. */
     private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
         companion object {
             /** Reads [bytes]; `null` when they are damaged: a record may contain a frame that the host refused. */
