@@ -239,7 +239,7 @@ class StepTest {
     }
 
     @Test
-    fun `without memory for the answer the session fails with a message that says so`() {
+    fun `without memory for the answer the session fails with a clear message`() {
         val session = session(program = "probe")
         session.ok(
             Step(1).apply {
@@ -301,7 +301,7 @@ class StepTest {
                 sensors = listOf(Step.Sensor(1))
             },
             Triple(-12, "tick 2: the time is NaN") { time = Double.NaN },
-            Triple(-14, "node 3 wants the program 'smu', which is in none of the jars") { added = listOf(Step.Added(3, "smu")) },
+            Triple(-14, "node 3: unknown program 'smu'; the jars contain") { added = listOf(Step.Added(3, "smu")) },
             Triple(-14, "node 3 sets the parameter 'speed', which program 'sum' does not declare") {
                 added = listOf(Step.Added(3, "sum", mapOf("speed" to "1")))
             },
@@ -319,7 +319,7 @@ class StepTest {
     fun `each node may have its own program`() {
         val session = session(program = "")
         assertEquals(HostError.PROGRAM.code.toLong(), session.step(Step(1).apply { added = nodes(1) }.bytes()))
-        assertContains(shim.error, "node 1 names no program, and the session has none either")
+        assertContains(shim.error, "node 1 has no program, and the session has no default program; set one of them")
         val answers = session.answers(
             session.ok(
                 Step(1).apply {

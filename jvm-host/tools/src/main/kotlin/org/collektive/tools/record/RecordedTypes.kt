@@ -8,7 +8,7 @@ import org.collektive.host.programs.JarBytes
 import java.nio.ByteBuffer
 
 /**
- * Reads the user data of a record by the binary schema in its jars. Runs no code of the jars: a record may come from anybody.
+ * Reads the user data of a record with the binary schema in its jars. Does not run the code of the jars, because records are untrusted.
  *
  * @throws MalformedFrameException when the schema is damaged.
  */
@@ -19,15 +19,15 @@ internal class RecordedTypes(private val reflection: ReflectionReader, namespace
     private val globals = if (reflection.defines(globalType)) reflection.table(globalType) else null
     private val checker = FrameChecker(FramePolicy.USER_DATA)
 
-    /** The sensor data of the table `Sensors` at [position] of [frame], by node. */
+    /** Returns the sensor data of the table `Sensors` at [position] of [frame], by node. */
     fun sensors(frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> =
         sensors.read(frame, position, count, node)
 
-    /** The actuator data of the table `Actuators` at [position] of [frame], by node. */
+    /** Returns the actuator data of the table `Actuators` at [position] of [frame], by node. */
     fun actuators(frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> =
         actuators.read(frame, position, count, node)
 
-    /** The `GlobalData` at [position] of [frame]; `null` when there is none. */
+    /** Returns the `GlobalData` at [position] of [frame], or `null` if it is absent. */
     fun globals(frame: ByteBuffer, position: Int): Any? {
         if (position == 0 || globals == null) return null
         checker.check(frame, position, globals)
@@ -41,21 +41,21 @@ internal class RecordedTypes(private val reflection: ReflectionReader, namespace
             if (position == 0) return emptyMap()
             reader.attach(frame, position)
             reader.check()
-            if (reader.size != count) throw MalformedFrameException("there are data of ${reader.size} nodes for $count")
+            if (reader.size != count) throw MalformedFrameException("the data has ${reader.size} elements for $count nodes")
             return (0 until count).associate { node(it) to reflection.read(type, frame, reader.place(it)) }
         }
     }
 
     companion object {
         /**
-         * The types of the [schema] in one of the [jars].
+         * Returns the types of the [schema], which one of the [jars] contains.
          *
-         * @throws RecordRefused when none has them, or they are damaged.
+         * @throws RecordRefused when they are missing or damaged.
          */
         fun of(schema: String, jars: List<JarBytes>): RecordedTypes {
             val entry = ReflectionReader.entry(schema)
             val binary = jars.firstNotNullOfOrNull { it.entry(entry) }
-                ?: throw RecordRefused("none of ${jars.map(JarBytes::path)} holds $entry: generate the code of the schema anew")
+                ?: throw RecordRefused("none of ${jars.map(JarBytes::path)} contains $entry: generate the code of the schema again and rebuild the jar")
             return try {
                 RecordedTypes(ReflectionReader(binary), schema.substringBeforeLast('.'))
             } catch (e: MalformedFrameException) {
