@@ -5,7 +5,7 @@ of a scenario writes, or "Record" in the Simulation Manager's settings.
 --runtime runs the record on the other runtime, collektive with the jars in --runtime-jars. Each runtime has its own compiler, so the programs
 must be others too: a jar, or a folder of Kotlin with its schema, which is compiled here, for collektive with --runtime-plugin.
 
-Exit code: 0 every digest is that of the record; 1 a digest differs; 2 the record or a jar cannot be used, or not to its end."""
+Exit code: 0 all digests equal the record; 1 a digest differs; 2 the record or a jar cannot be used, or not to its end."""
 import argparse
 import os
 from pathlib import Path

@@ -32,7 +32,7 @@ class Messages(Project):
 
     def test_programs_without_a_mark_are_told_how_to_mark_them(self) -> None:
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
-        self.assertIn('they have no program at all: mark its function with @Program("brightest")', last_error(self.run_it()))
+        self.assertIn('the jars contain no programs: annotate the function with @Program("brightest")', last_error(self.run_it()))
 
     def test_an_error_in_a_schema_has_its_place_at_the_front(self) -> None:
         self.change("light.fbs", "brightness: float;", "brightness: flaot;")
@@ -100,7 +100,7 @@ class Messages(Project):
         self.change("programs/Brightest.kt", "brightest = best", "brightest = best + 1")
         changed = collektive("replay", record, "--programs", programs, "--schema", schema)
         self.assertEqual(changed.returncode, 1)
-        self.assertIn("tick 1 is the first that differs", changed.stdout)
+        self.assertIn("tick 1 is the first difference", changed.stdout)
         for arguments, words in [((), "name its schema"), (("--schema", os.path.join(ROOT, "nowhere.fbs")), "name its schema")]:
             result = collektive("replay", record, "--programs", programs, *arguments)
             self.assertEqual(result.returncode, 2)

@@ -41,7 +41,7 @@ class Records(Project):
     def test_a_replay_proves_every_digest_without_unity_or_the_jar(self) -> None:
         result = collektive("replay", self.a)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("10 ticks replayed, every digest is that of the record", result.stdout)
+        self.assertIn("10 ticks replayed, all digests equal the record", result.stdout)
         self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
         self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
 
@@ -51,7 +51,7 @@ class Records(Project):
         jar = self.programs_jar()
         result = collektive("replay", self.a, "--programs", jar)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertRegex(result.stdout, r"tick \d+ is the first that differs.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
+        self.assertRegex(result.stdout, r"tick \d+ is the first difference.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
 
     def test_two_runs_are_compared(self) -> None:
         self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
@@ -85,7 +85,7 @@ class Records(Project):
         result = collektive("replay", self.a)
         self.assertEqual(result.returncode, 2)
         self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
-        self.assertIn("9 ticks replayed, every digest is that of the record", result.stdout)
+        self.assertIn("9 ticks replayed, all digests equal the record", result.stdout)
 
     def test_what_is_no_record_is_refused(self) -> None:
         for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:

@@ -84,8 +84,8 @@ class Runtimes(Project):
         self.assertIn(f"digest {b['digest']} (runtime Collektive)\n", second.stdout)
         compared = collektive("diff", self.path("a", "run.clkrec"), self.path("b", "run.clkrec"))
         self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
-        self.assertIn("on two runtimes: the built-in runtime in A, the Collektive runtime in B", compared.stdout)
-        self.assertIn("10 ticks, and none differs", compared.stdout)
+        self.assertIn("different runtimes: the built-in runtime in A, the Collektive runtime in B", compared.stdout)
+        self.assertIn("10 ticks without a difference", compared.stdout)
         repeated = collektive("repeat", self.path("b", "manifest.json"))
         self.assertEqual(repeated.returncode, 0, repeated.stderr)
 
@@ -100,7 +100,7 @@ class Runtimes(Project):
                     "--runtime-plugin", self.path("project", "plugin.jar"), "--out", self.path("b.clkrec")]
         replayed = collektive("replay", record, *other, *programs)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
-        self.assertIn("10 ticks replayed, every digest is that of the record", replayed.stdout)
+        self.assertIn("10 ticks replayed, all digests equal the record", replayed.stdout)
         self.assertIn("(Collektive runtime)", replayed.stdout)
         compared = collektive("diff", record, self.path("b.clkrec"))
         self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
@@ -109,7 +109,7 @@ class Runtimes(Project):
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         stranger = collektive("replay", self.path("b.clkrec"), "--programs", self.collektive_jar())
         self.assertEqual(stranger.returncode, 2, stranger.stdout)
-        self.assertIn("names the jars of its runtime", stranger.stderr)
+        self.assertIn("uses the runtime jars in", stranger.stderr)
 
     def test_an_error_of_a_round_names_node_and_place(self) -> None:
         self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')
@@ -135,7 +135,7 @@ class Runtimes(Project):
         marked = self.collektive_jar()
         os.remove(self.jar("stdlib"))
         self.use_jar(marked)
-        self.refused("programs.jar was compiled with other jars than those of the Collektive runtime of " + self.path("project", "collektive"))
+        self.refused("programs.jar was compiled with different jars than those of the Collektive runtime of " + self.path("project", "collektive"))
 
         # A jar of another tool has no mark.
         repack(marked, self.path("project", "programs.jar"), lambda name: name != "META-INF/MANIFEST.MF")
@@ -147,11 +147,11 @@ class Runtimes(Project):
 
         with open(self.jar("dsl"), "wb") as file:
             file.write(b"no jar")
-        self.refused("dsl.jar cannot be read", "replace it by a good one")
+        self.refused("dsl.jar cannot be read", "replace it with a valid copy")
 
         os.remove(self.jar("dsl"))
         os.remove(self.jar("stdlib"))
-        self.refused("there is no jar in " + self.path("project", "collektive"), "dsl and stdlib")
+        self.refused("folder " + self.path("project", "collektive") + " contains no jar", "dsl and stdlib")
 
     def test_a_plugin_that_is_none_or_does_not_fit_the_compiler_is_named(self) -> None:
         self.switch()

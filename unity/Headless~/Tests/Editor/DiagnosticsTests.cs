@@ -283,7 +283,7 @@ namespace Collektive.Headless.Tests.Editor
                 Assert.That(Project.Revealed, Is.EqualTo(Recorder.Folder));
                 Gui.Act("Recording settings", "fastest");
                 Gui.Act("Start Recording", true);
-                Inspect(inspector, "help Error: flight recording: there are no settings 'fastest'; there are default, profile and the paths of .jfc files");
+                Inspect(inspector, "help Error: flight recording: unknown settings 'fastest'; use default, profile or the path of a .jfc file");
             }
             finally
             {

@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests
             JvmRecording.Start(Path.Combine(folder, "a.jfr"), "fastest");
             Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("no settings 'fastest'"));
             JvmRecording.Stop();
-            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("none runs"));
+            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("no recording is running"));
             Assert.Throws<ArgumentException>(() => JvmRecording.Start(" "));
         }
 

@@ -1,6 +1,6 @@
 package org.collektive.api
 
-/** The parameters that a program declares, by name, with one node's values. Immutable; safe on any thread. */
+/** One node's values of the parameters that its program declares. Immutable and thread-safe. */
 public class Parameters(values: Map<String, String>) {
     private val names = values.keys.toTypedArray()
     private val texts = values.values.toTypedArray()
@@ -9,14 +9,14 @@ public class Parameters(values: Map<String, String>) {
     private val numbers = Array(texts.size) { texts[it].toDoubleOrNull() }
 
     /**
-     * The text of the parameter [name].
+     * Returns the text of the parameter [name].
      *
-     * @throws NoSuchElementException when the program declares no such parameter; so do [double], [int] and [boolean].
+     * @throws NoSuchElementException when the program does not declare the parameter; [double], [int] and [boolean] throw it, too.
      */
     public operator fun get(name: String): String = texts[indexOf(name)]
 
     /**
-     * The parameter [name] as a number.
+     * Returns the parameter [name] as a number.
      *
      * @throws IllegalArgumentException when its text is not a number.
      */
@@ -26,18 +26,18 @@ public class Parameters(values: Map<String, String>) {
     }
 
     /**
-     * The parameter [name] as a whole number.
+     * Returns the parameter [name] as an integer.
      *
-     * @throws IllegalArgumentException when its text is not a whole number in the range of [Int].
+     * @throws IllegalArgumentException when its text is not an integer in the range of [Int].
      */
     public fun int(name: String): Int {
         val number = double(name)
-        require(number == number.toInt().toDouble()) { "parameter '$name' must be a whole number, but is '${get(name)}'" }
+        require(number == number.toInt().toDouble()) { "parameter '$name' must be an integer, but is '${get(name)}'" }
         return number.toInt()
     }
 
     /**
-     * The parameter [name] as a switch.
+     * Returns the parameter [name] as a boolean.
      *
      * @throws IllegalArgumentException when its text is neither `true` nor `false`.
      */
@@ -46,7 +46,7 @@ public class Parameters(values: Map<String, String>) {
 
     private fun indexOf(name: String): Int {
         val index = names.indexOf(name)
-        if (index < 0) throw NoSuchElementException("the program declares no parameter '$name', only ${names.asList()}")
+        if (index < 0) throw NoSuchElementException("unknown parameter '$name'; the program declares ${names.asList()}")
         return index
     }
 }

@@ -9,7 +9,7 @@ package org.collektive.api
  * ```
  * The parameter `device` is optional. `SensorData` and `ActuatorData` are generated from the project's schema.
  *
- * @property name the name that scenes and scenarios use; unique among the session's jars.
+ * @property name the name in scenes and scenarios; unique among the session's jars.
  * @property parameters the settings that each node may override.
  */
 @Target(AnnotationTarget.FUNCTION)
@@ -21,8 +21,8 @@ public annotation class Program(val name: String, val parameters: Array<Paramete
  * A setting of a program; each node may override its value.
  *
  * @property name unique in its program.
- * @property default the value, as text, of nodes that do not override it.
- * @property description one line for the inspector: meaning, unit, range.
+ * @property default the value of nodes that do not override it, as text.
+ * @property description one line for the inspector with meaning, unit and range.
  */
 @Target()
 @Retention(AnnotationRetention.RUNTIME)

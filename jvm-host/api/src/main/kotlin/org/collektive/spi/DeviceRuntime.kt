@@ -1,26 +1,26 @@
 package org.collektive.spi
 
-/** Runs the rounds of one device by an implementation of the Collektive API. Confined to one thread at a time. */
+/** Runs the rounds of one device on an implementation of the Collektive API. Not thread-safe: call it from one thread at a time. */
 public interface DeviceRuntime {
     /**
      * Runs one round of [program] and returns its result. Does not change the device's state and messages: [commit] does.
      *
      * @param inbox the links into this device.
      * @param sensors passed on to [program].
-     * @throws Throwable whatever [program] throws.
+     * @throws Throwable the exception that [program] throws.
      */
     public fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any?
 
-    /** Number of values that the last round sends: one per path, even without neighbours. Walks all paths; avoid it in every round. */
+    /** Number of values that the last round sends, one per path, even without neighbours. Expensive: walks all paths. */
     public val exports: Int
 
-    /** The place where the last round failed with [failure], such as `node 3 at helper > share (Swarm.kt:12)`; `null` when unknown. */
+    /** Returns the place where the last round failed with [failure], such as `node 3 at helper > share (Swarm.kt:12)`, or `null` if unknown. */
     public fun placeOf(failure: Throwable): String?
 
     /**
      * Makes the state of the last round current and returns the export of that round.
      *
-     * The export stays readable until the first [round] after the next [commit], and beyond that while it is [held][Export.hold].
+     * The export stays readable until the first [round] after the next [commit], or longer while it is [held][Export.hold].
      */
     public fun commit(): Export
 }
@@ -30,13 +30,13 @@ public interface Inbox {
     /** Number of links. */
     public val size: Int
 
-    /** The senders' ids; its length is [size]. Shared: nobody may change the array. */
+    /** The senders' ids; its length is [size]. Shared: do not modify the array. */
     public val ids: Array<Any>
 
-    /** The last export that arrived on link [index]; `null` before the first one, and once it has expired. */
+    /** Returns the last export that arrived on link [index], or `null` before the first one and after it has expired. */
     public fun export(index: Int): Export?
 
-    /** Whether link [index] existed when its export was sent; if not, the receiver reads the export's default. */
+    /** Returns whether link [index] existed when its export was sent. If not, the receiver reads the export's default. */
     public fun wasKnown(index: Int): Boolean
 }
 
@@ -46,20 +46,21 @@ public fun interface RoundProgram {
     public fun run(aggregate: Any, sensors: Any?): Any?
 }
 
-/** Makes the devices of one session and owns the state that they share. */
+/** Creates the devices of one session and owns the state that they share. */
 public interface DeviceRuntimes {
-    /** Makes a device without state; [id] is 0 or greater. */
+    /** Creates a device without state; [id] is 0 or greater. */
     public fun device(id: Int): DeviceRuntime
 
     /**
-     * Frees shared state that none of [devices] uses; [devices] are all devices of the session. Call it only while no round runs. Cheap
-     * when there is nothing to free.
+     * Frees the shared state that none of [devices], all devices of the session, uses any more.
+     *
+     * Call it only while no round runs. Cheap if nothing can be freed.
      */
     public fun tidy(devices: List<DeviceRuntime>)
 }
 
-/** Decides which values must not outlive a round. Safe on any thread. */
+/** Decides which values must not outlive a round. Thread-safe. */
 public fun interface SharingRule {
-    /** The reason why [value] must not be shared, stored or used as a pivot; `null` when it may. */
+    /** Returns why [value] must not be shared, stored or used as a pivot, or `null` if it may. */
     public fun refusal(value: Any?): String?
 }

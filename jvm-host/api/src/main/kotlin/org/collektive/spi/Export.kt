@@ -5,29 +5,29 @@ import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 /**
  * The messages of one device's round to all its neighbours. Receivers read it in place, on any thread.
  *
- * The device reuses it for another round once a later export has replaced it and nobody holds it.
+ * The device reuses it for a later round once another export has replaced it and it is not held.
  */
 public abstract class Export protected constructor() {
     @Volatile
     private var holders = 0
 
-    /** The tick in which it was sent. The engine sets it before it publishes the export to neighbours. */
+    /** The tick in which the export was sent. The engine sets it before neighbours can read the export. */
     public var tick: Long = 0
 
-    /** Whether a holder still prevents its reuse. */
+    /** Whether a holder still prevents the reuse of this export. */
     public val isHeld: Boolean get() = holders > 0
 
-    /** Prefetches what neighbours will read into the CPU cache. The result only keeps the JIT from removing the reads. */
+    /** Prefetches the data that neighbours read into the CPU cache. The result only keeps the JIT from removing the reads. */
     public open fun touch(): Int = 0
 
-    /** Prevents the reuse of this export until [release]. Each holder calls it once. */
+    /** Prevents the reuse of this export until the matching [release]. */
     public fun hold() {
         HOLDERS.incrementAndGet(this)
     }
 
     /** Ends one [hold]. */
     public fun release() {
-        check(HOLDERS.decrementAndGet(this) >= 0) { "an export was released more often than held" }
+        check(HOLDERS.decrementAndGet(this) >= 0) { "export released more often than held" }
     }
 
     private companion object {

@@ -1,10 +1,10 @@
 package org.collektive.spi
 
-/** An implementation of the Collektive API. The host finds it by `ServiceLoader` among the library jars of a session. */
+/** An implementation of the Collektive API. The host finds it with `ServiceLoader` in the library jars of a session. */
 public interface RuntimeProvider {
     /** Its name in settings, manifests and records. */
     public val name: String
 
-    /** Makes the devices of one session; [rule] says what its programs must not share. */
+    /** Creates the devices of one session; [rule] rejects values that its programs must not share. */
     public fun runtimes(rule: SharingRule): DeviceRuntimes
 }

@@ -8,7 +8,7 @@ class ParametersTest {
     private val parameters = Parameters(mapOf("step" to "1.5", "count" to "3", "loud" to "true", "name" to "x"))
 
     @Test
-    fun `a value is read as text, number, whole number or switch`() {
+    fun `a value is read as text, number, integer or boolean`() {
         assertEquals("1.5", parameters["step"])
         assertEquals(1.5, parameters.double("step"))
         assertEquals(3, parameters.int("count"))
@@ -18,7 +18,7 @@ class ParametersTest {
     @Test
     fun `an unknown name throws, and the message lists the known names`() {
         val error = assertFailsWith<NoSuchElementException> { parameters["stpe"] }
-        assertEquals("the program declares no parameter 'stpe', only [step, count, loud, name]", error.message)
+        assertEquals("unknown parameter 'stpe'; the program declares [step, count, loud, name]", error.message)
     }
 
     @Test
@@ -28,7 +28,7 @@ class ParametersTest {
             assertFailsWith<IllegalArgumentException> { parameters.double("name") }.message,
         )
         assertEquals(
-            "parameter 'step' must be a whole number, but is '1.5'",
+            "parameter 'step' must be an integer, but is '1.5'",
             assertFailsWith<IllegalArgumentException> { parameters.int("step") }.message,
         )
         assertEquals(

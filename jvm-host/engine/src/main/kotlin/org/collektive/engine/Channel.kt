@@ -2,18 +2,18 @@ package org.collektive.engine
 
 import org.collektive.spi.Export
 
-/** One link under a network model: the messages in flight, and the one received. Confined to one thread at a time. */
+/** The messages of one link under a network model: those in flight, and the one received. Not thread-safe. */
 internal class Channel {
     /** The message received last; `null` once it has expired. */
-    var held: Export? = null
+    var received: Export? = null
         private set
 
-    /** Tick in which the newest message received was sent; 0 before the first. */
-    var heldAt = 0L
+    /** Tick in which the newest received message was sent; 0 before the first. */
+    var receivedTick = 0L
         private set
 
-    /** Tick of the last message that this link took from its sender; 0 before the first. */
-    var takenAt = 0L
+    /** Tick of the last message that entered this link; 0 before the first. */
+    var lastSentTick = 0L
 
     private var validUntil = 0.0
 
@@ -36,8 +36,8 @@ internal class Channel {
         arrivals[count++] = arrival
     }
 
-    /** Receives all messages due by [now], in simulated seconds. Of these and [held], it keeps the one sent last. */
-    fun arrive(now: Double, retention: Double) {
+    /** Receives all messages due by [now], in simulated seconds. Of these and [received], keeps the one sent last. */
+    fun receiveDue(now: Double, retention: Double) {
         var index = 0
         while (index < count) {
             if (arrivals[index] > now) {
@@ -45,10 +45,10 @@ internal class Channel {
                 continue
             }
             val export = exports[index]
-            if (sentAt[index] > heldAt) {
-                held?.release()
-                held = export
-                heldAt = sentAt[index]
+            if (sentAt[index] > receivedTick) {
+                received?.release()
+                received = export
+                receivedTick = sentAt[index]
                 validUntil = arrivals[index] + retention
             } else {
                 export?.release()
@@ -61,18 +61,18 @@ internal class Channel {
         }
     }
 
-    /** Drops the held message if it expired before [now], in simulated seconds. Returns whether it did. */
+    /** Drops the received message if it expired before [now], in simulated seconds. Returns whether it did. */
     fun expire(now: Double): Boolean {
-        val export = held
+        val export = received
         if (export == null || validUntil >= now) return false
         export.release()
-        held = null
+        received = null
         return true
     }
 
     /** Releases all messages. Call it when the link is removed. */
     fun close() {
-        held?.release()
+        received?.release()
         for (index in 0 until count) exports[index]?.release()
     }
 

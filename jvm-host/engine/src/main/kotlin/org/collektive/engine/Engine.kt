@@ -9,9 +9,9 @@ import org.collektive.spi.DeviceRuntimes
  * Call it from one thread at a time; rounds run on the engine's own threads. In steady state the engine allocates nothing per tick.
  */
 public class Engine(private val settings: EngineSettings, private val runtimes: DeviceRuntimes) : AutoCloseable {
-    // Declared before `nodes`, so that garbage collectors reach the nodes in this order.
-    private val order = BreadthFirst()
-    private val nodes = Peers()
+    // Declared before `nodes`, because garbage collectors follow the fields in this order.
+    private val order = RoundOrder()
+    private val nodes = NodeList()
     private val validator = TickValidator(nodes)
     private val result = TickResult()
     private val isSequential = settings.schedule == Schedule.SEQUENTIAL
@@ -26,13 +26,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         override fun get(index: Int) = nodes.node(index).runtime
     }
 
-    // Starts threads, so it comes last.
+    // Initialised last, because it starts threads.
     private val pool = RoundPool(if (isSequential) 1 else settings.threads)
 
     /** The last tick whose changes were applied; 0 before the first. */
     public val lastTick: Long get() = clock.tick
 
-    /** Announces a tick, so that the threads wake up while its frame is read. */
+    /** Wakes the round threads before a tick, so that they are ready when its frame has been read. */
     public fun wake() {
         pool.wake()
     }
@@ -40,13 +40,13 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     /**
      * Applies the changes of [tick], then runs one round of each due node.
      *
-     * A round that throws fails alone: its node keeps the state and messages of its last successful round.
+     * An exception fails only its own round: the node keeps the state and messages of its last successful round.
      *
-     * @param data source and sink of the rounds; called on the threads that run them.
-     * @param deadline limit for all rounds, on the clock of `System.nanoTime()`.
+     * @param data reads the sensor data and packs the answers; called on the threads that run the rounds.
+     * @param deadline time limit of all rounds, on the clock of `System.nanoTime()`.
      * @return the outcome, valid until the next call.
-     * @throws TickRefused when the tick breaks a rule; nothing has changed.
-     * @throws RoundsNotFinished when rounds still run at the deadline; from then on this engine can only be closed.
+     * @throws TickRefused when the tick is invalid; nothing has changed.
+     * @throws RoundsNotFinished when rounds still run at the deadline; the engine must then be closed.
      */
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
@@ -129,7 +129,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         order.linkChanged()
     }
 
-    private fun existing(id: Int): Node = nodes.find(id) ?: error("node $id vanished after validation")
+    private fun existing(id: Int): Node = nodes.find(id) ?: error("node $id is missing after validation")
 
     private fun findDue(tick: Tick) {
         val due = tick.due
@@ -140,7 +140,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
-    /** Index of the due node that runs as number [turn]; in id order under the sequential schedule. */
+    /** Returns the index of the due node whose round is number [turn]. The sequential schedule runs them in id order. */
     private fun indexOf(turn: Int) = if (isSequential) turn else turns[turn]
 
     private fun runRounds(data: RoundData, deadline: Long) {
@@ -149,7 +149,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         result.countFailures()
     }
 
-    /** Moves sent messages to the links. In an ideal network receivers read exports directly, so this only counts. */
+    /** Moves sent messages to the links. In an ideal network, receivers read exports directly, so this only counts messages. */
     private fun deliver(deadline: Long) {
         val counts = result.network
         if (settings.network.isIdeal) {
@@ -173,7 +173,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         for (index in begin until end) {
             if (pool.isClosed) return
             val incoming = nodes.node(index).incoming
-            incoming.take(transmitters[worker])
+            incoming.collect(transmitters[worker])
             incoming.advance(transmitters[worker])
         }
     }
@@ -181,7 +181,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun <T> runOnPool(task: RoundPool.Task<T>, input: T, count: Int, deadline: Long) {
         val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
         if (pool.run(task, input, count, range, deadline)) return
-        // Abandons the pool even if there is no memory for the dump.
+        // Abandons the pool even if memory is too low for the dump.
         val dump = try {
             pool.dump()
         } finally {
@@ -191,12 +191,12 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     private fun runRange(data: RoundData, thread: RoundThread, worker: Int, begin: Int, end: Int) {
-        var touched = begin
+        var prefetched = begin
         for (turn in begin until end) {
             if (pool.isClosed) return
-            if (turn == touched && !isSequential) {
-                touched = minOf(turn + TOUCHED_TOGETHER, end)
-                thread.touched += order.touch(turn, touched)
+            if (turn == prefetched && !isSequential) {
+                prefetched = minOf(turn + PREFETCHED_ROUNDS, end)
+                thread.prefetched += order.prefetch(turn, prefetched)
             }
             val index = indexOf(turn)
             val node = result.node(index)
@@ -204,7 +204,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
             try {
                 result.answered(index, answer(node, data, worker, index))
             } catch (failure: Throwable) {
-                // Everything that a program throws fails its round only, errors of the JVM included.
+                // Any exception of a program, including errors of the JVM, fails only its round.
                 result.failed(index, describe(node, failure))
             }
             thread.end()
@@ -213,35 +213,35 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 
     /** Runs the round of [node] and packs its answer; then commits its state and messages. */
     private fun answer(node: Node, data: RoundData, worker: Int, index: Int): Any {
-        if (isSequential) node.incoming.take(transmitters[worker])
+        if (isSequential) node.incoming.collect(transmitters[worker])
         node.incoming.advance(transmitters[worker])
-        val answer = node.round(data.sensors(worker, index)) ?: throw UnusableAnswer("the result is null")
-        data.pack(worker, index, answer)?.let { throw UnusableAnswer(it) }
+        val answer = node.round(data.sensors(worker, index)) ?: throw InvalidAnswerException("the program returned null")
+        data.pack(worker, index, answer)?.let { throw InvalidAnswerException(it) }
         node.send(node.runtime.commit(), clock.tick, clock.time)
         return answer
     }
 
-    /** Runs on the round's thread, because it may call code of the program's exceptions. */
+    /** Describes [failure] on the round's thread, because this may call user code of the exception. */
     private fun describe(node: Node, failure: Throwable): String = try {
         node.program.describe(failure, node.runtime.placeOf(failure))
     } catch (_: Throwable) {
-        "${failure.javaClass.name} (which cannot be described: its own code fails, or memory is short)"
+        "${failure.javaClass.name} (no details: the exception's own code failed, or memory is exhausted)"
     }
 
     private companion object {
-        // Small ranges balance the threads at the end of a tick; large ones cost fewer atomic operations.
+        // Small ranges balance the threads at the end of a tick; large ranges need fewer atomic operations.
         const val RANGES_PER_THREAD = 32
         const val MIN_RANGE = 16
         const val MAX_RANGE = 128
 
-        // Enough nodes for their cache misses to overlap, few enough for all of them to stay in the L1 cache.
-        const val TOUCHED_TOGETHER = 64
+        // Enough rounds for their cache misses to overlap, but few enough for the L1 cache.
+        const val PREFETCHED_ROUNDS = 64
     }
 }
 
-/** A program's answer cannot be packed; the message says why. */
-public class UnusableAnswer(message: String) : IllegalStateException(message)
+/** Thrown when the answer of a program cannot be written; the message states the reason. */
+public class InvalidAnswerException(message: String) : IllegalStateException(message)
 
-/** Rounds still ran at the deadline; [threads] is a dump of their stacks. */
+/** Thrown when rounds still run at the deadline; [threads] is a dump of their stacks. */
 public class RoundsNotFinished(tick: Long, public val threads: String) :
-    IllegalStateException("tick $tick: rounds did not finish within the limit")
+    IllegalStateException("tick $tick: rounds did not finish within the time limit")

@@ -5,10 +5,10 @@ public enum class Schedule {
     /** All due nodes read the messages of earlier ticks; their rounds run in parallel. */
     LOCKSTEP,
 
-    /** Due nodes run in id order; each reads the messages that earlier ones sent in the same tick. */
+    /** Due nodes run in id order; each also reads the messages that earlier nodes sent in the same tick. */
     SEQUENTIAL,
 
-    /** The caller schedules each node individually; nodes due in one tick behave as under [LOCKSTEP]. */
+    /** The caller schedules each node individually; the nodes due in one tick behave as under [LOCKSTEP]. */
     ASYNCHRONOUS,
 }
 
@@ -27,7 +27,7 @@ public class EngineSettings(
     public val network: NetworkModel = NetworkModel(),
 ) {
     init {
-        require(threads in 1..MAX_THREADS) { "threads must be 1..$MAX_THREADS, but is $threads" }
+        require(threads in 1..MAX_THREADS) { "the number of threads must be 1..$MAX_THREADS, but is $threads" }
     }
 
     private companion object {

@@ -3,9 +3,9 @@ package org.collektive.engine
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 
-/** The links into the node [receiver] with their values, in ascending order of the senders' ids. Without channels if [isIdeal]. */
+/** The links into the node [receiver], in ascending order of the senders' ids. An ideal network has no channels. */
 internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, private val clock: Clock) :
-    Peers(),
+    NodeList(),
     Inbox {
     private var lengths = FloatArray(keys.size)
     private var attenuations = FloatArray(keys.size)
@@ -13,7 +13,7 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     // Tick at which each link was added.
     private var since = LongArray(keys.size)
 
-    // Last validation that touched each link: see TickValidator.
+    // The last validation that marked each link, see TickValidator.
     private var marks = LongArray(keys.size)
     private var channels = if (isIdeal) null else arrayOfNulls<Channel>(keys.size)
     private var boxedIds: Array<Any>? = NONE
@@ -21,21 +21,21 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     override val ids: Array<Any>
         get() = boxedIds ?: Array<Any>(size) { node(it).boxedId }.also { boxedIds = it }
 
-    override fun export(index: Int): Export? = if (channels == null) node(index).readable(clock.readsBefore) else channel(index).held
+    override fun export(index: Int): Export? = if (channels == null) node(index).readable(clock.readsBefore) else channel(index).received
 
     override fun wasKnown(index: Int): Boolean =
-        since[index] <= if (channels == null) node(index).readable(clock.readsBefore)?.tick ?: 0 else channel(index).heldAt
+        since[index] <= if (channels == null) node(index).readable(clock.readsBefore)?.tick ?: 0 else channel(index).receivedTick
 
-    /** The length of the link [index] in metres. */
+    /** Returns the length of link [index] in metres. */
     fun length(index: Int): Float = lengths[index]
 
-    /** The attenuation of the link [index]. */
+    /** Returns the attenuation of link [index]. */
     fun attenuation(index: Int): Float = attenuations[index]
 
-    /** Takes what senders sent since the last call; a no-op in an ideal network. Call it only while no sender's round runs. */
-    fun take(transmitter: Transmitter) {
+    /** Moves new exports of the senders to the channels; a no-op in an ideal network. Call it only while no sender's round runs. */
+    fun collect(transmitter: Transmitter) {
         if (channels == null) return
-        for (index in 0 until size) if (node(index).sentAt > channel(index).takenAt) take(index, transmitter)
+        for (index in 0 until size) if (node(index).sentAt > channel(index).lastSentTick) collect(index, transmitter)
     }
 
     /** Receives the messages that are due; a no-op in an ideal network. */
@@ -44,16 +44,16 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
         for (index in 0 until size) transmitter.advance(channel(index))
     }
 
-    private fun take(index: Int, transmitter: Transmitter) {
+    private fun collect(index: Int, transmitter: Transmitter) {
         val channel = channel(index)
-        channel.takenAt = node(index).sentAt
+        channel.lastSentTick = node(index).sentAt
         transmitter.send(node(index), receiver, lengths[index], attenuations[index], channel)
     }
 
-    private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel at $index of $size")
+    private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel $index of $size links")
 
     /** See [Export.touch]. */
-    fun touch(): Int = (boxedIds?.size ?: 0) + (if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0)
+    fun prefetch(): Int = (boxedIds?.size ?: 0) + (if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0)
 
     fun mark(index: Int): Long = marks[index]
 
@@ -62,7 +62,7 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     }
 
     /**
-     * Adds or updates the link from [from]. Returns `true` when it is new; it then takes the sender's last message.
+     * Adds or updates the link from [from]. Returns whether it is new; a new link collects the sender's last export.
      *
      * @param hint see [indexOf].
      */
@@ -72,7 +72,7 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
         if (found < 0) insertLink(index, from, tick)
         lengths[index] = length
         attenuations[index] = attenuation
-        if (found < 0 && channels != null) take(index, transmitter)
+        if (found < 0 && channels != null) collect(index, transmitter)
         return found < 0
     }
 

@@ -10,7 +10,7 @@ public class IntList {
     public var size: Int = 0
         private set
 
-    /** The element at [index], which must be below [size]. */
+    /** Returns the element at [index], which must be below [size]. */
     public operator fun get(index: Int): Int = items[index]
 
     /** Appends [value]. */

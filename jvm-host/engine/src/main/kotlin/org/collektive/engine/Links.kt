@@ -5,16 +5,16 @@ public interface Links {
     /** Number of links. */
     public val size: Int
 
-    /** Id of the sender of link [index]. */
+    /** Returns the id of the sender of link [index]. */
     public fun from(index: Int): Int
 
-    /** Id of the receiver of link [index]. */
+    /** Returns the id of the receiver of link [index]. */
     public fun to(index: Int): Int
 
-    /** Length of link [index] in metres, 0 or greater. */
+    /** Returns the length of link [index] in metres, 0 or greater. */
     public fun length(index: Int): Float
 
-    /** Attenuation of link [index], 0 (clear) or greater. */
+    /** Returns the attenuation of link [index], 0 (clear) or greater. */
     public fun attenuation(index: Int): Float
 }
 
@@ -40,7 +40,7 @@ public class LinkList : Links {
     override var size: Int = 0
         private set
 
-    /** Appends a link on which [to] receives what [from] sends: [length] in metres, [attenuation] 0 (clear) or greater. */
+    /** Appends a link from the sender [from] to the receiver [to]: [length] is in metres, [attenuation] 0 (clear) or greater. */
     public fun add(from: Int, to: Int, length: Float, attenuation: Float) {
         if (size == this.from.size) {
             this.from = this.from.copyOf(2 * size)

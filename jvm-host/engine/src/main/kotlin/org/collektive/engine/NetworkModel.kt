@@ -5,7 +5,7 @@ package org.collektive.engine
  * each stays readable until the next one replaces it.
  *
  * A message is lost with probability `loss + lossPerMetre * length + lossPerAttenuation * attenuation` of its link, at most 1. It arrives
- * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a more recent one is ignored.
+ * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a later one is ignored.
  *
  * @property loss base probability of loss, 0..1.
  * @property lossPerMetre additional probability per metre of the link, 0 or greater.
@@ -41,7 +41,7 @@ public class NetworkModel(
     }
 }
 
-/** Counts of the network's events in one tick. */
+/** Counts of the messages of one tick. */
 public class NetworkCounts {
     /** Messages sent: one per link and export. */
     public var sent: Long = 0

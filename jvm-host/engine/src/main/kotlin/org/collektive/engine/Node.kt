@@ -4,7 +4,7 @@ import org.collektive.api.Parameters
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.RoundProgram
 
-/** One node of a session: its links, its exports and what runs its rounds. */
+/** One node of a session: its links, its exports, its program and the runtime that runs it. */
 internal class Node(
     val id: Int,
     val program: NodeProgram,
@@ -17,20 +17,20 @@ internal class Node(
     /** [id], boxed once. */
     val boxedId: Any = id
     val incoming = IncomingLinks(id, isIdeal, clock)
-    val outgoing = Peers()
+    val outgoing = NodeList()
 
     private val device = NodeDevice(this, parameters, clock, seed)
-    private val bound = RoundProgram { aggregate, sensors -> program.round(aggregate, sensors, device) }
+    private val roundProgram = RoundProgram { aggregate, sensors -> program.round(aggregate, sensors, device) }
 
-    /** Tick at which this node was last put in order, and its index among the due nodes. Used by [BreadthFirst]. */
-    var arrangedAt = 0L
+    /** The tick in which this node was last ordered, and its index among the due nodes. Used by [RoundOrder]. */
+    var orderedAt = 0L
     var dueIndex = -1
 
     /** Number of the last validation that removes this node. Used by [TickValidator]. */
     var mark = 0L
 
     /** See [DeviceRuntime.round]. */
-    fun round(sensors: Any?): Any? = runtime.round(incoming, bound, sensors)
+    fun round(sensors: Any?): Any? = runtime.round(incoming, roundProgram, sensors)
 }
 
 /** State that all nodes of a session share. Changes only between rounds. */
@@ -40,6 +40,6 @@ internal class Clock {
     var deltaTime = 0.0
     var globals: Any? = null
 
-    /** Rounds read exports from before this tick; under the sequential schedule it is the next tick, so that they see the current one's. */
+    /** Rounds read exports sent before this tick: the current tick, or the next one under the sequential schedule. */
     var readsBefore = 0L
 }

@@ -3,7 +3,7 @@ package org.collektive.engine
 import org.collektive.api.Parameters
 import kotlin.random.Random
 
-/** What the program of [node] sees of it. */
+/** The [node] as a device, for its program. */
 internal class NodeDevice(private val node: Node, override val parameters: Parameters, private val clock: Clock, seed: Long) : RoundDevice {
     override val id: Int get() = node.id
     override val random: Random = Philox(seed, node.id, purpose = 0)

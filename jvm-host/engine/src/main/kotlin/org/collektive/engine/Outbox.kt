@@ -5,11 +5,11 @@ import org.collektive.spi.Export
 /**
  * The exports of a node's last two successful rounds.
  *
- * Rounds of a tick read the export from before the tick, even while the sender's own round runs or after it: they read one slot, and that
- * round writes the other. This saves a second pass that publishes exports.
+ * Rounds of a tick read the export from before the tick, even during or after the sender's own round: they read one slot while that round
+ * writes the other. This saves a second pass that publishes exports.
  *
- * Threads: one thread at a time calls [send]; any thread may call [readable] meanwhile. Read [last], [sentAt] and [sentTime] only while
- * no round runs.
+ * Thread safety: one thread at a time may call [send], while any thread may call [readable]. Read [last], [sentAt] and [sentTime] only
+ * while no round runs.
  */
 internal abstract class Outbox {
     // Neighbours read only these fields of a node. In a superclass, they are adjacent and share a cache line.
@@ -29,7 +29,7 @@ internal abstract class Outbox {
     /** Tick of [last]; 0 before the first. */
     val sentAt: Long get() = stamp shr 1
 
-    /** Makes [export] the [last] one; [time] is in simulated seconds. */
+    /** Makes [export] the [last] one, sent at [time] in simulated seconds. */
     fun send(export: Export, tick: Long, time: Double) {
         export.tick = tick
         sentTime = time
@@ -37,7 +37,7 @@ internal abstract class Outbox {
         stamp = 2 * tick + (stamp.inv() and 1)
     }
 
-    /** The last export from before [tick], which must be the current tick or the next. */
+    /** Returns the last export from before [tick], which must be the current or the next tick. */
     fun readable(tick: Long): Export? {
         val stamp = stamp
         // Branchless, because a branch predictor cannot guess whether a neighbour has run.
@@ -46,7 +46,7 @@ internal abstract class Outbox {
     }
 
     /** See [Export.touch]. */
-    fun touchExports(): Int = (even?.touch() ?: 0) + (odd?.touch() ?: 0)
+    fun prefetchExports(): Int = (even?.touch() ?: 0) + (odd?.touch() ?: 0)
 
     private fun at(stamp: Long): Export? = if (stamp and 1 == 0L) even else odd
 }

@@ -3,9 +3,9 @@ package org.collektive.engine
 import kotlin.random.Random
 
 /**
- * A random stream of Philox4x32-10 (Salmon et al., SC'11). The C# side implements the same one.
+ * A random stream of Philox4x32-10 (Salmon et al., SC'11). The C# side implements the same stream.
  *
- * The key is [seed]. The counter consists of the number of the block of four words, [node] and [purpose], so streams never overlap. Words
+ * The key is [seed]. The counter consists of the index of the block of four words, [node] and [purpose], so streams never overlap. Words
  * are used in order. Not thread-safe.
  *
  * @param purpose the stream's purpose, 0 for [org.collektive.api.Device.random]; `docs/determinism.md` lists them.
@@ -15,7 +15,7 @@ public class Philox(private val seed: Long, private val node: Int, private val p
     private val words = IntArray(4)
     private var used = 4
 
-    /** The next 32 random bits. */
+    /** Returns the next 32 random bits. */
     override fun nextInt(): Int {
         if (used == 4) {
             words[0] = nextBlock.toInt()
@@ -31,10 +31,10 @@ public class Philox(private val seed: Long, private val node: Int, private val p
 
     override fun nextBits(bitCount: Int): Int = if (bitCount == 0) 0 else nextInt() ushr (32 - bitCount)
 
-    /** The next two words; the first is the high half. */
+    /** Returns the next two words; the first is the high half. */
     override fun nextLong(): Long = nextInt().toLong() shl 32 or (nextInt().toLong() and WORD)
 
-    /** Uniform in [0, 1): the upper 53 bits of [nextLong]. */
+    /** Returns a uniform number in [0, 1) from the upper 53 bits of [nextLong]. */
     override fun nextDouble(): Double = (nextLong() ushr 11) * TWO_TO_MINUS_53
 
     public companion object {
@@ -46,7 +46,7 @@ public class Philox(private val seed: Long, private val node: Int, private val p
         private const val WEYL_0 = -0x61c88647
         private const val WEYL_1 = -0x4498517b
 
-        /** Replaces the four words of [counter] by random ones. */
+        /** Replaces the four words of [counter] with random ones. */
         public fun block(counter: IntArray, key0: Int, key1: Int) {
             var c0 = counter[0]
             var c1 = counter[1]

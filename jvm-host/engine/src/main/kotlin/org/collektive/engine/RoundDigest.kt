@@ -18,7 +18,7 @@ public class RoundDigest {
     private val head = ByteBuffer.wrap(chain).order(ByteOrder.LITTLE_ENDIAN)
     private val staging = ByteBuffer.allocate(STAGING_BYTES).order(ByteOrder.LITTLE_ENDIAN)
 
-    /** First 8 bytes of the chain, little-endian. */
+    /** The first 8 bytes of the chain, little-endian. */
     public val value: Long get() = head.getLong(0)
 
     /** Begins [tick]. */
@@ -27,7 +27,7 @@ public class RoundDigest {
         staging.put(chain).putLong(tick)
     }
 
-    /** Adds the answer of [node]: [length] bytes of [buffer] from [offset] on. */
+    /** Adds the answer of [node]: [length] bytes of [buffer] at [offset]. */
     public fun answer(node: Int, buffer: ByteBuffer, offset: Int, length: Int) {
         header(node, length)
         var done = 0
@@ -46,7 +46,7 @@ public class RoundDigest {
         sha256.update(entries, begin, end - begin)
     }
 
-    /** Adds [node] without an answer: its round failed. */
+    /** Adds the failed round of [node]. */
     public fun failure(node: Int) {
         header(node, -1)
     }

@@ -5,10 +5,10 @@ import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
 
 /**
- * The threads of one session. Call [run] from one thread at a time; it allocates nothing. If a thread cannot start, the others end.
+ * The threads that run the rounds of one session. Call [run] from one thread at a time; it allocates nothing.
  *
- * Threads take work in ranges of indices. Which thread takes which range depends on timing, so a task's results must not depend on the
- * order.
+ * Threads process ranges of indices. The assignment of ranges to threads depends on timing, so the results of a task must not depend on
+ * their order. If a thread cannot start, the others end.
  */
 internal class RoundPool @JvmOverloads constructor(private val size: Int, start: (Thread) -> Unit = Thread::start) {
     /** Processes the indices `begin until end` of [input] on the thread [worker]. */
@@ -19,7 +19,7 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
     private val workers = Array(size) { Worker(it) }
 
     // Start of the next range in each thread's share.
-    private val next = AtomicIntegerArray(size * APART)
+    private val next = AtomicIntegerArray(size * PADDING)
     private val busy = AtomicInteger()
     private var task = Task<Any?> { _, _, _, _, _ -> }
     private var input: Any? = null
@@ -27,7 +27,7 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
     private var range = 1
     private var needed = 0
 
-    // What a task threw. This is a defect of the engine, because tasks catch the exceptions of programs.
+    // The exception of a task: a bug in the engine, because tasks catch the exceptions of programs.
     @Volatile
     private var failure: Throwable? = null
 
@@ -36,7 +36,7 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
 
     // Idle threads spin until this time of System.nanoTime().
     @Volatile
-    private var awakeUntil = System.nanoTime()
+    private var spinUntil = System.nanoTime()
 
     @Volatile
     var isClosed = false
@@ -51,9 +51,9 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
         }
     }
 
-    /** Wakes the threads that the last [run] needed; they spin for up to [WATCH_NANOS] until the next one. */
+    /** Wakes the threads that the last [run] used. They spin for up to [SPIN_NANOS] until the next [run]. */
     fun wake() {
-        awakeUntil = System.nanoTime() + WATCH_NANOS
+        spinUntil = System.nanoTime() + SPIN_NANOS
         for (index in 0 until needed) LockSupport.unpark(workers[index].thread)
     }
 
@@ -64,34 +64,34 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
      */
     fun <T> run(task: Task<T>, input: T, count: Int, range: Int, deadline: Long): Boolean {
         if (count == 0) return true
-        @Suppress("UNCHECKED_CAST") // The task gets no other input.
+        @Suppress("UNCHECKED_CAST") // The task is called only with this input.
         this.task = task as Task<Any?>
         this.input = input
         this.count = count
         this.range = range
         caller = Thread.currentThread()
         needed = minOf(size, (count + range - 1) / range)
-        for (share in 0 until needed) next[share * APART] = beginOf(share)
+        for (share in 0 until needed) next[share * PADDING] = shareBegin(share)
         busy.set(needed)
         for (index in 0 until needed) workers[index].start()
         val begin = System.nanoTime()
         while (busy.get() > 0) {
             val now = System.nanoTime()
             if (deadline - now <= 0) return false
-            // Spin briefly: waking an idle core takes longer than the rounds of a small network.
-            if (now - begin < WATCH_NANOS) Thread.yield() else LockSupport.parkNanos(this, deadline - now)
+            // Spins briefly, because waking an idle core takes longer than the rounds of a small network.
+            if (now - begin < SPIN_NANOS) Thread.yield() else LockSupport.parkNanos(this, deadline - now)
         }
-        failure?.let { throw IllegalStateException("a thread of the engine failed", it) }
+        failure?.let { throw IllegalStateException("an engine thread failed; this is a bug in the engine", it) }
         return true
     }
 
-    /** Ends idle threads, and interrupts busy ones, which end after their round. */
+    /** Ends idle threads and interrupts busy ones, which end after their round. */
     fun abandon() {
         isClosed = true
         for (worker in workers) worker.thread.interrupt()
     }
 
-    /** The stack of each thread, for the log. */
+    /** Returns the stack trace of each thread, for the log. */
     fun dump(): String = buildString {
         for (worker in workers) {
             val thread = worker.thread
@@ -102,45 +102,45 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
         }
     }
 
-    /** Works on the thread's own share, then on the others'. Shares depend on the count alone, so a thread's nodes stay in its cache. */
+    /** Processes the share of this thread, then helps with the others. Equal counts give equal shares, so a thread's nodes stay in its cache. */
     private fun work(worker: Worker) {
         for (turn in 0 until needed) {
             val share = (worker.index + turn) % needed
-            val end = beginOf(share + 1)
+            val end = shareBegin(share + 1)
             while (!isClosed) {
-                val begin = next.getAndAdd(share * APART, range)
+                val begin = next.getAndAdd(share * PADDING, range)
                 if (begin >= end) break
                 task.run(input, worker.thread, worker.index, begin, minOf(begin + range, end))
             }
         }
     }
 
-    private fun beginOf(share: Int): Int = (count.toLong() * share / needed).toInt()
+    private fun shareBegin(share: Int): Int = (count.toLong() * share / needed).toInt()
 
     private inner class Worker(val index: Int) : Runnable {
         val thread = RoundThread("collektive-round-$index", this)
 
         @Volatile
-        private var isWanted = false
+        private var hasWork = false
 
         fun start() {
-            isWanted = true
+            hasWork = true
             LockSupport.unpark(thread)
         }
 
         override fun run() {
             while (!isClosed) {
-                if (!isWanted) {
-                    if (System.nanoTime() - awakeUntil < 0) Thread.yield() else LockSupport.park(this@RoundPool)
+                if (!hasWork) {
+                    if (System.nanoTime() - spinUntil < 0) Thread.yield() else LockSupport.park(this@RoundPool)
                     continue
                 }
-                isWanted = false
+                hasWork = false
                 try {
                     work(this)
                 } catch (e: Throwable) {
                     failure = e
                 }
-                // A program may have left its thread interrupted, which would make park() return at once.
+                // A program may have left the thread interrupted, which would make park() return immediately.
                 Thread.interrupted()
                 if (busy.decrementAndGet() == 0) LockSupport.unpark(caller)
             }
@@ -148,8 +148,8 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
     }
 
     private companion object {
-        // Padding against false sharing, in ints.
-        const val APART = 16
-        const val WATCH_NANOS = 500_000L
+        // Distance between counters in ints, against false sharing.
+        const val PADDING = 16
+        const val SPIN_NANOS = 500_000L
     }
 }

@@ -32,7 +32,7 @@ public class Tick {
     /** Ids of the nodes that run a round, ascending. */
     public val due: IntList = IntList()
 
-    /** The scene's global data from this tick on; `null` leaves them unchanged. */
+    /** The scene's global data, starting with this tick; `null` leaves it unchanged. */
     public var globals: Any? = null
 
     /** Resets everything except [number], [time] and [deltaTime]; keeps the memory. */
@@ -49,5 +49,5 @@ public class Tick {
 /** A node to add; [id] must be unused and 0 or greater. */
 public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
 
-/** A tick breaks a rule. Nothing has changed; [message] names the tick, the id and the value. */
+/** Thrown when a tick is invalid. Nothing has changed; [message] names the tick, the id and the value. */
 public class TickRefused(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

@@ -30,19 +30,19 @@ public class TickResult internal constructor() {
     public var failureCount: Int = 0
         private set
 
-    /** Counts of the network's events. */
+    /** Counts of messages. */
     public val network: NetworkCounts = NetworkCounts()
 
-    /** Id of the due node [index]. */
+    /** Returns the id of the due node [index]. */
     public fun id(index: Int): Int = node(index).id
 
-    /** Program of the due node [index]. */
+    /** Returns the program of the due node [index]. */
     public fun program(index: Int): NodeProgram = node(index).program
 
-    /** The result of the round of the due node [index]; `null` when it failed. */
+    /** Returns the answer of the due node [index], or `null` if its round failed. */
     public fun answer(index: Int): Any? = answers[index]
 
-    /** The reason why the round of the due node [index] failed; `null` on success. */
+    /** Returns why the round of the due node [index] failed, or `null` on success. */
     public fun failure(index: Int): String? = failures[index]
 
     internal fun node(index: Int): Node = nodes[index] ?: error("no due node $index of $size")

@@ -1,11 +1,11 @@
 package org.collektive.engine
 
 /**
- * Checks a whole tick against the current nodes and links, without changing them.
+ * Validates a whole tick against the current nodes and links, without changing them.
  *
- * Removed and updated objects are marked with the number of the validation, so the marks of a refused tick do not affect the next.
+ * Removed and updated objects are marked with the number of the validation, so the marks of a rejected tick do not affect the next one.
  */
-internal class TickValidator(private val nodes: Peers) {
+internal class TickValidator(private val nodes: NodeList) {
     private var validation = 0L
     private val removed get() = 2 * validation
     private val updated get() = 2 * validation + 1
@@ -16,10 +16,14 @@ internal class TickValidator(private val nodes: Peers) {
     private var newLinkCount = 0
     private var places = IntArray(0)
 
-    /** Index of link [index] of the last tick checked among its receiver's incoming links: a hint for [Peers.indexOf]. */
+    /** Returns the position of link [index] of the last tick among its receiver's incoming links: a hint for [NodeList.indexOf]. */
     fun place(index: Int): Int = places[index]
 
-    /** Checks [tick]. @throws TickRefused at the first rule that it breaks. */
+    /**
+     * Validates [tick].
+     *
+     * @throws TickRefused at the first error.
+     */
     fun check(tick: Tick, expectedNumber: Long) {
         validation++
         checkTime(tick, expectedNumber)
@@ -30,11 +34,11 @@ internal class TickValidator(private val nodes: Peers) {
         checkDue(tick)
     }
 
-    /** Whether the last tick checked removes [node]. */
+    /** Returns whether the last validated tick removes [node]. */
     fun removes(node: Node): Boolean = node.mark == removed
 
     private fun checkTime(tick: Tick, expectedNumber: Long) {
-        if (tick.number != expectedNumber) refuse(tick, "tick $expectedNumber must come next")
+        if (tick.number != expectedNumber) refuse(tick, "expected tick $expectedNumber")
         if (!tick.time.isFinite()) refuse(tick, "the time is ${tick.time}; it must be finite")
         if (!(tick.deltaTime >= 0.0) || tick.deltaTime.isInfinite()) {
             refuse(tick, "the delta time is ${tick.deltaTime}; it must be finite and 0 or greater")
@@ -44,7 +48,7 @@ internal class TickValidator(private val nodes: Peers) {
     private fun checkNodesRemoved(tick: Tick) {
         for (index in 0 until tick.nodesRemoved.size) {
             val id = tick.nodesRemoved[index]
-            val node = nodes.find(id) ?: refuse(tick, "node $id cannot be removed: there is none")
+            val node = nodes.find(id) ?: refuse(tick, "node $id cannot be removed: unknown node")
             if (removes(node)) refuse(tick, "node $id is removed twice")
             node.mark = removed
         }
@@ -55,9 +59,9 @@ internal class TickValidator(private val nodes: Peers) {
         if (addedIds.size < addedCount) addedIds = IntArray(2 * addedCount)
         for (index in 0 until addedCount) {
             val id = tick.nodesAdded[index].id
-            if (id < 0) refuse(tick, "node $id cannot be added: ids are 0 or greater")
+            if (id < 0) refuse(tick, "node $id cannot be added: the id must be 0 or greater")
             val existing = nodes.find(id)
-            if (existing != null && !removes(existing)) refuse(tick, "node $id cannot be added: it is there already")
+            if (existing != null && !removes(existing)) refuse(tick, "node $id cannot be added: the id is already in use")
             addedIds[index] = id
         }
         addedIds.sort(0, addedCount)
@@ -71,9 +75,9 @@ internal class TickValidator(private val nodes: Peers) {
         for (index in 0 until list.size / 2) {
             val from = list[2 * index]
             val to = list[2 * index + 1]
-            val links = staying(to)?.incoming
-            val link = if (links == null || staying(from) == null) -1 else links.indexOf(from)
-            if (links == null || link < 0) refuse(tick, "link $from -> $to cannot be removed: there is none")
+            val links = remaining(to)?.incoming
+            val link = if (links == null || remaining(from) == null) -1 else links.indexOf(from)
+            if (links == null || link < 0) refuse(tick, "link $from -> $to cannot be removed: unknown link")
             if (links.mark(link) == removed) refuse(tick, "link $from -> $to is removed twice")
             links.setMark(link, removed)
         }
@@ -92,16 +96,16 @@ internal class TickValidator(private val nodes: Peers) {
         newLinks.sort(0, newLinkCount)
         for (index in 1 until newLinkCount) {
             val key = newLinks[index]
-            if (newLinks[index - 1] == key) refuse(tick, "link ${(key ushr 32).toInt()} -> ${key.toInt()} is made twice")
+            if (newLinks[index - 1] == key) refuse(tick, "link ${(key ushr 32).toInt()} -> ${key.toInt()} is added twice")
         }
     }
 
     private fun checkLink(tick: Tick, from: Int, to: Int, length: Float, attenuation: Float): Int {
         if (from == to) refuse(tick, "node $from cannot be linked to itself")
-        val sender = staying(from)
-        val receiver = staying(to)
-        if (sender == null && !isAdded(from)) refuse(tick, "link $from -> $to: there is no node $from")
-        if (receiver == null && !isAdded(to)) refuse(tick, "link $from -> $to: there is no node $to")
+        val sender = remaining(from)
+        val receiver = remaining(to)
+        if (sender == null && !isAdded(from)) refuse(tick, "link $from -> $to: unknown node $from")
+        if (receiver == null && !isAdded(to)) refuse(tick, "link $from -> $to: unknown node $to")
         if (!(length >= 0f) || length.isInfinite()) {
             refuse(tick, "link $from -> $to has length $length; it must be finite and 0 or greater")
         }
@@ -113,7 +117,7 @@ internal class TickValidator(private val nodes: Peers) {
         if (links == null || existing < 0 || links.mark(existing) == removed) {
             newLinks[newLinkCount++] = from.toLong() shl 32 or to.toLong()
         } else {
-            if (links.mark(existing) == updated) refuse(tick, "link $from -> $to is given twice")
+            if (links.mark(existing) == updated) refuse(tick, "link $from -> $to is updated twice")
             links.setMark(existing, updated)
         }
         return existing
@@ -125,16 +129,16 @@ internal class TickValidator(private val nodes: Peers) {
         var at = 0
         for (index in 0 until tick.due.size) {
             val id = tick.due[index]
-            if (id <= last) refuse(tick, "due node $id comes after $last; due ids must ascend without repetition")
+            if (id <= last) refuse(tick, "due node $id comes after $last; due ids must be in ascending order without duplicates")
             last = id
-            // Both lists ascend, so one walk over the keys finds all, without a cache miss per node.
+            // Both lists are ascending, so one pass over the keys finds all due nodes without a cache miss per node.
             while (at < nodes.size && nodes.keys[at] < id) at++
-            val isStaying = at < nodes.size && nodes.keys[at] == id && !(anyRemoved && removes(nodes.node(at)))
-            if (!isStaying && !isAdded(id)) refuse(tick, "due node $id: there is no such node")
+            val isPresent = at < nodes.size && nodes.keys[at] == id && !(anyRemoved && removes(nodes.node(at)))
+            if (!isPresent && !isAdded(id)) refuse(tick, "due node $id: unknown node")
         }
     }
 
-    private fun staying(id: Int): Node? = nodes.find(id)?.takeUnless(::removes)
+    private fun remaining(id: Int): Node? = nodes.find(id)?.takeUnless(::removes)
 
     private fun isAdded(id: Int) = addedIds.binarySearch(id, 0, addedCount) >= 0
 

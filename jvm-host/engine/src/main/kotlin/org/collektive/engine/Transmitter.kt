@@ -9,7 +9,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
     val counts = NetworkCounts()
     private val words = IntArray(4)
 
-    /** Seconds by which times may differ and still count as equal, because sums of tick lengths are inexact. */
+    /** Seconds by which equal times may differ, because sums of tick lengths are inexact. */
     private val tolerance get() = clock.deltaTime * TOLERANCE
 
     /** Sends the last message of [from] on the [channel] of its link to the node [to]. */
@@ -33,7 +33,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
 
     /** Receives the messages due on [channel], and drops an expired one. */
     fun advance(channel: Channel) {
-        channel.arrive(clock.time + tolerance, model.retention)
+        channel.receiveDue(clock.time + tolerance, model.retention)
         if (channel.expire(clock.time - tolerance)) counts.expired++
     }
 
@@ -41,7 +41,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         ((high.toLong() shl 32 or (low.toLong() and 0xFFFF_FFFFL)) ushr 11) * (1.0 / (1L shl 53))
 
     private companion object {
-        /** Purpose of the random numbers, see `docs/determinism.md`. */
+        /** Purpose of the random stream, see `docs/determinism.md`. */
         const val PURPOSE = 4
         const val TOLERANCE = 1e-3
     }

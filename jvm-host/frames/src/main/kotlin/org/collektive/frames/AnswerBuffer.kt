@@ -4,7 +4,7 @@ import com.google.flatbuffers.FlatBufferBuilder
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
-/** The memory of answers. The implementation owns it. */
+/** Provides the memory of answers, which the implementation owns. */
 public fun interface AnswerSlots {
     /**
      * Grows the buffer of [slot] from [from] to at least [to] bytes, and returns the new one; `null` when memory is exhausted. The old
@@ -13,13 +13,13 @@ public fun interface AnswerSlots {
     public fun grow(slot: Long, from: Int, to: Int): ByteBuffer?
 }
 
-/** Builds an answer in place, in a slot that grows on demand. Confined to one thread at a time. */
+/** Builds an answer in place, in a slot that grows on demand. Not thread-safe. */
 public class AnswerBuffer(private val slots: AnswerSlots) : FlatBufferBuilder.ByteBufferFactory() {
     /** Reused for each answer; owns no memory. */
     public val builder: FlatBufferBuilder = FlatBufferBuilder(EMPTY, this)
     private var slot = 0L
 
-    /** The buffer that holds the answer. Changes when the slot grows. */
+    /** The buffer that contains the answer. Changes when the slot grows. */
     public var memory: ByteBuffer = EMPTY
         private set
 
@@ -30,20 +30,20 @@ public class AnswerBuffer(private val slots: AnswerSlots) : FlatBufferBuilder.By
         builder.init(answer, this)
     }
 
-    /** Ends the answer with the root table [root]. Returns its place in [memory], in bytes: `offset << 32 | length`. */
+    /** Ends the answer with the root table [root]. Returns its position in [memory], in bytes: `offset << 32 | length`. */
     public fun finish(root: Int): Long {
         builder.finish(root)
         val length = builder.offset()
         return (memory.capacity() - length).toLong() shl 32 or length.toLong()
     }
 
-    /** Converts [fromEnd], in bytes from the end of [memory], to a position from its start. */
+    /** Converts a distance [fromEnd] of [memory], in bytes, to a position from its start. */
     internal fun position(fromEnd: Int): Int = memory.capacity() - fromEnd
 
     /** Called by [builder]. */
     override fun newByteBuffer(capacity: Int): ByteBuffer {
         memory = slots.grow(slot, memory.capacity(), capacity)?.order(ByteOrder.LITTLE_ENDIAN)
-            ?: throw OutOfMemoryError("no native memory for an answer of $capacity bytes")
+            ?: throw OutOfMemoryError("cannot allocate native memory for an answer of $capacity bytes")
         return memory
     }
 

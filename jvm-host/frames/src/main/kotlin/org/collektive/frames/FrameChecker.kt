@@ -3,25 +3,25 @@ package org.collektive.frames
 import java.nio.ByteBuffer
 
 /**
- * Verifies a table and everything that it references: every vtable, field, vector and string lies inside the frame, strings are
- * UTF-8, required fields are present. Reading a verified table never throws.
+ * Verifies a table and everything that it references: vtables, fields, vectors and strings lie inside the frame, strings are UTF-8, and
+ * required fields are present. Reading a verified table never throws.
  *
  * Offsets must point forward, and the sizes of all objects together must not exceed the frame's, shared strings excluded where the
  * [policy] allows them. The work is therefore bounded by the frame's size. Objects may overlap as long as others leave bytes unused.
- * Confined to one thread at a time; allocates only the message of an error.
+ * Not thread-safe; allocates only error messages.
  */
 public class FrameChecker(private val policy: FramePolicy) {
     private var frame: ByteBuffer = ByteBuffer.allocate(0)
     private var start = 0L
     private var end = 0L
 
-    /** The frame's size less the sizes of the objects checked so far. Negative only if objects overlap. */
-    private var unclaimed = 0L
+    /** The frame's size minus the sizes of the objects checked so far. Negative only if objects overlap. */
+    private var remainingBytes = 0L
 
-    // Verified vtables: a direct-mapped cache.
-    private val knownTables = Array(KNOWN) { KnownTable() }
+    // A direct-mapped cache of verified vtables.
+    private val verifiedVtables = Array(CACHE_SIZE) { VerifiedVtable() }
 
-    // The path from the outermost table to the field being checked, for messages. An index of -1: the field is no vector.
+    // The path from the outermost table to the current field, for messages. The index is -1 unless the field is a vector.
     private val fields = arrayOfNulls<FieldLayout>(MAX_DEPTH)
     private val indices = IntArray(MAX_DEPTH)
     private var depth = 0
@@ -47,28 +47,28 @@ public class FrameChecker(private val policy: FramePolicy) {
 
     private fun begin(frame: ByteBuffer) {
         this.frame = frame
-        for (known in knownTables) known.forget()
+        for (vtable in verifiedVtables) vtable.invalidate()
         start = frame.position().toLong()
         end = frame.limit().toLong()
-        unclaimed = end - start
+        remainingBytes = end - start
         depth = 0
     }
 
     private fun table(position: Long, layout: TableLayout) {
-        claim(position, OFFSET_BYTES.toLong())
+        consume(position, OFFSET_BYTES.toLong())
         if (depth == MAX_DEPTH) fail("is nested deeper than $MAX_DEPTH tables")
         val vtable = position - frame.getInt(position.toInt())
-        val known = knownTables[(vtable.toInt() ushr 1) and (KNOWN - 1)]
-        if (known.isOf(vtable, layout) && position + known.reach <= end) {
+        val known = verifiedVtables[(vtable.toInt() ushr 1) and (CACHE_SIZE - 1)]
+        if (known.matches(vtable, layout) && position + known.extent <= end) {
             references(position, known)
         } else {
             wholeTable(position, vtable, layout)
-            if (layout.isFlat) known.learn(frame, vtable.toInt(), layout)
+            if (layout.isFlat) known.store(frame, vtable.toInt(), layout)
         }
     }
 
     /** Checks the strings and vectors of a table whose vtable is verified. */
-    private fun references(position: Long, known: KnownTable) {
+    private fun references(position: Long, known: VerifiedVtable) {
         if (known.count == 0) return
         depth++
         for (i in 0 until known.count) {
@@ -105,7 +105,7 @@ public class FrameChecker(private val policy: FramePolicy) {
                     field(field, position + place)
                 }
 
-                field.required -> fail("is required and absent")
+                field.required -> fail("is required but missing")
             }
         }
         depth--
@@ -130,7 +130,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         }
     }
 
-    /** The position to which the offset at [place] leads. */
+    /** Returns the position to which the offset at [place] points. */
     private fun target(place: Long): Long {
         inside(place, OFFSET_BYTES.toLong())
         val offset = frame.getInt(place.toInt())
@@ -141,7 +141,7 @@ public class FrameChecker(private val policy: FramePolicy) {
     /** Checks a vector without its elements. Returns the number of elements. */
     private fun vector(position: Long, elementBytes: Int): Int {
         val count = count(position)
-        claim(position, OFFSET_BYTES + count.toLong() * elementBytes)
+        consume(position, OFFSET_BYTES + count.toLong() * elementBytes)
         return count
     }
 
@@ -154,7 +154,7 @@ public class FrameChecker(private val policy: FramePolicy) {
 
     private fun string(position: Long) {
         val bytes = count(position)
-        if (policy.sharesStrings) inside(position, OFFSET_BYTES + bytes.toLong()) else claim(position, OFFSET_BYTES + bytes.toLong())
+        if (policy.sharesStrings) inside(position, OFFSET_BYTES + bytes.toLong()) else consume(position, OFFSET_BYTES + bytes.toLong())
         if (bytes > policy.maxStringBytes) fail("is a string of $bytes bytes, more than ${policy.maxStringBytes}")
         if (!isUtf8((position + OFFSET_BYTES).toInt(), bytes)) fail("is not UTF-8")
     }
@@ -190,14 +190,14 @@ public class FrameChecker(private val policy: FramePolicy) {
         else -> true
     }
 
-    private fun claim(position: Long, bytes: Long) {
+    private fun consume(position: Long, bytes: Long) {
         inside(position, bytes)
-        unclaimed -= bytes
-        if (unclaimed < 0) fail("shares its bytes with other data")
+        remainingBytes -= bytes
+        if (remainingBytes < 0) fail("overlaps other data")
     }
 
     private fun inside(position: Long, bytes: Long) {
-        if (position < start || position + bytes > end) fail("lies outside of the frame")
+        if (position < start || position + bytes > end) fail("lies outside the frame")
     }
 
     private fun fail(what: String): Nothing {
@@ -211,7 +211,7 @@ public class FrameChecker(private val policy: FramePolicy) {
         const val MAX_DEPTH = 64
 
         /** Must be a power of two. */
-        const val KNOWN = 8
+        const val CACHE_SIZE = 8
         const val VTABLE_HEADER_BYTES = 4L
         const val TABLE_SIZE_ENTRY = 2
         const val USHORT = 0xFFFF

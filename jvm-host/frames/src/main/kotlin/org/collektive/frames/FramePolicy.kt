@@ -3,8 +3,8 @@ package org.collektive.frames
 /**
  * The rules of [FrameChecker] that differ between frames and the user data inside them.
  *
- * @property sharesStrings whether several offsets may lead to the same string.
- * @property maxStringBytes greatest length of a string, in bytes of UTF-8.
+ * @property sharesStrings whether several offsets may point to the same string.
+ * @property maxStringBytes maximum length of a string, in bytes of UTF-8.
  * @property checksTableSize whether the table size in a vtable must cover all fields of its table. Readers do not use that size.
  */
 public enum class FramePolicy(

@@ -10,14 +10,15 @@ import java.nio.ByteOrder
  */
 public fun frameIn(slot: ByteBuffer, offset: Int, length: Int): ByteBuffer {
     if (offset < 0 || length < OFFSET_BYTES || offset.toLong() + length > slot.capacity()) {
-        throw MalformedFrameException("bytes $offset to ${offset.toLong() + length} do not lie in its slot of ${slot.capacity()} bytes")
+        throw MalformedFrameException("bytes $offset to ${offset.toLong() + length} lie outside the slot of ${slot.capacity()} bytes")
     }
     return slot.clear().position(offset).limit(offset + length).order(ByteOrder.LITTLE_ENDIAN)
 }
 
 /**
- * Position of the table or vector that a field of [table] references; 0 when the field is absent. [entry] is the field's place in the
- * vtable, in bytes. The table must have been verified by [FrameChecker].
+ * Returns the position of the table or vector that a field of [table] references, or 0 if the field is absent.
+ *
+ * [entry] is the offset of the field in the vtable, in bytes. [FrameChecker] must have verified the table.
  */
 public fun target(frame: ByteBuffer, table: Int, entry: Int): Int {
     val vtable = table - frame.getInt(table)

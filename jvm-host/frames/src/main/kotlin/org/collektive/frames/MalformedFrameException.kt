@@ -1,7 +1,7 @@
 package org.collektive.frames
 
 /**
- * A frame, or the user data in one, is malformed; [message] names the field. Nothing of the frame was used.
+ * Thrown when a frame, or the user data in it, is malformed. [message] names the field; nothing of the frame has been used.
  *
  * @property tick the tick of the frame if only its user data is malformed; otherwise `null`.
  */

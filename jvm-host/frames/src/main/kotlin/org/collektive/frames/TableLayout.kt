@@ -1,8 +1,10 @@
 package org.collektive.frames
 
 /**
- * The fields of one table, for [FrameChecker]. Generated code builds it: each function adds a field and returns this layout. `entry` is
- * the field's place in the vtable, in bytes. Do not change it once it is in use.
+ * The fields of one table, for [FrameChecker].
+ *
+ * Generated code builds it: each function adds a field and returns this layout. `entry` is the offset of the field in the vtable, in
+ * bytes. Do not add fields once the layout is in use.
  */
 public class TableLayout {
     internal val fields: MutableList<FieldLayout> = ArrayList()
@@ -44,7 +46,7 @@ public class TableLayout {
 
 internal enum class FieldKind { INLINE, STRING, TABLE, VECTOR, STRINGS, TABLES }
 
-/** A field: [bytes] is the size of its value or of one vector element, [layout] that of the table or tables it references. */
+/** A field: [bytes] is the size of its value or of one vector element, [layout] the layout of the tables that it references. */
 internal class FieldLayout(
     val name: String,
     val entry: Int,
@@ -57,5 +59,5 @@ internal class FieldLayout(
     val bytesInTable: Int get() = if (kind == FieldKind.INLINE) bytes else OFFSET_BYTES
 }
 
-/** Size in bytes of an offset, and of the length of a vector. */
+/** Size of an offset, and of the length of a vector, in bytes. */
 public const val OFFSET_BYTES: Int = 4

@@ -17,14 +17,14 @@ import java.lang.management.ManagementFactory
 import java.lang.management.MemoryType
 import java.nio.ByteBuffer
 
-/** Answers `ControlRequest`s: reports the state of the JVM, and starts and stops its flight recording. */
+/** Processes `ControlRequest` frames: reports the state of the JVM, and starts and stops its flight recording. */
 internal class Control(shim: ShimCalls) {
     private var request = ControlRequest()
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val recorder = Recorder(shim)
     private val diagnostics by lazy { ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean::class.java) }
 
-    /** Executes the `ControlRequest` in [frame] and writes the `ControlResponse`. Returns its place, `offset << 32 | length`. */
+    /** Executes the `ControlRequest` in [frame] and writes the `ControlResponse`. Returns its position, `offset << 32 | length`. */
     fun answer(frame: ByteBuffer, slot: Long, answer: ByteBuffer): Long {
         request = reading { controlRequest(frame) }
         record()
@@ -33,7 +33,7 @@ internal class Control(shim: ShimCalls) {
         return buffer.writeControlResponse(state())
     }
 
-    /** Stops a running recording, and waits for its file for at most [limitMillis] milliseconds. */
+    /** Stops a running recording, and waits at most [limitMillis] milliseconds until its file is written. */
     fun close(limitMillis: Int) = recorder.close(limitMillis)
 
     private fun record() {
@@ -43,11 +43,11 @@ internal class Control(shim: ShimCalls) {
             RecordingAction.Start -> recorder.start(request.settings().orEmpty(), path)
             RecordingAction.Dump -> recorder.dump(path)
             RecordingAction.Stop -> recorder.stop()
-            else -> throw HostException(HostError.FRAME, "there is no recording action ${request.recording()}")
+            else -> throw HostException(HostError.FRAME, "unknown recording action ${request.recording()}")
         }
     }
 
-    /** Reads the recorder's state before its other properties: if the state says that an action is over, they show its outcome. */
+    /** Returns the state of the JVM. Reads the recorder's state first: once an action has ended, the other properties have its outcome. */
     private fun state(): JvmState {
         val recording = recorder.state
         val heap = ManagementFactory.getMemoryMXBean().heapMemoryUsage
@@ -70,7 +70,7 @@ internal class Control(shim: ShimCalls) {
         )
     }
 
-    /** The values of the requested flags, without those that this JVM does not have. */
+    /** Returns the values of the requested flags that this JVM has. */
     private fun flags(): Map<String, String> {
         val values = LinkedHashMap<String, String>()
         for (index in 0 until request.flagsLength()) {
@@ -78,7 +78,7 @@ internal class Control(shim: ShimCalls) {
             try {
                 values[name] = diagnostics.getVMOption(name).value
             } catch (_: IllegalArgumentException) {
-                continue // this JVM has no such flag
+                continue // this JVM does not have the flag
             }
         }
         return values

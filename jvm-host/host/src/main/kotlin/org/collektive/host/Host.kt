@@ -18,22 +18,22 @@ import java.util.concurrent.TimeUnit
  * The entry points that the shim calls, always on its engine thread. Times are in milliseconds.
  *
  * [open], [step] and [control] read a request from the bytes `offset until offset + length` of `request`, and write their answer to the
- * buffer `answer` of `slot`. They return the answer's place in bytes, `offset << 32 | length`. On failure they pass the message to
+ * buffer `answer` of `slot`. They return the answer's position in bytes, `offset << 32 | length`. On failure they pass the message to
  * [org.collektive.host.shim.Shim.error] and return a negative code of `CLK_ERRORS`; they never throw. The shim owns all buffers.
  */
 public object Host {
-    /** The shim that the host calls: the native library, unless replaced before [start]. */
+    /** The shim that the host calls; the native library by default. Replace it only before [start]. */
     public var shim: ShimCalls = NativeShim
 
-    // Look-up and removal neither allocate nor load classes, so they work with an exhausted heap.
+    // A list, because its look-up and removal neither allocate nor load classes and so work with an exhausted heap.
     private val sessions = ArrayList<OpenSession>()
     private val control by lazy { Control(shim) }
     private var log: HostLog? = null
 
     /**
-     * Redirects standard output, `java.util.logging` and uncaught exceptions to the shim's log. Call it once, first.
+     * Redirects standard output, `java.util.logging` and uncaught exceptions to the shim's log. Call it once, before all other functions.
      *
-     * @return one line about this host and its JVM.
+     * @return one line that describes this host and its JVM.
      */
     @JvmStatic
     public fun start(): String {
@@ -47,7 +47,7 @@ public object Host {
     public fun open(session: Long, request: ByteBuffer, offset: Int, length: Int, slot: Long, answer: ByteBuffer, limitMillis: Int): Long =
         answering {
             requireLimit(limitMillis)
-            if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is open already")
+            if (indexOf(session) >= 0) throw HostException(HostError.ARGUMENT, "session $session is already open")
             log?.install()
             SessionOpening.open(frame(request, offset, length), shim).orClose { opened ->
                 opened.answerOpen(slot, answer).also { sessions += OpenSession(session, opened) }
@@ -61,11 +61,11 @@ public object Host {
             val begin = System.nanoTime()
             requireLimit(limitMillis)
             val index = indexOf(session)
-            if (index < 0) throw HostException(HostError.HANDLE, "there is no session $session")
+            if (index < 0) throw HostException(HostError.HANDLE, "unknown session $session")
             sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
         }
 
-    /** Answers the `ControlRequest` in [request]. It concerns the JVM, not a session: [session] must be 0. */
+    /** Processes the `ControlRequest` in [request], which concerns the JVM and not a session: [session] must be 0. */
     @JvmStatic
     public fun control(
         session: Long,
@@ -77,11 +77,11 @@ public object Host {
         limitMillis: Int,
     ): Long = answering {
         requireLimit(limitMillis)
-        if (session != 0L) throw HostException(HostError.ARGUMENT, "a control belongs to no session, but names $session")
+        if (session != 0L) throw HostException(HostError.ARGUMENT, "the session of a control request must be 0, but is $session")
         control.answer(frame(request, offset, length), slot, answer)
     }
 
-    /** Closes [session]; does nothing if there is none with this id. */
+    /** Closes [session]. Does nothing if the id is unknown. */
     @JvmStatic
     public fun close(session: Long) {
         val index = indexOf(session)
@@ -90,7 +90,7 @@ public object Host {
     }
 
     /**
-     * Closes all sessions and interrupts the threads that programs started, because the JVM waits for them on exit.
+     * Closes all sessions and interrupts the non-daemon threads that programs started, because the JVM waits for them on exit.
      *
      * @return whether all of them ended within [limitMillis].
      */
@@ -100,19 +100,19 @@ public object Host {
         sessions.clear()
         val deadline = System.nanoTime() + millis(limitMillis)
         control.close(limitMillis)
-        val left = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
-        left.forEach(Thread::interrupt)
-        for (thread in left) {
+        val remaining = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
+        remaining.forEach(Thread::interrupt)
+        for (thread in remaining) {
             val wait = TimeUnit.NANOSECONDS.toMillis(deadline - System.nanoTime())
             if (wait > 0) thread.join(wait)
             if (thread.isAlive) {
                 shim.log(
                     LogLevel.WARNING,
-                    "thread \"${thread.name}\" of a program does not end, and is halted with the JVM",
+                    "thread \"${thread.name}\" of a program did not end within the limit and stops with the JVM; end it when it is interrupted",
                 )
             }
         }
-        return left.none(Thread::isAlive)
+        return remaining.none(Thread::isAlive)
     }
 
     private fun frame(slot: ByteBuffer, offset: Int, length: Int) = reading { frameIn(slot, offset, length) }
@@ -136,7 +136,7 @@ public object Host {
         } catch (e: HostException) {
             e
         } catch (e: Throwable) {
-            // No exception may reach the shim: it gets a code and a message instead.
+            // Exceptions must not reach the shim, which gets a code and a message instead.
             HostException(HostError.JAVA, "unexpected: ${describeSafely(e)}", e)
         }
         shim.error(failure.message.orEmpty())

@@ -42,11 +42,11 @@ class ControlTest {
             HostError.ARGUMENT.code.toLong(),
             Host.control(3, ByteBuffer.allocateDirect(8), 0, 8, 7, ByteBuffer.allocateDirect(8), 1000),
         )
-        assertContains(shim.error, "belongs to no session")
+        assertContains(shim.error, "the session of a control request must be 0")
     }
 
     @Test
     fun `an unknown action is refused`() {
-        assertContains(assertThrows<HostException> { control.ask(recording = 99) }.message.orEmpty(), "no recording action 99")
+        assertContains(assertThrows<HostException> { control.ask(recording = 99) }.message.orEmpty(), "unknown recording action 99")
     }
 }

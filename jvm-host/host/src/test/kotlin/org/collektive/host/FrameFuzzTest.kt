@@ -77,7 +77,7 @@ class FrameFuzzTest {
         val frame = Step(1).bytes()
         for ((offset, length) in listOf(-1 to 8, 0 to frame.capacity() + 1, 4 to frame.capacity(), 0 to 0, Int.MAX_VALUE to 8, 0 to -5)) {
             assertEquals(-12L, session.step(frame, offset = offset, length = length), shim.error)
-            assertContains(shim.error, "do not lie in its slot of ${frame.capacity()} bytes")
+            assertContains(shim.error, "lie outside the slot of ${frame.capacity()} bytes")
             assertEquals(-12L, Host.open(1_000_000, frame, offset, length, 1, ByteBuffer.allocateDirect(64), 1000))
         }
         assertTrue(session.step(frame) >= 0, shim.error)

@@ -53,7 +53,7 @@ class LibraryTest {
 
     @Test
     fun `a jar that was compiled with other jars of the same runtime is refused`() =
-        refused(marked("collektive abc"), AggregateRuntime.Collektive, "was compiled with other jars than those of the Collektive runtime")
+        refused(marked("collektive abc"), AggregateRuntime.Collektive, "was compiled with different jars than those of the Collektive runtime")
 
     @Test
     fun `a jar that was compiled for the session's runtime is accepted`() {
@@ -63,7 +63,7 @@ class LibraryTest {
     }
 
     @Test
-    fun `a jar that links to a class that the library lacks is refused`() {
+    fun `a jar that references a class that is missing in the library is refused`() {
         val other = patched("it/unibo/collektive/aggregate/FieldEntry", "it/unibo/collektive/aggregate/FieldOther")
         refused(other, AggregateRuntime.BuiltIn, "links to it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
         val plugin = patched("it/unibo/collektive/aggregate/FieldEntry", "org/collektive/alignment/ProgramPlacesOf")
@@ -76,7 +76,7 @@ class LibraryTest {
     }
 
     @Test
-    fun `a function that the library lacks costs the round, and the message says why`() {
+    fun `a function that is missing in the library fails the round with the reason`() {
         val session = TestSession(shim)
         check(session.open(listOf(patched("getNeighbors", "getNeighbord"))) >= 0) { shim.error }
         val error = session.errors(session.ok(step(1))).values.first()
@@ -99,7 +99,7 @@ class LibraryTest {
     @Test
     fun `an unknown runtime is refused`() {
         assertEquals(HostError.FRAME.code.toLong(), TestSession(shim).open(runtime = 7))
-        assertContains(shim.error, "there is no aggregate runtime 7")
+        assertContains(shim.error, "unknown aggregate runtime 7")
     }
 
     private fun refused(jar: String, runtime: Int, vararg parts: String) {

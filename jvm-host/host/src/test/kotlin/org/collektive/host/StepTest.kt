@@ -186,10 +186,10 @@ class StepTest {
             "recurse" to "java.lang.StackOverflowError: the recursion does not end [node 2 at deeper > deeper > ",
             "memory" to "java.lang.OutOfMemoryError",
             "exit" to "java.lang.SecurityException: System.exit is refused",
-            "null" to "the result is null",
-            "surrogate" to "text holds half a surrogate pair",
-            "share-view" to "a probe.SensorData is a view of this tick's memory",
-            "keep-view" to "a probe.SensorData is a view of this tick's memory",
+            "null" to "the program returned null",
+            "surrogate" to "text contains an unpaired surrogate",
+            "share-view" to "a probe.SensorData is a view of the frame's memory",
+            "keep-view" to "a probe.SensorData is a view of the frame's memory",
         )
         val session = session(program = "probe")
         session.ok(
@@ -239,7 +239,7 @@ class StepTest {
     }
 
     @Test
-    fun `without memory for the answer the session fails with a message that says so`() {
+    fun `without memory for the answer the session fails with a clear message`() {
         val session = session(program = "probe")
         session.ok(
             Step(1).apply {
@@ -271,7 +271,7 @@ class StepTest {
             sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop"))
         }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(endless.bytes(), limitMillis = 300))
-        assertContains(shim.error, "tick 2: rounds did not finish within the limit")
+        assertContains(shim.error, "tick 2: rounds did not finish within the time limit")
         assertTrue(shim.logs.any { "in the round of node 2" in it.second })
         assertTrue(shim.logs.any { "probe.Programs.probe(Programs.java:" in it.second })
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(2).bytes()))
@@ -294,14 +294,14 @@ class StepTest {
             },
         )
         val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
-            Triple(-12, "tick 2: node 7 cannot be removed: there is none") { removed = listOf(7) },
-            Triple(-12, "tick 2: due node 7: there is no such node") { due = listOf(7) },
+            Triple(-12, "tick 2: node 7 cannot be removed: unknown node") { removed = listOf(7) },
+            Triple(-12, "tick 2: due node 7: unknown node") { due = listOf(7) },
             Triple(-12, "sensor data of 1 nodes, but 2 are due") {
                 due = listOf(1, 2)
                 sensors = listOf(Step.Sensor(1))
             },
             Triple(-12, "tick 2: the time is NaN") { time = Double.NaN },
-            Triple(-14, "node 3 wants the program 'smu', which is in none of the jars") { added = listOf(Step.Added(3, "smu")) },
+            Triple(-14, "node 3: unknown program 'smu'; the jars contain") { added = listOf(Step.Added(3, "smu")) },
             Triple(-14, "node 3 sets the parameter 'speed', which program 'sum' does not declare") {
                 added = listOf(Step.Added(3, "sum", mapOf("speed" to "1")))
             },
@@ -311,7 +311,7 @@ class StepTest {
             assertContains(shim.error, message)
         }
         assertEquals(-12, session.step(Step(3).bytes()))
-        assertContains(shim.error, "tick 3: tick 2 must come next")
+        assertContains(shim.error, "tick 3: expected tick 2")
         assertEquals(2, session.ok(Step(2)).nodeCount())
     }
 
@@ -319,7 +319,7 @@ class StepTest {
     fun `each node may have its own program`() {
         val session = session(program = "")
         assertEquals(HostError.PROGRAM.code.toLong(), session.step(Step(1).apply { added = nodes(1) }.bytes()))
-        assertContains(shim.error, "node 1 names no program, and the session has none either")
+        assertContains(shim.error, "node 1 has no program, and the session has no default program; set one of them")
         val answers = session.answers(
             session.ok(
                 Step(1).apply {

@@ -11,7 +11,7 @@ import kotlin.io.path.createTempDirectory
 import kotlin.io.path.readText
 import kotlin.io.path.writeText
 
-/** Users' jars, generated and compiled as by a user. They are on no class path of the tests. */
+/** Jars of programs, generated and compiled as by a user. They are not on the class path of the tests. */
 @OptIn(ExperimentalPathApi::class)
 internal object ProbeJars {
     private val root = Path.of(System.getProperty("collektive.root"))
@@ -24,7 +24,7 @@ internal object ProbeJars {
     /** A jar with the schema `probe.ProbeSchema` and the programs "sum" and "probe". */
     val programs: Path by lazy { jar("programs", generated, root.resolve("jvm-host/host/src/test/programs")) }
 
-    /** The same schema, and only the program "sum", which does no harm whatever its sensors say. */
+    /** The same schema with only the program "sum", which is harmless for any sensor data. */
     val harmless: Path by lazy {
         val probe = root.resolve("jvm-host/host/src/test/programs/probe/Programs.java").readText()
         val folder = createTempDirectory(work, "harmless")

@@ -10,7 +10,7 @@ import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.ServiceLoader
 
-/** Access to the probe's generated code, which is on no class path of the tests. */
+/** Access to the probe's generated code, which is not on the class path of the tests. */
 internal object ProbeSchema {
     /** Fingerprints as C# sends them. */
     val types: Map<String, Long> by lazy { types("probe.ProbeSchema", ProbeJars.programs) }

@@ -168,7 +168,7 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         return StepResponse.getRootAsStepResponse(response)
     }
 
-    /** Value and text of each answer by node id. */
+    /** Returns value and text of each answer by node id. */
     fun answers(response: StepResponse): Map<Int, Pair<Long, String?>> {
         val table = response.actuators()
         return (0 until response.nodesLength()).associate { response.nodes(it) to ProbeSchema.actuator(table, it) }

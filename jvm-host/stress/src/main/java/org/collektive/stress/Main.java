@@ -14,11 +14,11 @@ import org.openjdk.jcstress.infra.collectors.DiskReadCollector;
 import org.openjdk.jcstress.infra.collectors.InProcessCollector;
 import org.openjdk.jcstress.infra.collectors.TestResult;
 
-/** Runs the tests as jcstress does and reports what it found: a JUnit XML file, and a last line with the sum. */
+/** Runs jcstress and reports its results as a JUnit XML file and a final line with the totals. */
 public final class Main {
   private Main() {}
 
-  /** Arguments: the JUnit XML file to write, then jcstress's own. Ends with code 1 when a test failed or none ran. */
+  /** Takes the JUnit XML file to write, then the options of jcstress. Exits with code 1 if a test failed or none ran. */
   public static void main(String[] arguments) throws Exception {
     Path report = Path.of(arguments[0]);
     Options options = new Options(List.of(arguments).subList(1, arguments.length).toArray(new String[0]));
@@ -26,7 +26,7 @@ public final class Main {
     try {
       new JCStress(options).run();
     } catch (AssertionError failed) {
-      // What jcstress ends with when a test failed; the results tell which.
+      // jcstress throws this error if a test failed; the results below contain the details.
       System.err.println(failed.getMessage());
     }
     InProcessCollector collector = new InProcessCollector();
@@ -66,7 +66,7 @@ public final class Main {
     return failed == 0 && !results.isEmpty();
   }
 
-  /** Why a test failed; empty when it passed. A forked JVM that crashed or ended late counts, too. */
+  /** Returns why a test failed, or an empty list if it passed. A forked JVM that crashed or timed out counts as a failure. */
   private static List<String> failures(TestResult result) {
     if (result.grading().isPassed) return List.of();
     List<String> all = new ArrayList<>(result.grading().failureMessages);

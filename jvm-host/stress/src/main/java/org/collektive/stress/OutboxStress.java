@@ -16,7 +16,7 @@ import org.openjdk.jcstress.infra.results.L_Result;
 public class OutboxStress {
   private static final class Box extends Outbox {}
 
-  /** A plain field stands for what a round writes into its export. */
+  /** The plain field represents the data that a round writes into its export. */
   private static final class Sent extends Export {
     private int value;
 
@@ -26,8 +26,8 @@ public class OutboxStress {
   }
 
   @JCStressTest
-  @Outcome(id = "1", expect = Expect.ACCEPTABLE, desc = "what was sent before the tick")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read what was sent in its own tick, or nothing")
+  @Outcome(id = "1", expect = Expect.ACCEPTABLE, desc = "the export from before the tick")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of its own tick, or none")
   @State
   public static class RoundsReadWhatWasSentBefore {
     private final Box box = new Box();
@@ -49,8 +49,8 @@ public class OutboxStress {
   }
 
   @JCStressTest
-  @Outcome(id = "nothing", expect = Expect.ACCEPTABLE, desc = "the node never sent before")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read what was sent in its own tick")
+  @Outcome(id = "nothing", expect = Expect.ACCEPTABLE, desc = "no export from before the tick")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of its own tick")
   @State
   public static class FirstExportWaitsForTheNextTick {
     private final Box box = new Box();
@@ -69,7 +69,7 @@ public class OutboxStress {
 
   /** Both rounds of a node run on a pool, the second often on another thread than the first. */
   @JCStressTest
-  @Outcome(id = "0", expect = Expect.ACCEPTABLE, desc = "every node reads its neighbour's export whole")
+  @Outcome(id = "0", expect = Expect.ACCEPTABLE, desc = "every node reads its neighbour's complete export")
   @Outcome(expect = Expect.FORBIDDEN, desc = "an export was not visible in the next tick, or (-1) the work never ended")
   @State
   public static class NextTickReadsWhole {

@@ -13,7 +13,7 @@ import org.openjdk.jcstress.infra.results.L_Result;
 import org.openjdk.jcstress.infra.results.ZZ_Result;
 import org.openjdk.jcstress.infra.results.Z_Result;
 
-/** Rounds on two threads look up and make paths at the same time. */
+/** Rounds on two threads look up and create paths at the same time. */
 public class PathTreeStress {
   private static PathNode child(PathTree tree, PathNode parent, Object token) {
     PathNode node = tree.find(parent, token);
@@ -21,7 +21,7 @@ public class PathTreeStress {
   }
 
   @JCStressTest
-  @Outcome(id = "true", expect = Expect.ACCEPTABLE, desc = "both have the same node")
+  @Outcome(id = "true", expect = Expect.ACCEPTABLE, desc = "both threads get the same node")
   @Outcome(id = "false", expect = Expect.FORBIDDEN, desc = "one path has two nodes")
   @State
   public static class OnePathIsOneNode {
@@ -45,11 +45,11 @@ public class PathTreeStress {
     }
   }
 
-  /** The table is there already, so the new node is published by the racing write into its slot, not by the volatile table. */
+  /** The table already exists, so the racy write to its slot publishes the new node, not the volatile table. */
   @JCStressTest
-  @Outcome(id = "absent", expect = Expect.ACCEPTABLE, desc = "the reader came first")
-  @Outcome(id = "complete", expect = Expect.ACCEPTABLE, desc = "all that the constructor wrote is there")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "the reader saw the node before its fields")
+  @Outcome(id = "absent", expect = Expect.ACCEPTABLE, desc = "the reader ran first")
+  @Outcome(id = "complete", expect = Expect.ACCEPTABLE, desc = "all fields that the constructor wrote are visible")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "the node is visible before its fields")
   @State
   public static class FoundNodeIsComplete {
     private static final int HASH = new PathNode(new PathTree().getRoot(), "path").getHash();
@@ -66,7 +66,7 @@ public class PathTreeStress {
       tree.enter(tree.getRoot(), "path");
     }
 
-    /** Walks the table itself: `find` overlooks a node whose hash it does not see. */
+    /** Walks the table, because `find` skips a node whose hash is not visible. */
     @Actor
     public void reader(L_Result result) {
       tree.getRoot().getChildren().forEach(node -> {
@@ -85,7 +85,7 @@ public class PathTreeStress {
   }
 
   @JCStressTest
-  @Outcome(id = "true, true", expect = Expect.ACCEPTABLE, desc = "what was there is found, before and after the table grows")
+  @Outcome(id = "true, true", expect = Expect.ACCEPTABLE, desc = "existing paths are found while the table grows")
   @Outcome(expect = Expect.FORBIDDEN, desc = "a path was lost while the table grew")
   @State
   public static class GrowingTableLosesNothing {

@@ -13,15 +13,15 @@ import org.openjdk.jcstress.annotations.State;
 import org.openjdk.jcstress.infra.results.II_Result;
 
 /**
- * One thread gives work to the threads of a pool, again and again.
+ * One thread repeatedly submits work to the threads of a pool.
  *
- * <p>One actor each: the race is with the pool's own threads, which fall asleep, or spin, while the next work comes.
+ * <p>Each test has one actor. It races with the pool's threads, which park or spin while the next work arrives.
  */
 public class RoundPoolStress {
   private static final int COUNT = 5;
   private static final int RANGE = 2;
 
-  /** Adds what it finds to a plain array: lost and repeated work show as other sums than one. */
+  /** Counts the runs of each index in a plain array, so lost and repeated work is visible. */
   private static final RoundPool.Task<int[]> COUNT_UP = (counts, thread, worker, begin, end) -> {
     for (int index = begin; index < end; index++) counts[index]++;
   };
@@ -38,8 +38,8 @@ public class RoundPoolStress {
   }
 
   @JCStressTest
-  @Outcome(id = "0, 0", expect = Expect.ACCEPTABLE, desc = "each index once per run, and the caller and the next run see it")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "an index was left out or done twice, its result was not visible, or (-1) the work never ended")
+  @Outcome(id = "0, 0", expect = Expect.ACCEPTABLE, desc = "each index ran once per run, visible to the caller and the next run")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "an index was skipped or repeated, its result was not visible, or (-1) the work never ended")
   @State
   public static class EveryIndexIsDoneOnce {
     private static final RoundPool POOL = new RoundPool(2);
@@ -52,10 +52,10 @@ public class RoundPoolStress {
     }
   }
 
-  /** As in a session, where the threads spin while a frame is read. */
+  /** As in a session, the threads spin while a frame is read. */
   @JCStressTest
-  @Outcome(id = "0, 0", expect = Expect.ACCEPTABLE, desc = "each index once per run, and the caller and the next run see it")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "an index was left out or done twice, its result was not visible, or (-1) the work never ended")
+  @Outcome(id = "0, 0", expect = Expect.ACCEPTABLE, desc = "each index ran once per run, visible to the caller and the next run")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "an index was skipped or repeated, its result was not visible, or (-1) the work never ended")
   @State
   public static class ThreadsThatWakeMissNothing {
     private static final RoundPool POOL = new RoundPool(2);
@@ -72,7 +72,7 @@ public class RoundPoolStress {
 
   @JCStressTest(Mode.Termination)
   @Outcome(id = "TERMINATED", expect = Expect.ACCEPTABLE, desc = "the thread ended")
-  @Outcome(id = "STALE", expect = Expect.FORBIDDEN, desc = "an idle thread missed that its pool was abandoned")
+  @Outcome(id = "STALE", expect = Expect.FORBIDDEN, desc = "an idle thread did not notice that its pool was abandoned")
   @State
   public static class AbandonedThreadsEnd {
     private final RoundPool pool = new RoundPool(1);

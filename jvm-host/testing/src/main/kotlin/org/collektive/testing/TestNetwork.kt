@@ -19,7 +19,7 @@ import java.util.TreeSet
 import java.util.concurrent.TimeUnit
 
 /**
- * A small network for tests of aggregate programs: nodes, links and rounds, on the engine of simulations and without Unity.
+ * Runs aggregate programs on a small network of nodes and links in unit tests, on the simulator's engine and without Unity.
  *
  * ```
  * TestNetwork().use { network ->
@@ -30,11 +30,11 @@ import java.util.concurrent.TimeUnit
  * }
  * ```
  *
- * Tests are compiled with the compiler plugin of the runtime on their class path, as programs are. Confined to one thread at a time.
+ * Compile tests with the compiler plugin of the runtime on their class path, as programs. Not thread-safe.
  *
  * @param seed the seed of all random numbers; the same seed gives the same answers.
  * @param deltaTime simulated seconds from one round to the next.
- * @param runtime name of the runtime, `builtIn` or `collektive`; `null`: the one on the class path, the built-in one if there are both.
+ * @param runtime name of the runtime, `builtIn` or `collektive`; `null` selects the one on the class path, or the built-in one if both are.
  * @throws IllegalStateException when the runtime is not on the class path.
  */
 public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, runtime: String? = null) : AutoCloseable {
@@ -43,7 +43,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     private val tick = Tick()
     private val ids = TreeSet<Int>()
 
-    // Links as the engine knows them, and what the next round changes.
+    // The links in the engine, and those that the next round adds or changes.
     private val links = HashSet<Pair<Int, Int>>()
     private val newLinks = LinkedHashMap<Pair<Int, Int>, LinkValues>()
 
@@ -55,31 +55,31 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
 
     /** Adds a node whose `Device.parameters` are [parameters]. */
     public fun add(id: Int, parameters: Map<String, String>) {
-        require(id >= 0) { "node $id: ids are 0 or greater" }
-        require(ids.add(id)) { "there is a node $id already" }
+        require(id >= 0) { "node $id: the id must be 0 or greater" }
+        require(ids.add(id)) { "node $id already exists; use another id" }
         tick.nodesAdded += NewNode(id, program, Parameters(parameters))
     }
 
     /** Removes node [id] with its links and its state. */
     public fun remove(id: Int) {
-        existing(id)
+        known(id)
         ids -= id
         if (!tick.nodesAdded.removeIf { it.id == id }) tick.nodesRemoved.add(id)
         links.removeIf { it.first == id || it.second == id }
         newLinks.keys.removeIf { it.first == id || it.second == id }
     }
 
-    /** Links [a] and [b] in both directions, or changes their link: [length] in metres, [attenuation] 0 (clear) or greater. */
+    /** Links [a] and [b] in both directions, or updates their links: [length] is in metres, [attenuation] 0 (clear) or greater. */
     public fun link(a: Int, b: Int, length: Double = 1.0, attenuation: Double = 0.0) {
-        require(existing(a) != existing(b)) { "node $a cannot have a link with itself" }
+        require(known(a) != known(b)) { "node $a cannot be linked to itself" }
         val values = LinkValues(length.toFloat(), attenuation.toFloat())
         newLinks[a to b] = values
         newLinks[b to a] = values
     }
 
-    /** Removes the link of [a] and [b]; nothing happens when there is none. */
+    /** Removes the links between [a] and [b], if any. */
     public fun unlink(a: Int, b: Int) {
-        for (link in listOf(existing(a) to existing(b), b to a)) {
+        for (link in listOf(known(a) to known(b), b to a)) {
             newLinks -= link
             if (!links.remove(link)) continue
             tick.linksRemoved.add(link.first)
@@ -88,10 +88,10 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     }
 
     /**
-     * Runs one round of [program] on each node, and returns the answers by id. Nodes read what their neighbours sent in the round before.
+     * Runs one round of [program] on each node and returns the answers by id. Nodes read what their neighbours sent in the previous round.
      *
-     * @throws IllegalStateException when the round of a node failed; the message names the node and the place, and the cause is what was
-     * thrown. That node keeps the state of its last good round; all others have run theirs.
+     * @throws IllegalStateException when the round of a node failed. The message names the node and the place, and the cause is the original
+     * exception. That node keeps the state of its last successful round; the rounds of all other nodes have run.
      */
     public fun <T> round(program: Aggregate<Int>.(Device) -> T): Map<Int, T> {
         this.program.body = program
@@ -108,9 +108,9 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
         return answers
     }
 
-    /** Runs [count] rounds, at least one, and returns the answers of the last. See [round]. */
+    /** Runs [count] rounds, at least one, and returns the answers of the last one; see [round]. */
     public fun <T> rounds(count: Int, program: Aggregate<Int>.(Device) -> T): Map<Int, T> {
-        require(count > 0) { "the count of rounds is $count: it must be 1 or greater" }
+        require(count > 0) { "the number of rounds is $count: it must be 1 or greater" }
         repeat(count - 1) { round(program) }
         return round(program)
     }
@@ -118,7 +118,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     /** Ends the engine's threads. */
     override fun close(): Unit = engine.close()
 
-    private fun existing(id: Int): Int = id.also { require(it in ids) { "there is no node $it: add it first" } }
+    private fun known(id: Int): Int = id.also { require(it in ids) { "unknown node $it: add it first" } }
 
     private fun prepare() {
         tick.number++
@@ -135,14 +135,14 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
 
     private class LinkValues(val length: Float, val attenuation: Float)
 
-    /** The engine takes `null` for a failure; programs may answer it. */
+    /** Wraps the answer of a program, which may be `null`: the engine treats `null` as a failure. */
     private class Answer(val value: Any?)
 
-    /** What all nodes run: the program of the round at hand. */
+    /** Runs the program of the current round on all nodes. */
     private class Program : NodeProgram {
         var body: Aggregate<Int>.(Device) -> Any? = {}
 
-        /** What was thrown, by its description. */
+        /** Exceptions by their description. */
         val failures = HashMap<String, Throwable>()
 
         override val name: String get() = "test"
@@ -154,7 +154,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             (if (place == null || place in failure.toString()) "$failure" else "$failure [$place]").also { failures[it] = failure }
     }
 
-    /** Programs of tests take their sensors from the test. */
+    /** Provides no sensor data: programs of tests get it from the test. */
     private object NoFrames : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 
@@ -169,8 +169,8 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             val provider = if (name == null) found.find { it.name == "builtIn" } ?: found.firstOrNull() else found.find { it.name == name }
             checkNotNull(provider) {
                 val names = found.map(RuntimeProvider::name)
-                "${if (name == null) "a runtime" else "the runtime $name"} is not on the class path, which has $names: add " +
-                    "collektive-library.jar for the built-in one, or collektive-adapter.jar and Collektive's own jars"
+                "${if (name == null) "no runtime is" else "the runtime $name is not"} on the class path, which contains the runtimes $names: add " +
+                    "collektive-library.jar for the built-in runtime, or collektive-adapter.jar and Collektive's jars"
             }
             return provider.runtimes(ViewRule)
         }

@@ -29,9 +29,9 @@ class TestNetworkTest {
 
     @TestFactory
     fun `a round reads what neighbours sent in the round before`() = onBoth {
-        val heard: List<Map<Int, Map<Int, Int>>> = List(2) { round { neighboring(localId * 10).neighbors.toMap() } }
-        assertEquals(mapOf(0 to emptyMap(), 1 to emptyMap(), 2 to emptyMap()), heard[0])
-        assertEquals(mapOf(0 to mapOf(1 to 10), 1 to mapOf(0 to 0, 2 to 20), 2 to mapOf(1 to 10)), heard[1])
+        val received: List<Map<Int, Map<Int, Int>>> = List(2) { round { neighboring(localId * 10).neighbors.toMap() } }
+        assertEquals(mapOf(0 to emptyMap(), 1 to emptyMap(), 2 to emptyMap()), received[0])
+        assertEquals(mapOf(0 to mapOf(1 to 10), 1 to mapOf(0 to 0, 2 to 20), 2 to mapOf(1 to 10)), received[1])
     }
 
     @TestFactory
@@ -58,7 +58,7 @@ class TestNetworkTest {
     }
 
     @TestFactory
-    fun `nodes and links come and go`() = onBoth {
+    fun `nodes and links can be added and removed`() = onBoth {
         fun counts() = rounds(2) { neighborhood().neighbors.size }
         assertEquals(mapOf(0 to 1, 1 to 2, 2 to 1), counts())
         unlink(0, 1)
@@ -80,7 +80,7 @@ class TestNetworkTest {
     }
 
     @TestFactory
-    fun `a program knows its device`() = onBoth {
+    fun `a program can read its device`() = onBoth {
         add(3, mapOf("step" to "2"))
         round { }
         val answers = round { device ->
@@ -125,14 +125,14 @@ class TestNetworkTest {
     }
 
     @Test
-    fun `what cannot be is refused at once`() = TestNetwork().line().use { network ->
+    fun `invalid calls are rejected`() = TestNetwork().line().use { network ->
         for ((text, act) in listOf<Pair<String, () -> Unit>>(
-            "there is a node 1 already" to { network.add(1) },
-            "ids are 0 or greater" to { network.add(-1) },
-            "there is no node 9: add it first" to { network.link(0, 9) },
-            "node 1 cannot have a link with itself" to { network.link(1, 1) },
-            "there is no node 8" to { network.remove(8) },
-            "the count of rounds is 0" to { network.rounds(0) { } },
+            "node 1 already exists" to { network.add(1) },
+            "the id must be 0 or greater" to { network.add(-1) },
+            "unknown node 9: add it first" to { network.link(0, 9) },
+            "node 1 cannot be linked to itself" to { network.link(1, 1) },
+            "unknown node 8" to { network.remove(8) },
+            "the number of rounds is 0" to { network.rounds(0) { } },
         )) {
             assertContains(assertFailsWith<IllegalArgumentException> { act() }.message.orEmpty(), text)
         }
@@ -140,8 +140,8 @@ class TestNetworkTest {
     }
 
     @Test
-    fun `a runtime that is not there is named`() {
+    fun `the error names a missing runtime`() {
         val error = assertFailsWith<IllegalStateException> { TestNetwork(runtime = "other") }
-        assertContains(error.message.orEmpty(), "the runtime other is not on the class path, which has [")
+        assertContains(error.message.orEmpty(), "the runtime other is not on the class path, which contains the runtimes [")
     }
 }

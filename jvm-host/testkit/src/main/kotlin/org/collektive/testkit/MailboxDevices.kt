@@ -20,8 +20,8 @@ import org.collektive.spi.Inbox
 import org.collektive.spi.RoundProgram
 
 /**
- * Devices of the public API. Each runs the function that [cycle] returns for its id, its mailbox and its program: `Collektive.cycle` of the
- * implementation under test.
+ * Devices on Collektive's public API. [cycle] returns the function that runs one round of a device, given its id, mailbox and program:
+ * `Collektive.cycle` of the implementation under test.
  *
  * @param json the format of messages; `null` passes them as objects.
  */
@@ -96,7 +96,7 @@ public class MailboxDevices(
     }
 
     private companion object {
-        /** Stands for a receiver that was not a neighbour when the message was sent. It is not the id of a device. */
+        /** Id of a receiver that was not a neighbour when the message was sent. No device has it. */
         const val NON_NEIGHBOUR = -1
     }
 }

@@ -61,16 +61,16 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
         node(to).links.remove(from)
     }
 
-    /** Links each pair of neighbours in [ids]. */
+    /** Links each pair of consecutive [ids]. */
     public fun line(vararg ids: Int): Network = apply { for ((a, b) in ids.toList().zipWithNext()) link(a, b) }
 
-    /** The senders of links to [id], ascending. */
+    /** Returns the senders of links to [id], ascending. */
     public fun neighbors(id: Int): Set<Int> = node(id).links.keys
 
-    /** The length of the link from [from] to [to]. */
+    /** Returns the length of the link from [from] to [to]. */
     public fun length(from: Int, to: Int): Double = node(to).links.getValue(from).length
 
-    /** The device of the node [id]. */
+    /** Returns the device of the node [id]. */
     public fun device(id: Int): DeviceRuntime = node(id).device
 
     /** Runs one round of each node in [due] and returns the results or exceptions. Successful rounds send their messages at the end. */
@@ -82,7 +82,11 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
         return due.zip(results).toMap().onEach { (id, result) -> if (result.isSuccess) node(id).send() }
     }
 
-    /** Runs one round of each node in [due] and returns the results. @throws Throwable the exception of the first failed round. */
+    /**
+     * Runs one round of each node in [due] and returns the results.
+     *
+     * @throws Throwable the exception of the first failed round.
+     */
     public fun <R> round(due: Collection<Int>, program: Aggregate<Int>.() -> R): Map<Int, R> =
         outcomes(due, program).mapValues { it.value.getOrThrow() }
 

@@ -21,10 +21,10 @@ import org.collektive.spi.Inbox
 import org.collektive.spi.RoundProgram
 
 /**
- * Devices that store everything in maps by whole path: slow, and simple enough to be correct.
+ * A reference implementation of the API that stores all values in maps by path. Slow, but simple enough to be obviously correct.
  *
  * @param isAligned whether devices implement [AlignmentStack].
- * @param ignoresClashes for programs that are compiled without the plugin.
+ * @param ignoresClashes whether two primitives may share a path, as in programs that are compiled without the plugin.
  */
 public class ReferenceDevices(private val isAligned: Boolean = true, private val ignoresClashes: Boolean = false) : DeviceRuntimes {
     override fun device(id: Int): ReferenceDevice =
@@ -34,7 +34,7 @@ public class ReferenceDevices(private val isAligned: Boolean = true, private val
     override fun tidy(devices: List<DeviceRuntime>) {}
 }
 
-/** A device without [AlignmentStack], like one of another implementation of the API. */
+/** A device without [AlignmentStack], as in other implementations of the API. */
 public open class ReferenceDevice internal constructor(override val localId: Int, private val ignoresClashes: Boolean) :
     Aggregate<Int>,
     DeviceRuntime {
@@ -58,7 +58,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         this.inbox = inbox
         running = Record()
         stack.clear()
-        return program.run(this, sensors).also { check(stack.isEmpty()) { "left on the stack: ${describe(stack)}" } }
+        return program.run(this, sensors).also { check(stack.isEmpty()) { "tokens left on the stack: ${describe(stack)}" } }
     }
 
     override fun commit(): Export = running.also { last = it }
@@ -154,7 +154,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
     }
 }
 
-/** A device with [AlignmentStack], like one of the project's own runtime. */
+/** A device with [AlignmentStack], as in the built-in runtime. */
 public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean) :
     ReferenceDevice(id, ignoresClashes),
     AlignmentStack {

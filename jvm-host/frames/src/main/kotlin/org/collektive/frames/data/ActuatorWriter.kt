@@ -4,15 +4,16 @@ import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.frames.OFFSET_BYTES
 import java.nio.ByteBuffer
 
-/** Writes the table `Actuators` of a frame. Generated code makes it. [findFault] may be called on any thread. */
+/** Writes the table `Actuators` of a frame. Created by generated code. [findFault] is thread-safe. */
 public sealed class ActuatorWriter(private val type: Class<*>) {
     /**
-     * The reason why [result] cannot be written, preceded by the path of the field (`words[1] is null`); `null` when it can. Check each
-     * result after its round: one faulty result would corrupt the whole answer.
+     * Returns why [result] cannot be written, with the path of the field (`words[1] is null`), or `null` if it can.
+     *
+     * Check each result after its round, because one invalid result corrupts the whole answer.
      */
     public fun findFault(result: Any?): String? = when {
-        result == null -> "the result is null"
-        !type.isInstance(result) -> "the result is a ${result.javaClass.name}, not a ${type.name}"
+        result == null -> "the program returned null"
+        !type.isInstance(result) -> "the program returned a ${result.javaClass.name} instead of a ${type.name}"
         else -> fault(result)
     }
 
@@ -30,27 +31,26 @@ public sealed class ActuatorWriter(private val type: Class<*>) {
     }
 }
 
-/** Writes results that are structs of [bytes] bytes, with the alignment [alignment]. Has no state. */
+/** Writes results that are structs of [bytes] bytes with alignment [alignment]. Stateless. */
 public class StructWriter(type: Class<*>, public val bytes: Int, private val alignment: Int, private val packer: Packer) :
     ActuatorWriter(type) {
     /** Writes one struct; generated code implements it. */
     public fun interface Packer {
-        /** Writes the fields of [result] to [target] at [place], and leaves the bytes between them. */
+        /** Writes the fields of [result] to [target] at [place]. Leaves padding bytes unchanged. */
         public fun pack(target: ByteBuffer, place: Int, result: Any)
     }
 
     override fun fault(result: Any): String? = null
 
     /**
-     * Writes [result] to [target], which is little-endian, at [place]. It must have no fault. The bytes there must be zero or of an earlier
-     * result.
+     * Writes the valid [result] to [target], which is little-endian, at [place]. The bytes there must be zero or an earlier result.
      */
     public fun pack(target: ByteBuffer, place: Int, result: Any): Unit = packer.pack(target, place, result)
 
     /** Writes the first [count] structs of [packed], which is contiguous and little-endian. Returns the table's offset in [builder]. */
     public fun write(builder: FlatBufferBuilder, packed: ByteBuffer, count: Int): Int {
         builder.startVector(bytes, count, alignment)
-        // FlatBufferBuilder copies blocks only into vectors of bytes, so copy words.
+        // FlatBufferBuilder copies blocks only into vectors of bytes, so this copies words.
         var at = count * bytes
         while (at >= Long.SIZE_BYTES) {
             at -= Long.SIZE_BYTES
@@ -69,9 +69,9 @@ public class TableWriter(type: Class<*>, private val packer: Packer, private val
         public fun pack(builder: FlatBufferBuilder, result: Any): Int
     }
 
-    /** Finds faults of results that have the right class; generated code implements it. */
+    /** Validates results that have the right class; generated code implements it. */
     public fun interface Rule {
-        /** The reason why [result] cannot be written; `null` when it can. */
+        /** Returns why [result] cannot be written, or `null` if it can. */
         public fun fault(result: Any): String?
     }
 
@@ -80,7 +80,7 @@ public class TableWriter(type: Class<*>, private val packer: Packer, private val
     override fun fault(result: Any): String? = rule.fault(result)
 
     /**
-     * Writes the first [count] of [results], in order, and returns the table's offset in [builder]. None may have a fault.
+     * Writes the first [count] of [results], in order, and returns the table's offset in [builder]. All of them must be valid.
      *
      * Fills [ranges] for the digest: `ranges[2 * i]` is the distance of the first byte of element i from the *end* of the builder's
      * buffer, `ranges[2 * i + 1]` its length, both in bytes.

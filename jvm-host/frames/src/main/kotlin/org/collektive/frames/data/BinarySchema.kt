@@ -14,8 +14,9 @@ import java.nio.ByteOrder
 import com.google.flatbuffers.reflection.Object as Composite
 
 /**
- * Checks flatc's binary form of a schema, and makes the layouts of its types. With a checked schema, data that pass the check of their
- * layout can be read without an exception, so both may come from anybody.
+ * Validates flatc's binary schema and builds the layouts of its types.
+ *
+ * Data that passes the check of such a layout can be read without exceptions, so neither schema nor data need to be trusted.
  */
 internal class BinarySchema(bytes: ByteArray) {
     private val schema: Schema
@@ -29,16 +30,16 @@ internal class BinarySchema(bytes: ByteArray) {
         schema = Schema.getRootAsSchema(buffer)
     }
 
-    /** The struct or table [name], named with its namespace; `null` when the schema defines none. */
+    /** Returns the struct or table with the qualified [name], or `null` if the schema does not define it. */
     fun find(name: String): Composite? = indexOf(name)?.let(schema::objects)
 
-    /** The struct or table of a [type] that is one, or of the elements of a vector. */
+    /** Returns the struct or table of [type], or of the elements of a vector [type]. */
     fun composite(type: Type): Composite = schema.objects(type.index())
 
-    /** The layout of the table [name]. */
+    /** Returns the layout of the table [name]. */
     fun table(name: String): TableLayout = completed(table(index(name)))
 
-    /** Makes a reader of the table `Sensors` or `Actuators` with elements of the type [name]. */
+    /** Creates a reader of the table `Sensors` or `Actuators` with elements of type [name]. */
     fun elements(name: String): ElementReader {
         val index = index(name)
         return if (schema.objects(index).isStruct) ElementReader(struct(index, 0)) else ElementReader(table(name))
@@ -46,11 +47,11 @@ internal class BinarySchema(bytes: ByteArray) {
 
     private fun indexOf(name: String): Int? = (0 until schema.objectsLength()).find { schema.objects(it).name() == name }
 
-    private fun index(name: String): Int = indexOf(name) ?: throw MalformedFrameException("the schema defines no $name")
+    private fun index(name: String): Int = indexOf(name) ?: throw MalformedFrameException("the schema does not define $name")
 
     private fun table(index: Int): TableLayout = tables.getOrPut(index) { TableLayout().also { incomplete.addLast(index) } }
 
-    /** Tables contain each other in chains and cycles of any length, so their fields are added one table after the other. */
+    /** Adds the fields of incomplete tables iteratively, because tables reference each other in chains and cycles of any length. */
     private fun completed(layout: TableLayout): TableLayout {
         while (true) {
             val index = incomplete.removeFirstOrNull() ?: return layout
@@ -105,7 +106,7 @@ internal class BinarySchema(bytes: ByteArray) {
         }
     }
 
-    /** Size of a struct, in bytes. Its fields lie inside of it, one behind the other, so a struct cannot contain itself. */
+    /** Returns the size of a struct in bytes. Checks that its fields lie inside it and do not overlap, so a struct cannot contain itself. */
     private fun struct(index: Int, depth: Int): Int = structs[index] ?: run {
         val struct = schema.objects(index)
         if (!struct.isStruct || depth > MAX_DEPTH) throw damaged(struct.name())
@@ -135,13 +136,13 @@ internal class BinarySchema(bytes: ByteArray) {
         else -> throw damaged(place)
     }
 
-    private fun damaged(place: String) = MalformedFrameException("the schema is damaged at $place")
+    private fun damaged(place: String) = MalformedFrameException("the binary schema is damaged at $place")
 
     private companion object {
         const val FIRST_ENTRY = 4
         const val MAX_DEPTH = 64
 
-        /** What is read of flatc's `reflection.fbs`. */
+        /** The fields of flatc's `reflection.fbs` that this class reads. */
         val TYPE: TableLayout = TableLayout().inline("base_type", 4, 1, false).inline("element", 6, 1, false).inline("index", 8, 4, false)
             .inline("element_size", 14, 4, false)
         val FIELD: TableLayout = TableLayout().string("name", 4, true).table("type", 6, TYPE, true).inline("id", 8, 2, false)

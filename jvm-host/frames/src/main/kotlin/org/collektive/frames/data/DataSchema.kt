@@ -1,9 +1,9 @@
 package org.collektive.frames.data
 
 /**
- * A user's schema: reads its sensor data and writes its actuator data.
+ * A user's schema, which creates readers of its sensor data and writers of its actuator data.
  *
- * Generated code implements it; [java.util.ServiceLoader] finds it in the jar of the programs. Stateless, so safe on any thread.
+ * Generated code implements it, and [java.util.ServiceLoader] finds it in the programs' jar. Thread-safe, because it is stateless.
  */
 public interface DataSchema {
     /** Name of the schema, the same on the C# side. */
@@ -18,18 +18,18 @@ public interface DataSchema {
     /** The class of the result of programs (`ActuatorData`). */
     public val actuatorType: Class<*>
 
-    /** Makes a reader of the table `Sensors`, for one thread at a time. */
+    /** Creates a reader of the table `Sensors`, for one thread at a time. */
     public fun sensorReader(): ElementReader
 
-    /** Makes a view of sensor data, of class [sensorType], for one thread at a time. */
+    /** Creates a view of sensor data, of class [sensorType], for one thread at a time. */
     public fun sensorView(): View
 
-    /** Makes a reader of the table `Actuators`, for one thread at a time. */
+    /** Creates a reader of the table `Actuators`, for one thread at a time. */
     public fun actuatorReader(): ElementReader
 
-    /** Makes a writer of the table `Actuators`. */
+    /** Creates a writer of the table `Actuators`. */
     public fun actuatorWriter(): ActuatorWriter
 
-    /** Makes a reader of the table `GlobalData`; `null` when the schema defines none. */
+    /** Creates a reader of the table `GlobalData`, or returns `null` if the schema does not define it. */
     public fun globalReader(): GlobalReader?
 }

@@ -8,8 +8,8 @@ import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
 /**
- * Finds and checks the elements of the table `Sensors` or `Actuators` of a frame, in place. Generated code makes it. Allocates only in its
- * constructor. Confined to one thread at a time; any number of threads may ask for [place] while no other call runs.
+ * Finds and verifies the elements of the table `Sensors` or `Actuators` of a frame, in place. Created by generated code. Allocates only in
+ * its constructor. Not thread-safe, but threads may call [place] concurrently.
  */
 public class ElementReader private constructor(private val element: TableLayout?, private val bytes: Int) {
     private val outline = TableLayout().vector("data", DATA_ENTRY, bytes, false)
@@ -18,10 +18,10 @@ public class ElementReader private constructor(private val element: TableLayout?
     private var position = 0
     private var first = 0
 
-    /** For elements that are tables. */
+    /** Creates a reader of elements that are tables. */
     public constructor(layout: TableLayout) : this(layout, OFFSET_BYTES)
 
-    /** For elements that are structs of [bytes] bytes. */
+    /** Creates a reader of elements that are structs of [bytes] bytes. */
     public constructor(bytes: Int) : this(null, bytes)
 
     /** The attached frame. */
@@ -33,8 +33,8 @@ public class ElementReader private constructor(private val element: TableLayout?
         private set
 
     /**
-     * Attaches this reader to the table at [position] of [frame], in bytes from the start of the buffer. The frame is what lies between
-     * the buffer's position and limit; the buffer must be little-endian.
+     * Attaches this reader to the table at [position] of [frame], in bytes from the start of the buffer. The frame extends from the
+     * buffer's position to its limit; the buffer must be little-endian.
      *
      * @throws MalformedFrameException when the table or its vector lies outside the frame.
      */
@@ -54,16 +54,16 @@ public class ElementReader private constructor(private val element: TableLayout?
     }
 
     /**
-     * Checks that every element lies inside the frame, with its nested tables, vectors and strings. Reading checked elements never
+     * Verifies that every element lies inside the frame, with its nested tables, vectors and strings. Reading verified elements never
      * throws.
      *
-     * @throws MalformedFrameException when one does not; the message names the element and the field.
+     * @throws MalformedFrameException when an element does not; the message names the element and the field.
      */
     public fun check() {
         checker.check(frame, position, whole)
     }
 
-    /** Position of element [index] in [frame], in bytes. */
+    /** Returns the position of element [index] in [frame], in bytes. */
     public fun place(index: Int): Int {
         if (index !in 0 until size) throw IndexOutOfBoundsException("element $index of $size")
         val place = first + index * bytes

@@ -4,18 +4,18 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
 /**
- * Copies the last `GlobalData`, so that it outlives its frame.
+ * Keeps a copy of the last `GlobalData`, which outlives its frame.
  *
- * It is double-buffered, so that a tick refused after [read] does not change the copy in use.
+ * The copy is double-buffered, so a tick that is rejected after [read] does not change the copy in use.
  */
 internal class GlobalData(newReader: () -> GlobalReader) {
     private val copies = Array(2) { Copy(newReader()) }
     private var inUse = 0
 
-    /** Checks and copies the `GlobalData` at [position] of [frame], and returns a view of the copy. [accept] puts it in use. */
+    /** Checks and copies the `GlobalData` at [position] of [frame], and returns a view of the copy. [accept] makes it current. */
     fun read(frame: ByteBuffer, position: Int): Any = copies[1 - inUse].read(frame, position)
 
-    /** Puts the data last read in use. Call it once its tick is accepted. */
+    /** Makes the data last read current. Call it once its tick is accepted. */
     fun accept() {
         inUse = 1 - inUse
     }

@@ -6,7 +6,7 @@ import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.TableLayout
 import java.nio.ByteBuffer
 
-/** Reads the table `GlobalData` of a frame in place. Generated code makes it. Confined to one thread at a time. */
+/** Reads the table `GlobalData` of a frame in place. Created by generated code. Not thread-safe. */
 public class GlobalReader(private val layout: TableLayout, private val view: View) {
     private val checker = FrameChecker(FramePolicy.USER_DATA)
     private var frame: ByteBuffer = ByteBuffer.allocate(0)
@@ -22,9 +22,9 @@ public class GlobalReader(private val layout: TableLayout, private val view: Vie
     }
 
     /**
-     * Like [ElementReader.check].
+     * Verifies that the table lies inside the frame, with its nested tables, vectors and strings.
      *
-     * @throws MalformedFrameException when the table does not lie inside the frame.
+     * @throws MalformedFrameException when it does not; the message names the field.
      */
     public fun check() {
         checker.check(frame, position, layout)

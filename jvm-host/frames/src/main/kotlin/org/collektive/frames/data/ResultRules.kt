@@ -1,35 +1,36 @@
 package org.collektive.frames.data
 
 /**
- * Finds faults that classes of results allow but a frame cannot represent: malformed strings, and `null` in vectors that Java made. Called
- * by generated code. Each function returns the path of the field and the fault, or `null`; a field that is `null` is absent.
+ * Finds values that result classes accept but a frame cannot represent: malformed strings, and `null` in vectors from Java code.
+ *
+ * Generated code calls it. Each function returns the path of the field and the error, or `null`. A field that is `null` is absent.
  */
 public object ResultRules {
-    /** Greatest depth of nested tables. Detects an object that contains itself. */
+    /** Maximum depth of nested tables. Detects an object that contains itself. */
     public const val MAX_DEPTH: Int = 64
 
-    /** The fault of an object beyond [MAX_DEPTH]. */
+    /** The error about an object beyond [MAX_DEPTH]. */
     public const val TOO_DEEP: String = "is nested deeper than $MAX_DEPTH tables"
 
     /** Checks a string field. */
     public fun string(value: String?, name: String): String? =
-        if (value == null || isWellFormed(value)) null else "$name holds half a surrogate pair"
+        if (value == null || isWellFormed(value)) null else "$name contains an unpaired surrogate"
 
     /** Checks a vector of strings. */
     public fun strings(value: List<String?>?, name: String): String? {
         if (value == null) return null
         for (i in value.indices) {
             val item = value[i] ?: return "$name[$i] is null"
-            if (!isWellFormed(item)) return "$name[$i] holds half a surrogate pair"
+            if (!isWellFormed(item)) return "$name[$i] contains an unpaired surrogate"
         }
         return null
     }
 
-    /** Checks a table by [rule]. */
+    /** Checks a table with [rule]. */
     public inline fun <T : Any> table(value: T?, name: String, rule: (T) -> String?): String? =
         if (value == null) null else rule(value)?.let { join(name, it) }
 
-    /** Checks a vector of structs or tables, each of its elements by [rule]. */
+    /** Checks each element of a vector of structs or tables with [rule]. */
     public inline fun <T : Any> items(value: List<T?>?, name: String, rule: (T) -> String?): String? {
         if (value == null) return null
         for (i in value.indices) {

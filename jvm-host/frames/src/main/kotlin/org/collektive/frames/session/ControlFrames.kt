@@ -22,14 +22,14 @@ public fun controlRequest(frame: ByteBuffer): ControlRequest =
  *
  * @property flags values of JVM flags by name.
  * @property heapUsed heap in use, garbage included.
- * @property heapCommitted heap that the system has given to the JVM.
- * @property heapMaximum limit of the heap.
+ * @property heapCommitted heap memory that the operating system has committed to the JVM.
+ * @property heapMaximum maximum heap size.
  * @property metaspaceUsed memory of loaded classes.
  * @property classes number of loaded classes.
- * @property collections garbage collections since the start.
- * @property collectionMillis their time in all.
+ * @property collections number of garbage collections since the start.
+ * @property collectionMillis total time of these collections.
  * @property recording a value of `RecordingState`.
- * @property recordingPath file of the running flight recording, or else of the last one; `null` before the first.
+ * @property recordingPath file of the running or last flight recording; `null` before the first.
  * @property recordingError why the last action on a recording failed; `null` if it succeeded.
  * @property recordingMillis duration of that action.
  * @property recordingsWritten recordings and dumps written so far.
@@ -50,7 +50,7 @@ public class JvmState(
     public val recordingsWritten: Int,
 )
 
-/** Writes a `ControlResponse` with [state]. Returns its place, see [AnswerBuffer.finish]. */
+/** Writes a `ControlResponse` with [state]. Returns its position, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeControlResponse(state: JvmState): Long {
     val flags = state.flags.map { (name, value) -> Flag.createFlag(builder, builder.createString(name), builder.createString(value)) }
     val vector = ControlResponse.createFlagsVector(builder, flags.toIntArray())

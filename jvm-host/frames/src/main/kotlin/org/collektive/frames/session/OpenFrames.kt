@@ -21,18 +21,18 @@ import java.nio.ByteBuffer
 public fun openRequest(frame: ByteBuffer): OpenRequest =
     OpenRequest().__assign(FrameChecker(FramePolicy.FRAME).checkRoot(frame, FrameLayouts.OPEN_REQUEST), frame)
 
-/** The bytes of [request], such as one that was read and changed. */
+/** Serialises [request], such as one that was read and changed. */
 public fun openFrame(request: OpenRequestT): ByteBuffer {
     val builder = FlatBufferBuilder()
     builder.finish(OpenRequest.pack(builder, request))
     return builder.dataBuffer()
 }
 
-/** The fingerprints of the user's types, by name. */
+/** Fingerprints of the user's types by name. */
 public val OpenRequest.types: Map<String, Long>
     get() = (0 until typesLength()).associate { index -> types(index).let { it.name() to it.hash() } }
 
-/** Writes an `OpenResponse` that lists [programs]. Returns its place, see [AnswerBuffer.finish]. */
+/** Writes an `OpenResponse` that lists [programs]. Returns its position, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
     val infos = programs.map { program ->
         val parameters = program.parameters.map {

@@ -24,7 +24,7 @@ internal abstract class Answers {
     /** See [org.collektive.engine.RoundData.pack]. */
     abstract fun pack(worker: Int, index: Int, answer: Any): String?
 
-    /** Writes the answers and adds them to [digest], failed rounds included. Returns the offset of the table `Actuators`. */
+    /** Writes the answers and adds them to [digest], including failed rounds. Returns the offset of the table `Actuators`. */
     abstract fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int
 
     companion object {
@@ -36,21 +36,21 @@ internal abstract class Answers {
 }
 
 /**
- * Answers that are structs. Each thread packs the answers of its own rounds while they are in its cache: contiguously for the frame, and
- * a second time with headers for the digest. Frame and digest then copy whole blocks.
+ * Answers that are structs. Each thread packs the answers of its rounds twice while they are in its cache: contiguously for the frame, and
+ * with headers for the digest. Frame and digest then copy whole blocks.
  */
 private class StructAnswers(private val writer: StructWriter) : Answers() {
     private val bytes = writer.bytes
     private val entryBytes = RoundDigest.HEADER_BYTES + bytes
 
-    // Element i of both belongs to the due node i.
+    // Element i of both buffers belongs to due node i.
     private var packed = ByteBuffer.allocate(0)
     private var entries = ByteBuffer.allocate(0)
 
     override fun begin(due: IntList) {
         super.begin(due)
-        packed = withRoom(packed, due.size, bytes)
-        entries = withRoom(entries, due.size, entryBytes)
+        packed = withCapacity(packed, due.size, bytes)
+        entries = withCapacity(entries, due.size, entryBytes)
     }
 
     override fun pack(worker: Int, index: Int, answer: Any): String? {
@@ -78,10 +78,10 @@ private class StructAnswers(private val writer: StructWriter) : Answers() {
         return writer.write(buffer.builder, packed, count)
     }
 
-    private fun withRoom(buffer: ByteBuffer, count: Int, size: Int): ByteBuffer {
-        val needed = Math.multiplyExact(count, size)
-        if (buffer.capacity() >= needed) return buffer
-        return ByteBuffer.allocate(maxOf(needed, buffer.capacity() + (buffer.capacity() shr 1))).order(ByteOrder.LITTLE_ENDIAN)
+    private fun withCapacity(buffer: ByteBuffer, count: Int, size: Int): ByteBuffer {
+        val required = Math.multiplyExact(count, size)
+        if (buffer.capacity() >= required) return buffer
+        return ByteBuffer.allocate(maxOf(required, buffer.capacity() + (buffer.capacity() shr 1))).order(ByteOrder.LITTLE_ENDIAN)
     }
 }
 

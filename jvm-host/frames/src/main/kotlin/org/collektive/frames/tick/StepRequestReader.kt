@@ -15,13 +15,13 @@ import org.collektive.frames.OFFSET_BYTES
 import org.collektive.frames.target
 import java.nio.ByteBuffer
 
-/** Makes the nodes that a frame adds. */
+/** Creates the nodes that a frame adds. */
 public fun interface NewNodes {
-    /** Makes the node [id]. An empty [program] means the session's default; [parameters] are those that the node overrides. */
+    /** Creates the node [id]. An empty [program] selects the session's default; [parameters] contains only overridden values. */
     public fun node(id: Int, program: String, parameters: Map<String, String>): NewNode
 }
 
-/** Reads `StepRequest`s in place, their user data into [data]. Allocates only for new nodes. Confined to one thread at a time. */
+/** Reads `StepRequest` frames in place, and attaches [data] to their user data. Allocates only for new nodes. Not thread-safe. */
 public class StepRequestReader(private val newNodes: NewNodes, private val data: UserData) {
     private val checker = FrameChecker(FramePolicy.FRAME)
     private val request = StepRequest()
@@ -35,7 +35,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
     /**
      * Verifies [frame] and reads it.
      *
-     * @return the tick, valid until the next call, and while the frame is. Its global data is in use once [UserData.accept] is called.
+     * @return the tick, valid until the next call and as long as the frame. [UserData.accept] makes its global data current.
      * @throws MalformedFrameException when the frame is malformed, a node sets a parameter twice, or the user's data does not match the
      *   due nodes.
      */
@@ -62,7 +62,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         return tick
     }
 
-    /** Appends the vector in the field at [entry], whose elements are [width] ids each. */
+    /** Appends the vector in the field at [entry], whose elements have [width] ids each. */
     private fun IntList.addVector(entry: Int, width: Int) {
         val vector = target(frame, root, entry)
         if (vector != 0) addAll(frame, vector + OFFSET_BYTES, width * frame.getInt(vector))

@@ -16,7 +16,7 @@ public class StepResponseReader(public val frame: ByteBuffer) {
     /** The response; its actuator data is unverified. */
     public val response: StepResponse
 
-    /** Position of the table `Actuators`; 0 when absent. */
+    /** Position of the table `Actuators`, or 0 if it is absent. */
     public val actuators: Int
 
     init {

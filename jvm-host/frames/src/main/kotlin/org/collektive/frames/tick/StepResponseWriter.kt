@@ -7,7 +7,7 @@ import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
 import org.collektive.frames.AnswerBuffer
 
-/** Writes the `StepResponse` of each tick of a session, and chains their digests. */
+/** Writes the `StepResponse` of each tick of a session, with the chained digest. */
 public class StepResponseWriter(private val data: UserData, private val buffer: AnswerBuffer) {
     private val digest = RoundDigest()
 
@@ -16,7 +16,7 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
      *
      * @param due the ids of the tick's due nodes.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
-     * @return the place of the response, see [AnswerBuffer.finish].
+     * @return the position of the response, see [AnswerBuffer.finish].
      */
     public fun write(result: TickResult, due: IntList, begin: Long): Long {
         val builder = buffer.builder
@@ -25,7 +25,7 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
         digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
         StepResponse.startNodesVector(builder, result.size - result.failureCount)
-        // putInt neither grows nor aligns the buffer: startNodesVector did both.
+        // putInt neither grows nor aligns the buffer, but startNodesVector has done both.
         for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
         val nodes = builder.endVector()
         StepResponse.startStepResponse(builder)

@@ -8,7 +8,7 @@ import org.collektive.frames.data.DataSchema
 import org.collektive.frames.data.GlobalData
 import java.nio.ByteBuffer
 
-/** The user's data of each tick: sensors and global data for the rounds, and their answers. Each thread has its own view. */
+/** The user data of each tick: sensor and global data for the rounds, and their answers. Each thread has its own view. */
 public class UserData(private val schema: DataSchema, threads: Int) : RoundData {
     private val reader = schema.sensorReader()
     private val views = Array(threads) { schema.sensorView() }
@@ -16,7 +16,7 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
     internal val answers = Answers.of(schema)
 
     /**
-     * Verifies the sensor data of [due] in the table `Sensors` at [position] of [frame], once for all threads; a position of 0 means none.
+     * Verifies the sensor data of [due] in the table `Sensors` at [position] of [frame], once for all threads. A position of 0 means that it is absent.
      *
      * @throws MalformedFrameException when the data is malformed, or does not match [due].
      */
@@ -24,25 +24,25 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
         answers.begin(due)
         if (position == 0) {
             if (due.size == 0) return
-            throw MalformedFrameException("it has no sensor data, but ${due.size} nodes are due")
+            throw MalformedFrameException("sensor data is missing, but ${due.size} nodes are due")
         }
         reader.attach(frame, position)
         reader.check()
-        if (reader.size != due.size) throw MalformedFrameException("it has sensor data of ${reader.size} nodes, but ${due.size} are due")
+        if (reader.size != due.size) throw MalformedFrameException("sensor data has ${reader.size} elements, but ${due.size} nodes are due")
     }
 
     /**
-     * Verifies and copies the table `GlobalData` at [position] of [frame]. Returns a view of the copy; `null` if the position is 0.
+     * Verifies and copies the table `GlobalData` at [position] of [frame]. Returns a view of the copy, or `null` if the position is 0.
      *
-     * @throws MalformedFrameException when the data is malformed, or the schema defines none.
+     * @throws MalformedFrameException when the data is malformed, or the schema does not define `GlobalData`.
      */
     internal fun readGlobals(frame: ByteBuffer, position: Int): Any? {
         if (position == 0) return null
-        val holder = globals ?: throw MalformedFrameException("it has global data, but schema ${schema.name} defines none")
+        val holder = globals ?: throw MalformedFrameException("the frame contains global data, but schema ${schema.name} does not define GlobalData")
         return holder.read(frame, position)
     }
 
-    /** Puts the global data of [tick] in use, if it has any. Call it once the tick is accepted. */
+    /** Makes the global data of [tick], if any, current. Call it once the tick is accepted. */
     public fun accept(tick: Tick) {
         if (tick.globals != null) globals?.accept()
     }

@@ -72,10 +72,10 @@ internal class DamagedFrameTest {
         } catch (e: MalformedFrameException) {
             return false
         }
-        val trees = trees(schema)
+        val reflection = reflectionReader(schema)
         for (i in 0 until reader.size) {
             GeneratedSchemas.unpacked(schema, schema.sensorType.name, reader.frame, reader.place(i))
-            trees.read(schema.sensorType.name, reader.frame, reader.place(i))
+            reflection.read(schema.sensorType.name, reader.frame, reader.place(i))
         }
         return true
     }

@@ -20,7 +20,7 @@ internal class ElementReaderTest {
     @Test
     fun `the string of the last table lies outside the frame`() {
         frame.putInt(field(2, NAME), 1 shl 20)
-        assertEquals("data[2].name lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+        assertEquals("data[2].name lies outside the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
@@ -32,7 +32,7 @@ internal class ElementReaderTest {
     @Test
     fun `the last table has another vtable, which is damaged`() {
         frame.putInt(table(2), 1 shl 20)
-        assertEquals("data[2] lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+        assertEquals("data[2] lies outside the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
@@ -42,7 +42,7 @@ internal class ElementReaderTest {
         val vtable = table(1) - frame.getInt(table(1))
         frame.putInt(end, end - vtable)
         frame.putInt(element(2), end - element(2))
-        assertEquals("data[2].number lies outside of the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
+        assertEquals("data[2].number lies outside the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test

@@ -30,13 +30,13 @@ internal class GeneratedCodeTest {
         val reader = schema.sensorReader()
         reader.attach(frame.buffer(), frame.position)
         reader.check()
-        val trees = trees(schema)
-        val read = List(reader.size) { Objects.dump(trees.read(schema.sensorType.name, reader.frame, reader.place(it))) }
+        val reflection = reflectionReader(schema)
+        val read = List(reader.size) { Objects.dump(reflection.read(schema.sensorType.name, reader.frame, reader.place(it))) }
         assertEquals(frame.objects.map(Objects::dump), read)
     }
 
     @Test
-    fun `there is one view of all elements, and other indices are rejected`() {
+    fun `one view serves all elements, and other indices are rejected`() {
         val schema = GeneratedSchemas.features
         val frame = SensorFrames.sensors(schema, 2, random)
         val reader = schema.sensorReader()
@@ -50,14 +50,14 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `global data reads back, and a schema without has none`() {
+    fun `global data is read back, and a schema without it has no reader`() {
         val schema = GeneratedSchemas.globals
         val frame = SensorFrames.table(schema, "test.globals.GlobalData", random)
         val reader = assertNotNull(schema.globalReader())
         reader.attach(frame.buffer(), frame.position)
         reader.check()
         assertEquals(frame.objects.single().let { it.javaClass.getMethod("getGain").invoke(it) }, gain(reader.data))
-        val tree = trees(schema).read(reader.data.javaClass.name, frame.buffer(), frame.position)
+        val tree = reflectionReader(schema).read(reader.data.javaClass.name, frame.buffer(), frame.position)
         assertEquals(Objects.dump(frame.objects.single()), Objects.dump(tree))
         assertNull(GeneratedSchemas.blocks.globalReader())
     }
@@ -92,7 +92,7 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `results have the defaults of the schema, and structs are zero`() {
+    fun `results default to the values of the schema, and structs to zero`() {
         val blocks = GeneratedSchemas.blocks.actuatorType.getConstructor().newInstance()
         val inner = "InnerValue(flag=false, weight=0.0, mode=0)"
         assertContains("$blocks", "active=false, inner=$inner, target=Vector3Value(x=0.0, y=0.0, z=0.0)")
@@ -131,21 +131,21 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `a result that cannot be written has a fault that names the reason`() {
+    fun `the fault of a result that cannot be written names the reason`() {
         val blocks = GeneratedSchemas.blocks.actuatorWriter()
-        assertEquals("the result is null", blocks.findFault(null))
-        assertEquals("the result is a java.lang.String, not a test.blocks.ActuatorData", blocks.findFault("x"))
+        assertEquals("the program returned null", blocks.findFault(null))
+        assertEquals("the program returned a java.lang.String instead of a test.blocks.ActuatorData", blocks.findFault("x"))
 
         val features = GeneratedSchemas.features.actuatorWriter()
         fun fault(field: String, value: Any?) = features.findFault(made(field to value))
         assertNull(fault("text", "a \ud83d\ude80"))
-        assertEquals("label holds half a surrogate pair", fault("label", "x\ud83d"))
+        assertEquals("label contains an unpaired surrogate", fault("label", "x\ud83d"))
         assertEquals("words[1] is null", fault("words", listOf("a", null)))
-        assertEquals("words[0] holds half a surrogate pair", fault("words", listOf("\ude80")))
+        assertEquals("words[0] contains an unpaired surrogate", fault("words", listOf("\ude80")))
         assertEquals("leaves[0] is null", fault("leaves", listOf(null)))
         assertEquals("path[0] is null", fault("path", listOf(null)))
         val tree = type("TreeValue").constructors.single { it.parameterCount == 1 }.newInstance(leaf("\ud83d"))
-        assertEquals("tree.leaf.name holds half a surrogate pair", fault("tree", tree))
+        assertEquals("tree.leaf.name contains an unpaired surrogate", fault("tree", tree))
     }
 
     @Test

@@ -10,11 +10,11 @@ import java.nio.ByteBuffer
 import java.util.Random
 import java.lang.reflect.Array as ReflectArray
 
-/** Makes and prints random data of any schema: objects of flatc's object classes, results of programs, and trees. */
+/** Creates and prints random data of any schema: objects of flatc's object API, results of programs, and maps. */
 internal object Objects {
     /**
-     * A canonical text of the data; the C# tests print the same. Members by name in lower case,
-     * sorted; reals as their bits; integers as signed 64 bits; absent lists as empty.
+     * Returns a canonical text of the data, the same as in the C# tests. Members are sorted by lower-case name, floating-point numbers
+     * printed as bits, integers as signed 64-bit numbers, and absent lists as empty ones.
      */
     fun dump(data: Any?): String = buildString { append(data, data?.javaClass) }
 

@@ -25,7 +25,7 @@ internal object RoundTrip {
     private fun read(schema: DataSchema, file: File) {
         val sensors = schema.sensorReader()
         val globals = schema.globalReader()
-        val trees = trees(schema)
+        val reflection = reflectionReader(schema)
         var passed = 0
         var failed = 0
         DataInputStream(file.inputStream().buffered()).use { input ->
@@ -42,13 +42,13 @@ internal object RoundTrip {
                 sensors.check()
                 for (i in 0 until sensors.size) {
                     text.append(
-                        Objects.dump(trees.read(schema.sensorType.name, frame, sensors.place(i))),
+                        Objects.dump(reflection.read(schema.sensorType.name, frame, sensors.place(i))),
                     ).append('\n')
                 }
                 if (globals != null) {
                     globals.attach(frame, positions[1])
                     globals.check()
-                    text.append(Objects.dump(trees.read(globals.data.javaClass.name, frame, positions[1]))).append('\n')
+                    text.append(Objects.dump(reflection.read(globals.data.javaClass.name, frame, positions[1]))).append('\n')
                 }
                 if (sensors.size == positions[2] && text.toString() == expected) {
                     passed++

@@ -33,7 +33,7 @@ class ViewRuleTest {
 
     @Test
     fun `a view is refused by name`() {
-        assertContains(ViewRule.refusal(view).orEmpty(), "a ${Sensors::class.java.name} is a view of this tick's memory")
+        assertContains(ViewRule.refusal(view).orEmpty(), "a ${Sensors::class.java.name} is a view of the frame's memory")
         assertNotNull(ViewRule.refusal(ByteBuffer.allocate(1)))
     }
 

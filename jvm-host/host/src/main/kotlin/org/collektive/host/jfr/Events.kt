@@ -9,7 +9,7 @@ import jdk.jfr.Name
 import jdk.jfr.StackTrace
 import jdk.jfr.Timespan
 
-/** One tick, from the host call to its answer. Each session reuses one object. */
+/** Event of one tick, from the host call to its answer. Each session reuses one object. */
 @Name("collektive.Tick")
 @Label("Tick")
 @Category("Collektive")
@@ -24,7 +24,7 @@ internal class TickEvent : Event() {
     var nodes = 0
 
     @Label("Due Nodes")
-    @Description("Nodes that ran a round in this tick")
+    @Description("Number of nodes that ran a round in this tick")
     @JvmField
     var dueNodes = 0
 
@@ -33,7 +33,7 @@ internal class TickEvent : Event() {
     var failedRounds = 0
 
     @Label("Links")
-    @Description("Directed links")
+    @Description("Number of directed links")
     @JvmField
     var links = 0
 
@@ -59,13 +59,13 @@ internal class TickEvent : Event() {
     var rounds = 0L
 
     @Label("Write")
-    @Description("Building the answer and its digest")
+    @Description("Time to write the answer and its digest")
     @Timespan(Timespan.NANOSECONDS)
     @JvmField
     var write = 0L
 }
 
-/** The messages of one tick. Each session reuses one object. */
+/** Event with the message counts of one tick. Each session reuses one object. */
 @Name("collektive.NetworkStats")
 @Label("Network Stats")
 @Category("Collektive")
@@ -76,7 +76,7 @@ internal class NetworkStatsEvent : Event() {
     var tick = 0L
 
     @Label("Sent")
-    @Description("Messages sent, one per link and export")
+    @Description("Number of messages sent, one per link and export")
     @JvmField
     var sent = 0L
 
@@ -85,20 +85,20 @@ internal class NetworkStatsEvent : Event() {
     var dropped = 0L
 
     @Label("Delayed")
-    @Description("Messages that arrive later than in an ideal network")
+    @Description("Number of messages that arrive later than in an ideal network")
     @JvmField
     var delayed = 0L
 
     @Label("Expired")
-    @Description("Received messages that expired")
+    @Description("Number of received messages that expired")
     @JvmField
     var expired = 0L
 }
 
-/** The run of a program in a sampled round, see [ProgramRounds]. */
+/** Event of a program's sampled round, see [RoundSampling]. */
 @Name("collektive.ProgramRound")
 @Label("Program Round")
-@Description("One in ${ProgramRounds.EVERY} rounds of each thread")
+@Description("A sampled round: one in ${RoundSampling.INTERVAL} rounds of each thread")
 @Category("Collektive")
 @StackTrace(false)
 internal class ProgramRoundEvent : Event() {
@@ -116,12 +116,12 @@ internal class ProgramRoundEvent : Event() {
     var function: String? = null
 
     @Label("Exports")
-    @Description("Values sent to the neighbours, one per place in the program")
+    @Description("Number of values sent to the neighbours, one per aligned path")
     @JvmField
     var exports = 0
 }
 
-/** A session was opened; the event lasts as long as the opening. */
+/** Event of an opened session; its duration is the time that opening took. */
 @Name("collektive.SessionStart")
 @Label("Session Start")
 @Category("Collektive")
@@ -148,7 +148,7 @@ internal class SessionStartEvent : Event() {
     var threads = 0
 }
 
-/** A session was closed. */
+/** Event of a closed session. */
 @Name("collektive.SessionEnd")
 @Label("Session End")
 @Category("Collektive")
@@ -159,12 +159,12 @@ internal class SessionEndEvent : Event() {
     var ticks = 0L
 
     @Label("Failure")
-    @Description("Why the session ended early")
+    @Description("Reason why the session failed; null if it ended normally")
     @JvmField
     var failure: String? = null
 }
 
-/** A round failed. */
+/** Event of a failed round. */
 @Name("collektive.ProgramError")
 @Label("Program Error")
 @Category("Collektive")
@@ -187,7 +187,7 @@ internal class ProgramErrorEvent : Event() {
     var message: String? = null
 }
 
-/** An answer outgrew its slot. */
+/** Event of an answer slot that was enlarged. */
 @Name("collektive.SlotGrown")
 @Label("Slot Grown")
 @Category("Collektive")

@@ -15,10 +15,10 @@ import java.util.concurrent.Executors
 import java.util.concurrent.TimeUnit
 
 /**
- * The flight recording of this JVM; there is at most one.
+ * Controls the flight recording of this JVM, at most one at a time.
  *
- * Actions run one after the other on a separate thread, because they are slow: the first start takes some hundred milliseconds. A caller
- * finds their outcome later in [state], [error] and the log. Call the functions from one thread.
+ * Actions are slow (the first start takes hundreds of milliseconds), so they run sequentially on a separate thread. [state], [error] and
+ * the log report their outcome later. Call the functions from one thread.
  */
 internal class Recorder(private val shim: ShimCalls) {
     enum class State { OFF, STARTING, ON, DUMPING, STOPPING }
@@ -26,15 +26,15 @@ internal class Recorder(private val shim: ShimCalls) {
     private var worker: ExecutorService? = null
     private var recording: Recording? = null
 
-    /** Number of actions that are not done; guarded by this. */
-    private var orders = 0
+    /** Number of actions that have not ended; guarded by this. */
+    private var pendingActions = 0
 
-    /** The action requested last, until all actions are done; then [State.ON] or [State.OFF]. */
+    /** The last requested action while actions are pending; otherwise [State.ON] or [State.OFF]. */
     @Volatile
     var state = State.OFF
         private set
 
-    /** File of the current recording, or of the last one; `null` before the first. */
+    /** File of the current or last recording; `null` before the first. */
     @Volatile
     var path: String? = null
         private set
@@ -55,8 +55,8 @@ internal class Recorder(private val shim: ShimCalls) {
         private set
 
     /** Starts a recording; [stop] writes it to [file]. [settings] are "default", "profile" or the path of a `.jfc` file. */
-    fun start(settings: String, file: String) = act(State.STARTING) {
-        check(recording == null) { "a recording runs already, to $path; stop it first" }
+    fun start(settings: String, file: String) = submit(State.STARTING) {
+        check(recording == null) { "a recording to $path is already running; stop it first" }
         val target = target(file)
         SessionEvents.prepare()
         val started = Recording(configuration(settings))
@@ -72,26 +72,26 @@ internal class Recorder(private val shim: ShimCalls) {
         recording = started
     }
 
-    /** Writes the recording so far to [file], and continues it. */
-    fun dump(file: String) = act(State.DUMPING) { write(running(), target(file)) }
+    /** Writes the data recorded so far to [file]; the recording continues. */
+    fun dump(file: String) = submit(State.DUMPING) { write(running(), target(file)) }
 
     /** Stops the recording and writes its file. */
-    fun stop() = act(State.STOPPING) { finish(running()) }
+    fun stop() = submit(State.STOPPING) { finish(running()) }
 
-    /** Stops a running recording, and waits for its file for at most [limitMillis] milliseconds. */
+    /** Stops a running recording, and waits at most [limitMillis] milliseconds until its file is written. */
     fun close(limitMillis: Int) {
         val worker = worker ?: return
-        if (state != State.OFF) act(State.STOPPING) { recording?.let(::finish) }
+        if (state != State.OFF) submit(State.STOPPING) { recording?.let(::finish) }
         worker.shutdown()
         if (!worker.awaitTermination(limitMillis.toLong(), TimeUnit.MILLISECONDS)) {
-            shim.log(LogLevel.ERROR, "the flight recording to $path was not written within $limitMillis ms")
+            shim.log(LogLevel.ERROR, "the flight recording $path was not written within $limitMillis ms and may be missing")
         }
         this.worker = null
     }
 
-    private fun act(busy: State, action: () -> Unit) {
+    private fun submit(busy: State, action: () -> Unit) {
         synchronized(this) {
-            orders++
+            pendingActions++
             state = busy
         }
         val worker =
@@ -108,23 +108,23 @@ internal class Recorder(private val shim: ShimCalls) {
             }
             millis = TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - begin).toInt()
             synchronized(this) {
-                // Another action may have been requested meanwhile.
-                if (--orders == 0) state = if (recording == null) State.OFF else State.ON
+                // Another action may have been requested in the meantime.
+                if (--pendingActions == 0) state = if (recording == null) State.OFF else State.ON
             }
         }
     }
 
     private fun text(failure: Throwable): String = when (failure) {
-        is NoSuchFileException -> "there is no file or folder ${failure.file}"
-        is IOException -> "it cannot be written: ${failure.message ?: failure}; make room or choose another file"
+        is NoSuchFileException -> "no such file or folder: ${failure.file}"
+        is IOException -> "cannot write the file: ${failure.message ?: failure}; free disk space or choose another file"
         is IllegalStateException, is IllegalArgumentException -> failure.message ?: failure.toString()
         else -> failure.toString()
     }
 
-    private fun running() = checkNotNull(recording) { "none runs; start one first" }
+    private fun running() = checkNotNull(recording) { "no recording is running; start one first" }
 
     private fun target(file: String): Path {
-        require(file.isNotBlank()) { "name the file it is written to" }
+        require(file.isNotBlank()) { "the file name is empty; enter the file to write" }
         val target = Path.of(file).toAbsolutePath()
         require(!Files.isDirectory(target)) { "$target is a folder; name a file in it" }
         Files.createDirectories(target.parent)
@@ -135,12 +135,12 @@ internal class Recorder(private val shim: ShimCalls) {
         Configuration.getConfigurations().find { it.name == settings }?.let { return it }
         require(settings.endsWith(".jfc")) {
             val known = Configuration.getConfigurations().map { it.name }.sorted().joinToString()
-            "there are no settings '$settings'; there are $known and the paths of .jfc files"
+            "unknown settings '$settings'; use $known or the path of a .jfc file"
         }
         return try {
             Configuration.create(Path.of(settings))
         } catch (e: ParseException) {
-            throw IllegalArgumentException("$settings is no file of recording settings: ${e.message}", e)
+            throw IllegalArgumentException("$settings is not a valid .jfc file: ${e.message}", e)
         }
     }
 
@@ -152,7 +152,7 @@ internal class Recorder(private val shim: ShimCalls) {
         }
     }
 
-    /** Writes atomically: [target] exists completely or not at all. */
+    /** Writes [target] atomically. */
     private fun write(source: Recording, target: Path) {
         val part = target.resolveSibling("${target.fileName}.part")
         try {
@@ -168,7 +168,7 @@ internal class Recorder(private val shim: ShimCalls) {
     private companion object {
         const val KIB = 1024
 
-        /** Limit of a recording: JFR then drops the oldest events, so that a forgotten recording does not fill the disk. */
+        /** Maximum size of a recording. JFR then drops the oldest events, so a forgotten recording does not fill the disk. */
         const val MAX_BYTES = 512L shl 20
     }
 }

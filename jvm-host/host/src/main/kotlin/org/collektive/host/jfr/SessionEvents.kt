@@ -3,9 +3,9 @@ package org.collektive.host.jfr
 import jdk.jfr.FlightRecorder
 
 /**
- * The event objects of one session. The tick's events are reused; the end's is made early, because memory may be exhausted by then.
+ * The reusable event objects of one session. The end event is created early, because memory may be exhausted at the end.
  *
- * Make them only once this JVM has a flight recorder: the first event takes some 80 ms, which would delay the first tick.
+ * Create them only if the flight recorder of this JVM is initialised: the first event takes about 80 ms, which would delay the first tick.
  */
 internal class SessionEvents private constructor() {
     val tick = TickEvent()
@@ -13,13 +13,13 @@ internal class SessionEvents private constructor() {
     val end = SessionEndEvent()
 
     companion object {
-        /** Whether this JVM records or has recorded. A plain read, cheap enough for each round. */
-        val wanted: Boolean get() = FlightRecorder.isInitialized()
+        /** Whether this JVM records or has recorded. Cheap enough for each round. */
+        val isRecorderInitialized: Boolean get() = FlightRecorder.isInitialized()
 
-        /** The events of a session; `null` while they are not [wanted]. */
-        fun ofRecorder(): SessionEvents? = if (wanted) SessionEvents() else null
+        /** Returns the events of a session, or `null` before the flight recorder is initialised. */
+        fun ofRecorder(): SessionEvents? = if (isRecorderInitialized) SessionEvents() else null
 
-        /** Preloads JFR's event classes, so that no tick waits for them when a recording starts. */
+        /** Preloads the event classes, so that the first recorded tick does not wait for them. */
         fun prepare() {
             SessionEvents()
             SessionStartEvent()

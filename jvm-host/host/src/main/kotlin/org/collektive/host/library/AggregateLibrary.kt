@@ -24,9 +24,9 @@ import kotlin.io.path.name
 import kotlin.io.path.readBytes
 
 /**
- * What programs link to and the host does not: the DSL, its standard library, and the runtime that implements them.
+ * The library that programs link to and the host does not: the DSL, its standard library, and the runtime that implements them.
  *
- * @property runtime what it is.
+ * @property runtime the kind of this library.
  * @property loader the parent of the programs' class loader.
  */
 public class AggregateLibrary private constructor(
@@ -36,46 +36,46 @@ public class AggregateLibrary private constructor(
     private val folder: Path?,
 ) {
     /**
-     * SHA-256 of the user's jars one after the other, in the order of their names, as the tools write it into programs' jars; empty for the
+     * SHA-256 of the user's jars, concatenated in the order of their names, as the build tools write it into programs' jars; empty for the
      * built-in runtime.
      */
     public val hash: String by lazy { folder?.let { hash(userJars(it)) }.orEmpty() }
 
     /**
-     * Makes the devices of one session. See [RuntimeProvider.runtimes].
+     * Creates the devices of one session, see [RuntimeProvider.runtimes].
      *
-     * @throws HostException when the jars lack a class or a function that the runtime needs.
+     * @throws HostException when a class or function that the runtime needs is missing in the jars.
      */
     public fun runtimes(rule: SharingRule): DeviceRuntimes = try {
         provider.runtimes(rule)
     } catch (e: LinkageError) {
         throw HostException(
             HostError.PROGRAM,
-            "the $this does not work: $e. A jar is missing, or of another version than $VERSION: put Collektive's dsl and stdlib, " +
-                "both of that version, and all that they need into that folder",
+            "the $this does not work: $e. A jar is missing or of another version than $VERSION: put Collektive's dsl and stdlib, " +
+                "both of that version, and their dependencies into that folder",
             e,
         )
     }
 
-    /** Whether programs find the class [name], as in `java/lang/String`. */
-    internal fun has(name: String): Boolean = loader.getResource("$name.class") != null
+    /** Returns whether the library contains the class [name], such as `java/lang/String`. */
+    internal fun contains(name: String): Boolean = loader.getResource("$name.class") != null
 
     override fun toString(): String = runtime.title + if (folder == null) "" else " of $folder"
 
     public companion object {
-        /** The version of Collektive that the adapter is made for. */
+        /** The version of Collektive that the adapter supports. */
         public const val VERSION: String = "28.3"
 
-        /** The folder of the host's jar; `null` while the host is a folder of classes, with all libraries on the class path. */
+        /** The folder of the host's jar; `null` if the host runs from a folder of classes, with all libraries on the class path. */
         private val home: Path? = Path.of(AggregateLibrary::class.java.protectionDomain.codeSource.location.toURI())
             .takeIf { it.isRegularFile() }?.parent
 
         private val last = EnumMap<AggregateRuntime, Pair<List<Any>, AggregateLibrary>>(AggregateRuntime::class.java)
 
         /**
-         * The library of [runtime]. The last one of each runtime is kept: the next session finds its classes compiled. Not thread-safe.
+         * Returns the library of [runtime]. Caches the last one of each runtime, so the next session uses compiled classes. Not thread-safe.
          *
-         * @param folder where the jars of [AggregateRuntime.COLLEKTIVE] are.
+         * @param folder the folder of the jars of [AggregateRuntime.COLLEKTIVE].
          * @throws HostException when a jar is missing or cannot be read.
          */
         public fun of(runtime: AggregateRuntime, folder: String): AggregateLibrary {
@@ -96,26 +96,26 @@ public class AggregateLibrary private constructor(
             val provider = ServiceLoader.load(RuntimeProvider::class.java, loader).find { it.name == runtime.key }
                 ?: throw HostException(
                     HostError.HOST,
-                    "${runtime.jar} beside the host's jar does not have the ${runtime.title}; reinstall the package",
+                    "${runtime.jar} beside the host's jar does not contain the ${runtime.title}; reinstall the package",
                 )
             return AggregateLibrary(runtime, loader, provider, folder)
         }
 
-        /** Reads [jars] into memory: users replace them, and Windows locks open files. The package's own jar loads faster from its file. */
+        /** Reads [jars] into memory, because users may replace them and Windows locks open files. The package's jar loads faster from its file. */
         internal fun loaderInMemory(jars: List<Path>): ClassLoader =
             JarLoader("library", jars.map { ProgramJar.open(JarBytes.read(it.toString())) }, AggregateLibrary::class.java.classLoader)
 
         private fun place(folder: String): Path {
-            if (folder.isEmpty()) throw noJars("the session names no folder of Collektive's jars")
+            if (folder.isEmpty()) throw noJars("the setting 'runtimeJars' is empty")
             val place = Path.of(folder)
-            if (!place.isDirectory()) throw noJars("there is no folder $place")
-            if (userJars(place).isEmpty()) throw noJars("there is no jar in $place")
+            if (!place.isDirectory()) throw noJars("folder $place does not exist")
+            if (userJars(place).isEmpty()) throw noJars("folder $place contains no jar")
             return place
         }
 
         private fun noJars(what: String) = HostException(
             HostError.PROGRAM,
-            "$what: put Collektive's dsl and stdlib, version $VERSION, and all that they need into a folder and name it as 'runtimeJars'",
+            "$what: put Collektive's dsl and stdlib, version $VERSION, and their dependencies into a folder and set 'runtimeJars' to it",
         )
 
         private fun userJars(folder: Path): List<Path> = folder.listDirectoryEntries("*.jar").sortedBy(Path::name)
@@ -126,15 +126,15 @@ public class AggregateLibrary private constructor(
             return digest.digest().joinToString("") { "%02x".format(it) }
         }
 
-        /** What changes when [jar] is replaced. */
+        /** Returns a key that changes when [jar] is replaced. */
         private fun state(jar: Path): Any = try {
-            // Class loaders ignore jars that they cannot read.
+            // Class loaders silently ignore unreadable jars, so this opens the jar.
             ZipFile(jar.toFile()).close()
             Triple(jar, Files.getLastModifiedTime(jar), Files.size(jar))
         } catch (e: NoSuchFileException) {
-            throw HostException(HostError.HOST, "there is no library jar $jar; reinstall the package", e)
+            throw HostException(HostError.HOST, "library jar $jar does not exist; reinstall the package", e)
         } catch (e: IOException) {
-            throw HostException(HostError.PROGRAM, "the library jar $jar cannot be read: $e; replace it by a good one", e)
+            throw HostException(HostError.PROGRAM, "the library jar $jar cannot be read: $e; replace it with a valid copy", e)
         }
     }
 }

@@ -4,11 +4,11 @@ import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 
 /**
- * What runs aggregate programs.
+ * An implementation of the Collektive API that runs aggregate programs.
  *
- * @property key its name in settings, manifests and records.
- * @property title its name in messages.
- * @property jar the jar beside the host's that has its `RuntimeProvider`.
+ * @property key the name in settings, manifests and records.
+ * @property title the name in messages.
+ * @property jar the jar beside the host's that contains its `RuntimeProvider`.
  */
 public enum class AggregateRuntime(public val key: String, public val title: String, internal val jar: String) {
     BUILT_IN("builtIn", "built-in runtime", "collektive-library.jar"),
@@ -16,8 +16,8 @@ public enum class AggregateRuntime(public val key: String, public val title: Str
     ;
 
     public companion object {
-        /** The runtime with the number [value] of `AggregateRuntime` in `frame.fbs`. */
+        /** Returns the runtime with the number [value] of `AggregateRuntime` in `frame.fbs`. */
         public fun of(value: Int): AggregateRuntime =
-            entries.getOrNull(value) ?: throw HostException(HostError.FRAME, "there is no aggregate runtime $value")
+            entries.getOrNull(value) ?: throw HostException(HostError.FRAME, "unknown aggregate runtime $value")
     }
 }

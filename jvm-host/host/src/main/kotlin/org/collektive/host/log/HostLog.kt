@@ -13,9 +13,9 @@ import java.util.logging.LogManager
 import java.util.logging.LogRecord
 
 /**
- * Sends what programs print and log to the shim, prefixed with the node and the program.
+ * Sends the output and log messages of programs to the shim, prefixed with the node and the program.
  *
- * This includes slf4j: its binding to `java.util.logging` is on the host's class path.
+ * This includes slf4j, whose binding to `java.util.logging` is on the host's class path.
  */
 internal class HostLog(private val shim: ShimCalls) {
     private val out = ShimStream(LogLevel.INFO)
@@ -23,7 +23,7 @@ internal class HostLog(private val shim: ShimCalls) {
     private val handler = ShimHandler()
     private val failures = ThreadFailures(shim)
 
-    /** Redirects standard output, `java.util.logging` and uncaught exceptions. Call it again to undo a program's own redirection. */
+    /** Redirects standard output, `java.util.logging` and uncaught exceptions. Call it again to undo redirections by a program. */
     fun install() {
         System.setOut(out)
         System.setErr(err)
@@ -34,17 +34,17 @@ internal class HostLog(private val shim: ShimCalls) {
         Thread.setDefaultUncaughtExceptionHandler(failures)
     }
 
-    /** Logs how often uncaught exceptions were repeated. */
+    /** Logs the counts of repeated uncaught exceptions. */
     fun logCounts() {
         failures.logCounts()
     }
 
-    /** Ignores `close`, because all programs share the stream. */
+    /** A stream that ignores `close`, because all programs share it. */
     private inner class ShimStream(level: LogLevel) : PrintStream(LineStream(level), false, Charsets.UTF_8) {
         override fun close() = flush()
     }
 
-    /** Buffers a line per thread, so that the lines of parallel rounds do not mix. Cuts long lines between two characters. */
+    /** Buffers one line per thread, so that the lines of parallel rounds do not mix. Splits long lines between characters. */
     private inner class LineStream(private val level: LogLevel) : OutputStream() {
         private val lines = ThreadLocal.withInitial { ByteArrayOutputStream() }
 
@@ -75,7 +75,7 @@ internal class HostLog(private val shim: ShimCalls) {
             }
         }
 
-        /** Bytes of the UTF-8 character that begins with [byte]; 1 if none does. */
+        /** Returns the length of the UTF-8 character that starts with [byte]; 1 for other bytes. */
         private fun bytesOfCharacter(byte: Int): Int = when (byte and 0xFF) {
             in 0xC0..0xDF -> 2
             in 0xE0..0xEF -> 3
@@ -124,11 +124,11 @@ internal class HostLog(private val shim: ShimCalls) {
     }
 
     companion object {
-        // In bytes of UTF-8.
+        // Both are in bytes of UTF-8.
         private const val MAX_LINE = 4096
         private const val MAX_CHARACTER = 4
 
-        /** [text], prefixed with the node and the program if their code runs on this thread. */
+        /** Returns [text], prefixed with the node and the program if this thread runs their code. */
         fun attributed(text: String): String = RoundThread.origin()?.let { "[$it] $text" } ?: text
     }
 }

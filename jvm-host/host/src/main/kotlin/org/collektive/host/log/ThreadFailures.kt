@@ -7,23 +7,23 @@ import org.collektive.host.shim.ShimCalls
 import java.util.concurrent.ConcurrentHashMap
 import java.util.concurrent.atomic.AtomicLong
 
-/** Logs uncaught exceptions in threads of programs: the first of each kind in full, repetitions as a count. Safe on any thread. */
+/** Logs uncaught exceptions in threads of programs: the first of each kind in full, repetitions as a count. Thread-safe. */
 internal class ThreadFailures(private val shim: ShimCalls) : Thread.UncaughtExceptionHandler {
     private val counts = ConcurrentHashMap<String, AtomicLong>()
 
     override fun uncaughtException(thread: Thread, failure: Throwable) {
         try {
-            val count = counts.computeIfAbsent(place(failure)) { AtomicLong() }.incrementAndGet()
+            val count = counts.computeIfAbsent(kind(failure)) { AtomicLong() }.incrementAndGet()
             if (count == 1L) logFirst(failure)
-            if (count > 1 && isPowerOfTen(count)) logCount(place(failure), count)
+            if (count > 1 && isPowerOfTen(count)) logCount(kind(failure), count)
         } catch (_: Throwable) {
-            // Memory is exhausted, so logging is impossible.
+            // Logging fails only if memory is exhausted.
         }
     }
 
     /** Logs the count of each exception that was repeated, and resets all counts. */
     fun logCounts() {
-        for ((place, count) in counts) if (count.get() > 1) logCount(place, count.get())
+        for ((kind, count) in counts) if (count.get() > 1) logCount(kind, count.get())
         counts.clear()
     }
 
@@ -32,12 +32,12 @@ internal class ThreadFailures(private val shim: ShimCalls) : Thread.UncaughtExce
         shim.log(LogLevel.ERROR, HostLog.attributed("an uncaught exception ended the thread: $description"))
     }
 
-    private fun logCount(place: String, count: Long) {
-        shim.log(LogLevel.ERROR, "$count times so far, an uncaught exception ended a thread: $place")
+    private fun logCount(kind: String, count: Long) {
+        shim.log(LogLevel.ERROR, "an uncaught exception ended a thread $count times so far: $kind")
     }
 
-    /** Two exceptions are of the same kind if they have the same class and origin. */
-    private fun place(failure: Throwable): String {
+    /** Returns the class and origin of [failure]; exceptions of the same kind have the same result. */
+    private fun kind(failure: Throwable): String {
         val frames = failure.stackTrace
         val own = frames.firstOrNull { it.classLoaderName == ProgramLoader.NAME } ?: frames.firstOrNull()
         return "${failure.javaClass.name} at $own"

@@ -13,9 +13,9 @@ import java.util.zip.ZipInputStream
 /** The bytes of a jar, and the path from which they were read. */
 public class JarBytes(public val path: String, public val bytes: ByteArray) {
     /**
-     * The content of the entry [name]; `null` when there is none.
+     * Returns the content of the entry [name], or `null` if it does not exist.
      *
-     * @throws HostException when the jar is damaged, or the entry has more than 16 MiB.
+     * @throws HostException when the jar is damaged, or the entry is larger than 16 MiB.
      */
     public fun entry(name: String): ByteArray? = try {
         ZipInputStream(ByteArrayInputStream(bytes)).use { zip ->
@@ -25,9 +25,9 @@ public class JarBytes(public val path: String, public val bytes: ByteArray) {
         throw damaged(e.message)
     } catch (e: IllegalArgumentException) {
         throw damaged(e.message)
-    }.also { if (it != null && it.size > MAX_ENTRY_BYTES) throw damaged("$name has more than $MAX_ENTRY_BYTES bytes") }
+    }.also { if (it != null && it.size > MAX_ENTRY_BYTES) throw damaged("$name is larger than $MAX_ENTRY_BYTES bytes") }
 
-    internal fun damaged(why: String?) = HostException(HostError.PROGRAM, "the jar $path is damaged ($why); build it again")
+    internal fun damaged(why: String?) = HostException(HostError.PROGRAM, "the jar $path is damaged ($why); rebuild it")
 
     public companion object {
         private const val MAX_ENTRY_BYTES = 16 shl 20
@@ -40,13 +40,13 @@ public class JarBytes(public val path: String, public val bytes: ByteArray) {
         public fun read(path: String): JarBytes = try {
             JarBytes(path, Files.readAllBytes(Path.of(path)))
         } catch (e: NoSuchFileException) {
-            throw HostException(HostError.PROGRAM, "there is no jar $path; build the programs, or correct the path", e)
+            throw HostException(HostError.PROGRAM, "jar $path does not exist; build the programs, or correct the path", e)
         } catch (e: InvalidPathException) {
-            throw HostException(HostError.PROGRAM, "'$path' is not a path of a jar", e)
+            throw HostException(HostError.PROGRAM, "'$path' is not a valid path of a jar; correct it", e)
         } catch (e: IOException) {
             throw HostException(
                 HostError.PROGRAM,
-                "the jar $path cannot be read: $e; check its permissions, and close the program that keeps it open",
+                "the jar $path cannot be read: $e; check its permissions, and close other programs that use it",
                 e,
             )
         }

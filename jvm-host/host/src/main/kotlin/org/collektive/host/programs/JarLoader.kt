@@ -8,7 +8,7 @@ import java.net.URLStreamHandler
 import java.util.Collections
 import java.util.Enumeration
 
-/** A class loader that reads from memory, so it keeps no file open. Searches the classes of [parent] first, then [jars] in order. */
+/** A class loader that reads from memory and keeps no files open. Searches [parent] first, then [jars] in order. */
 public open class JarLoader(name: String, private val jars: List<ProgramJar>, parent: ClassLoader) : ClassLoader(name, parent) {
     override fun findClass(name: String): Class<*> {
         val bytes = find(name.replace('.', '/') + ".class") ?: throw ClassNotFoundException(name)

@@ -5,20 +5,20 @@ import org.collektive.api.Parameters
 import org.collektive.api.Program
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundDevice
-import org.collektive.host.jfr.ProgramRounds
+import org.collektive.host.jfr.RoundSampling
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
 /**
- * A program of a user's jar, ready to run.
+ * A program of a user's jar that is ready to run.
  *
- * [function] has exactly the type [TYPE], so `invokeExact` works and allocates nothing. A generated lambda would be slightly faster, but
- * `LambdaMetafactory` refuses classes of another class loader.
+ * [function] has exactly the type [TYPE], so `invokeExact` works and does not allocate. A generated lambda would be slightly faster, but
+ * `LambdaMetafactory` does not support classes of another class loader.
  *
- * @property info the program's annotation.
- * @property place the program's class and method, for profiles.
+ * @property info the annotation of the program.
+ * @property place the class and method of the program, for profiles.
  */
 internal class LoadedProgram(
     val info: Program,
@@ -31,18 +31,22 @@ internal class LoadedProgram(
     private val defaults = Parameters(info.parameters.associate { it.name to it.default })
 
     override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? {
-        val own: Device = device
-        val event = ProgramRounds.begin() ?: return function.invokeExact(aggregate, sensors, own)
+        val argument: Device = device // invokeExact needs this static type
+        val event = RoundSampling.begin() ?: return function.invokeExact(aggregate, sensors, argument)
         try {
-            return function.invokeExact(aggregate, sensors, own)
+            return function.invokeExact(aggregate, sensors, argument)
         } finally {
-            ProgramRounds.end(event, device, name, place)
+            RoundSampling.end(event, device, name, place)
         }
     }
 
     override fun describe(failure: Throwable, place: String?): String = RoundFailure.describe(failure, place, loader)
 
-    /** The parameters of [node], which overrides [values]. */
+    /**
+     * Returns the parameters of [node], which overrides [values].
+     *
+     * @throws HostException when a value is not a number although its default is one, or its parameter is not declared.
+     */
     fun parameters(node: Int, values: Map<String, String>): Parameters {
         if (values.isEmpty()) return defaults
         val all = info.parameters.associateTo(LinkedHashMap()) { it.name to it.default }
@@ -56,7 +60,7 @@ internal class LoadedProgram(
             if (all.getValue(name).toDoubleOrNull() != null && value.toDoubleOrNull() == null) {
                 throw HostException(
                     HostError.PROGRAM,
-                    "node $node sets the parameter '$name' of program '${this.name}' to '$value': it must be a number, as its default ${all[name]} is",
+                    "node $node sets the parameter '$name' of program '${this.name}' to '$value': it must be a number like its default ${all[name]}",
                 )
             }
             all[name] = value
@@ -65,7 +69,7 @@ internal class LoadedProgram(
     }
 
     companion object {
-        /** The erased type of all programs: aggregate, sensors, device. */
+        /** The erased type of all programs with the parameters aggregate, sensors and device. */
         val TYPE: MethodType = MethodType.methodType(Any::class.java, Any::class.java, Any::class.java, Device::class.java)
     }
 }

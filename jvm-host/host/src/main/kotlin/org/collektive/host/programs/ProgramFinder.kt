@@ -12,8 +12,8 @@ import java.lang.reflect.Modifier
 import java.lang.reflect.ParameterizedType
 
 /**
- * Finds the functions annotated with [Program] in [jars]. It loads only classes that have some, and skips functions that are written
- * for another schema of [all].
+ * Finds the functions annotated with [Program] in [jars]. Loads only classes with such functions, and skips functions for other schemas
+ * of [all].
  */
 internal class ProgramFinder(
     private val jars: List<ProgramJar>,
@@ -23,7 +23,11 @@ internal class ProgramFinder(
 ) {
     private val otherSensors = all.map(DataSchema::sensorType) - schema.sensorType
 
-    /** All programs by name, sorted by name. */
+    /**
+     * Returns all programs by name, sorted by name.
+     *
+     * @throws HostException when a class cannot be loaded, a function has another signature, or two programs have the same name.
+     */
     fun find(): Map<String, LoadedProgram> {
         val programs = sortedMapOf<String, LoadedProgram>()
         val places = HashMap<String, String>()
@@ -35,7 +39,7 @@ internal class ProgramFinder(
                     val place = "${method.declaringClass.name}.${method.name} in ${jar.path}"
                     val other = places.put(info.name, place)
                     if (other != null) {
-                        throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one")
+                        throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one of them")
                     }
                     programs[info.name] =
                         LoadedProgram(info, function(method, place), "${method.declaringClass.name}.${method.name}", loader)
@@ -46,18 +50,18 @@ internal class ProgramFinder(
     }
 
     private fun annotatedMethods(jar: ProgramJar, className: String): List<Method> = try {
-        Class.forName(className, false, loader).declaredMethods.filter(::isWanted).sortedBy(Method::getName)
+        Class.forName(className, false, loader).declaredMethods.filter(::isForSchema).sortedBy(Method::getName)
     } catch (e: LinkageError) {
         throw cannotLoad(jar, className, e)
     } catch (e: ClassNotFoundException) {
         throw cannotLoad(jar, className, e)
     }
 
-    private fun isWanted(method: Method) =
+    private fun isForSchema(method: Method) =
         method.isAnnotationPresent(Program::class.java) && method.parameterTypes.getOrNull(1) !in otherSensors
 
     private fun cannotLoad(jar: ProgramJar, className: String, e: Throwable) =
-        HostException(HostError.PROGRAM, "class $className of ${jar.path} cannot be loaded: $e; build the jar again", e)
+        HostException(HostError.PROGRAM, "class $className of ${jar.path} cannot be loaded: $e; rebuild the jar", e)
 
     private fun function(method: Method, place: String): MethodHandle {
         val types = method.parameterTypes
@@ -90,20 +94,20 @@ internal class ProgramFinder(
     private companion object {
         const val CLASS = ".class"
 
-        /** A name instead of a class, because the host does not depend on the DSL. */
+        /** The name of the class, because the host does not depend on the DSL. */
         const val AGGREGATE = "it.unibo.collektive.aggregate.api.Aggregate"
         val ANNOTATION = Program::class.java.descriptorString().encodeToByteArray()
 
-        fun contains(bytes: ByteArray, wanted: ByteArray): Boolean {
-            val first = wanted[0]
-            for (at in 0..bytes.size - wanted.size) {
-                if (bytes[at] == first && bytes.regionMatches(at, wanted)) return true
+        fun contains(bytes: ByteArray, pattern: ByteArray): Boolean {
+            val first = pattern[0]
+            for (at in 0..bytes.size - pattern.size) {
+                if (bytes[at] == first && bytes.regionMatches(at, pattern)) return true
             }
             return false
         }
 
-        private fun ByteArray.regionMatches(at: Int, wanted: ByteArray): Boolean {
-            for (index in wanted.indices) if (this[at + index] != wanted[index]) return false
+        private fun ByteArray.regionMatches(at: Int, pattern: ByteArray): Boolean {
+            for (index in pattern.indices) if (this[at + index] != pattern[index]) return false
             return true
         }
     }

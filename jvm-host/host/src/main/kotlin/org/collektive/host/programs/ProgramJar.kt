@@ -7,7 +7,7 @@ import java.io.IOException
 import java.util.zip.ZipInputStream
 
 /**
- * A jar, unpacked in memory, so that its file can be replaced while its classes are in use.
+ * A jar that is unpacked in memory, so that its file can be replaced while its classes are in use.
  *
  * @property path the path from which it was read.
  * @property entries contents of the entries by name.
@@ -25,7 +25,7 @@ public class ProgramJar private constructor(public val path: String, internal va
          * @throws HostException when the jar is damaged, or contains more than 256 MiB.
          */
         public fun open(jar: JarBytes): ProgramJar {
-            if (!hasEndRecord(jar.bytes)) throw jar.damaged("its end is missing")
+            if (!hasEndRecord(jar.bytes)) throw jar.damaged("the end of the file is missing")
             return try {
                 ProgramJar(jar.path, unzip(jar))
             } catch (e: IOException) {
@@ -52,7 +52,7 @@ public class ProgramJar private constructor(public val path: String, internal va
             return entries
         }
 
-        /** Detects a truncated file: ZIP files end with a record, which [ZipInputStream] does not check. */
+        /** Returns whether the file is complete: ZIP files end with a record that [ZipInputStream] does not check. */
         private fun hasEndRecord(bytes: ByteArray): Boolean {
             val last = bytes.size - END_RECORD_BYTES
             return (last downTo maxOf(0, last - 0xFFFF)).any { at ->

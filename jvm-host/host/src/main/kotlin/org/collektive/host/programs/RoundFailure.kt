@@ -1,13 +1,13 @@
 package org.collektive.host.programs
 
-import org.collektive.engine.UnusableAnswer
+import org.collektive.engine.InvalidAnswerException
 
-/** Describes the failure of a round to the program's author: one line, then the stack frames in the user's code. */
+/** Describes the failure of a round for the program's author: one line, then the stack frames of user code. */
 internal object RoundFailure {
     private const val MAX_MESSAGE = 2000
     private const val MAX_FRAMES = 20
 
-    /** Lines of inlined code are those of its call when the loader of the users' classes, [programs], is known. */
+    /** Describes [failure] at [place]. With [programs], the loader of the user's classes, inlined code is reported at the line of its call. */
     fun describe(failure: Throwable, place: String?, programs: ClassLoader? = null): String = buildString {
         append(lineWithPlace(failure, place))
         frames(failure, programs)
@@ -22,33 +22,33 @@ internal object RoundFailure {
 
     private fun lineWithPlace(failure: Throwable, place: String?): String {
         val line = line(failure)
-        // An answer is packed after the program has returned, and errors of the runtime already contain their place.
-        return if (place == null || failure is UnusableAnswer || place in line) line else "$line [$place]"
+        // An invalid answer has no place in the program, and errors of the runtime already contain their place.
+        return if (place == null || failure is InvalidAnswerException || place in line) line else "$line [$place]"
     }
 
     private fun line(failure: Throwable): String {
         val text = when {
-            failure is UnusableAnswer -> failure.message.orEmpty()
+            failure is InvalidAnswerException -> failure.message.orEmpty()
 
             failure is StackOverflowError -> "$failure: the recursion does not end"
 
             failure is OutOfMemoryError -> "$failure${remedy(failure)}"
 
             failure is IncompatibleClassChangeError || failure is NoClassDefFoundError && failure.cause is ClassNotFoundException ->
-                "$failure: a jar is missing or of another version; build the programs again with the jars that run them"
+                "$failure: a jar is missing or of another version; rebuild the programs with the jars that run them"
 
             else -> failure.toString()
         }
         return text.take(MAX_MESSAGE).replace('\n', ' ').replace('\r', ' ')
     }
 
-    /** The setting to raise, by its names in the inspector and in scenario files. */
+    /** Returns which setting to raise, with its names in the inspector and in scenario files. */
     private fun remedy(failure: OutOfMemoryError): String {
         val message = failure.message.orEmpty()
         val megabytes = Runtime.getRuntime().maxMemory() shr MEBI_BITS
         return when {
             "heap" in message || "GC overhead" in message ->
-                ", all $megabytes MB: raise the maximum heap in the JVM settings (jvm.maximumHeapMb), or keep less in the program"
+                ", all $megabytes MB: raise the maximum heap in the JVM settings (jvm.maximumHeapMb), or store less data in the program"
 
             "Metaspace" in message -> ": raise -XX:MaxMetaspaceSize in the JVM settings' flags (jvm.flags), or load fewer classes"
 
@@ -59,7 +59,7 @@ internal object RoundFailure {
     }
 
     private fun StringBuilder.frames(failure: Throwable, programs: ClassLoader?) {
-        // Classes that the JVM makes for lambdas have no file.
+        // The JVM's classes for lambdas have no file.
         val own = failure.stackTrace.filter { it.classLoaderName == ProgramLoader.NAME && it.fileName != null }
         for (frame in own.take(MAX_FRAMES)) {
             val line = programs?.let { lineInFile(frame, it) } ?: frame.lineNumber
@@ -70,9 +70,9 @@ internal object RoundFailure {
     }
 
     private fun lineInFile(frame: StackTraceElement, programs: ClassLoader): Int? = try {
-        InlinedLines.of(Class.forName(frame.className, false, programs)).inFile(frame.lineNumber)
+        InlineSourceMap.of(Class.forName(frame.className, false, programs)).inFile(frame.lineNumber)
     } catch (_: ClassNotFoundException) {
-        null // A class without a name of its own, made while the program runs.
+        null // A hidden class, generated at run time.
     }
 
     private const val MAX_CAUSES = 4

@@ -9,7 +9,7 @@ import java.util.ServiceLoader
 /** Finds the generated code of the schema that the C# side uses. */
 public object SchemaFinder {
     /**
-     * All schemas in [jars], loaded by [loader].
+     * Returns all schemas in [jars], loaded by [loader].
      *
      * @throws HostException when their generated code cannot be loaded.
      */
@@ -22,23 +22,23 @@ public object SchemaFinder {
     }
 
     /**
-     * The schema [name] of [all]. Its types must have the fingerprints [types].
+     * Returns the schema [name] of [all], whose types must have the fingerprints [types].
      *
-     * @throws HostException when there is none, or when fingerprints differ; the message names the type.
+     * @throws HostException when the schema is missing or a fingerprint differs; the message names the type.
      */
     public fun find(name: String, types: Map<String, Long>, all: List<DataSchema>, jars: List<ProgramJar>): DataSchema {
         val schema = all.find { it.name == name } ?: throw HostException(
             HostError.SCHEMA,
-            "there is no schema $name in ${paths(jars)}, only ${all.map(DataSchema::name)}; $ADVICE",
+            "schema $name is missing in ${paths(jars)}, which contain ${all.map(DataSchema::name)}; $ADVICE",
         )
         for (type in (types.keys + schema.types.keys).sorted()) {
             if (types[type] == schema.types[type]) continue
             val how = when (type) {
-                !in types -> "C# does not know it"
-                !in schema.types -> "the programs' jar does not know it"
+                !in types -> "it is missing in C#"
+                !in schema.types -> "it is missing in the programs' jar"
                 else -> "its fields differ"
             }
-            throw HostException(HostError.SCHEMA, "type $type of schema $name is not the same on both sides ($how); $ADVICE")
+            throw HostException(HostError.SCHEMA, "type $type of schema $name differs between C# and the programs' jar ($how); $ADVICE")
         }
         return schema
     }
@@ -48,5 +48,5 @@ public object SchemaFinder {
 
     private fun paths(jars: List<ProgramJar>) = jars.joinToString { it.path }
 
-    private const val ADVICE = "run ./collektive generate on the schema, then build the programs and the C# code again"
+    private const val ADVICE = "run ./collektive generate for the schema, then rebuild the programs and the C# code"
 }

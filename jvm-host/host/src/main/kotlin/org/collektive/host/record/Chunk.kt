@@ -7,17 +7,17 @@ import java.util.zip.CRC32
 /**
  * One chunk of a record; see `docs/record-format.md`.
  *
- * @property kind one of the companion's kinds.
- * @property offset where the chunk begins in the file, in bytes.
- * @property payload the content, between position and limit.
+ * @property kind one of the kinds in the companion object.
+ * @property offset start of the chunk in the file, in bytes.
+ * @property payload the content, from position to limit.
  */
 public class Chunk(public val kind: Int, public val offset: Long, public val payload: ByteBuffer) {
     /** The [kind] as text. */
     public val name: String get() = name(kind)
 
-    /** The kinds of chunks, and the header of all of them. */
+    /** The kinds of chunks, and their common header. */
     public companion object {
-        /** Size of the header: kind, length of the payload, CRC-32 of both and of the payload. */
+        /** Size of the header in bytes: kind, length of the payload, CRC-32 of both and of the payload. */
         public const val HEADER_BYTES: Int = 12
 
         /** Offset of the CRC-32 in the header, in bytes. */
@@ -31,10 +31,10 @@ public class Chunk(public val kind: Int, public val offset: Long, public val pay
         public val FAIL: Int = kind("FAIL")
         public val END: Int = kind("END ")
 
-        /** [kind] as text. */
+        /** Returns [kind] as text. */
         public fun name(kind: Int): String = String(bytes(kind), Charsets.ISO_8859_1).trim().filter { it in ' '..'~' }
 
-        /** The CRC-32 of the bytes of [header] before the checksum, and of [payload]. Does not move their positions. */
+        /** Returns the CRC-32 of the bytes of [header] before the checksum and of [payload]. Does not change their positions. */
         public fun checksum(crc: CRC32, header: ByteBuffer, payload: ByteBuffer): Int {
             crc.reset()
             for (index in 0 until CHECKSUM_AT) crc.update(header.get(index).toInt())

@@ -16,10 +16,10 @@ import java.nio.file.StandardOpenOption.WRITE
 import java.util.zip.CRC32
 
 /**
- * Writes a session's frames to a file, directly from their memory. Allocates nothing per tick. Confined to one thread at a time.
+ * Writes a session's frames to a file, directly from their memory. Allocates nothing per tick. Not thread-safe.
  *
- * A request is written before its tick runs, so that the record also contains a tick that never ends. Functions throw [IOException] when
- * the file cannot be written.
+ * A request is written before its tick runs, so the record also contains a tick that never ends. Functions throw [IOException] when the
+ * file cannot be written.
  */
 public class RecordWriter internal constructor(private val path: String, private val channel: GatheringByteChannel) : AutoCloseable {
     private val header = ByteBuffer.allocateDirect(Chunk.HEADER_BYTES).order(ByteOrder.LITTLE_ENDIAN)
@@ -32,19 +32,19 @@ public class RecordWriter internal constructor(private val path: String, private
     /** Writes the `StepResponse` between position and limit of [frame]. */
     public fun done(frame: ByteBuffer): Unit = write(Chunk.DONE, frame)
 
-    /** Writes that the last step failed, and the reason. */
+    /** Writes the reason why the last step failed. */
     public fun failed(why: String): Unit = write(Chunk.FAIL, text(why))
 
-    /** Writes that the session was closed normally. */
+    /** Writes the end of a session that was closed normally. */
     public fun end(): Unit = write(Chunk.END, NOTHING)
 
     override fun close() {
         channel.close()
     }
 
-    /** The message for the user when writing failed with [cause]. */
+    /** Returns the user's message about a failed write. */
     public fun failure(cause: IOException): String =
-        "the record $path cannot be written ($cause): make room or name another place, then start again"
+        "cannot write the record $path ($cause): free disk space or choose another path, then restart the simulation"
 
     private fun head(open: ByteBuffer, jars: List<JarBytes>) {
         header.clear().put(MAGIC).flip()
@@ -82,7 +82,7 @@ public class RecordWriter internal constructor(private val path: String, private
         private val NOTHING = ByteBuffer.allocate(0)
 
         /**
-         * Creates the record [path] of a session, and overwrites an existing file.
+         * Creates the record [path] of a session; overwrites an existing file.
          *
          * @param open the session's `OpenRequest`, between position and limit.
          * @param jars the session's programs.
@@ -99,9 +99,9 @@ public class RecordWriter internal constructor(private val path: String, private
                 }
                 return writer
             } catch (e: IOException) {
-                throw HostException(HostError.ARGUMENT, "the record $path cannot be written: $e; name another place", e)
+                throw HostException(HostError.ARGUMENT, "cannot create the record $path: $e; choose another path", e)
             } catch (e: InvalidPathException) {
-                throw HostException(HostError.ARGUMENT, "'$path' is not a path of a record", e)
+                throw HostException(HostError.ARGUMENT, "'$path' is not a valid path of a record; correct it", e)
             }
         }
     }

@@ -23,7 +23,7 @@ import java.io.IOException
 import java.nio.ByteBuffer
 
 /**
- * One simulation: reads its frames, runs them on its engine and writes the answers. Confined to one thread at a time.
+ * One simulation: reads its frames, runs them on its engine and writes the answers. Not thread-safe.
  *
  * @property schema the schema of the user data.
  */
@@ -42,7 +42,7 @@ public class Session internal constructor(
     private val events = TickEvents()
     private var failure: String? = null
 
-    /** Writes the `OpenResponse` to [answer], the current buffer of [slot]. Returns its place, `offset << 32 | length`. */
+    /** Writes the `OpenResponse` to [answer], the current buffer of [slot]. Returns its position, `offset << 32 | length`. */
     internal fun answerOpen(slot: Long, answer: ByteBuffer): Long {
         buffer.begin(slot, answer)
         return buffer.writeOpenResponse(programs.infos)
@@ -54,8 +54,8 @@ public class Session internal constructor(
      *
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @param deadline end of the time limit, on the same clock.
-     * @return the place of the response, `offset << 32 | length`.
-     * @throws HostException when the frame is refused (nothing has changed), or when the session fails (it can only be closed).
+     * @return the position of the response, `offset << 32 | length`.
+     * @throws HostException when the frame is rejected and nothing has changed, or when the session fails and must be closed.
      */
     public fun step(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
@@ -88,11 +88,11 @@ public class Session internal constructor(
     } catch (e: TickRefused) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
     } catch (e: RoundsNotFinished) {
-        shim.log(LogLevel.ERROR, "${e.message}; the threads:")
+        shim.log(LogLevel.ERROR, "${e.message}; stack traces of its threads:")
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
-        throw fail(e) { "${e.message}; the log shows what each thread was doing. Fix the program, then open a new session" }
+        throw fail(e) { "${e.message}; the log shows what each thread was doing. Fix the program, then start the simulation again" }
     } catch (e: Throwable) {
-        throw fail(e) { "tick ${tick.number} failed inside the engine: $e" }
+        throw fail(e) { "tick ${tick.number} failed with an internal error: $e" }
     }
 
     private fun write(result: TickResult, due: IntList, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
@@ -100,7 +100,7 @@ public class Session internal constructor(
         buffer.begin(slot, answer)
         response.write(result, due, begin)
     } catch (e: Throwable) {
-        throw fail(e) { "the answer of tick ${result.tick} could not be written: $e" }
+        throw fail(e) { "cannot write the answer of tick ${result.tick}: $e" }
     }
 
     override fun close() {
@@ -123,9 +123,9 @@ public class Session internal constructor(
         }
     }
 
-    /** Marks the session as failed. Sets [failure] before it builds [text], which may throw with an exhausted heap. */
+    /** Marks the session as failed. Sets a constant first, because [text] may throw if the heap is exhausted. */
     private inline fun fail(cause: Throwable, text: () -> String): HostException {
-        failure = "memory was short in an earlier tick"
+        failure = "out of memory in an earlier tick; raise the maximum heap in the JVM settings (jvm.maximumHeapMb)"
         engine.close()
         val why = text()
         failure = why
@@ -133,7 +133,7 @@ public class Session internal constructor(
     }
 }
 
-/** Runs [work] on this resource, and closes it if that fails. */
+/** Runs [work] on this resource, and closes the resource if it fails. */
 internal inline fun <R : AutoCloseable?, T> R.orClose(work: (R) -> T): T = try {
     work(this)
 } catch (e: Throwable) {
@@ -141,7 +141,7 @@ internal inline fun <R : AutoCloseable?, T> R.orClose(work: (R) -> T): T = try {
     throw e
 }
 
-/** Runs [read], and converts a [MalformedFrameException] to a [HostException]. */
+/** Runs [read] and converts a [MalformedFrameException] to a [HostException]. */
 internal inline fun <T> reading(read: () -> T): T = try {
     read()
 } catch (e: MalformedFrameException) {

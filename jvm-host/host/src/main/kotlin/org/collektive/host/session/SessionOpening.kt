@@ -14,7 +14,7 @@ import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
 import org.collektive.host.library.AggregateRuntime
-import org.collektive.host.library.CompiledFor
+import org.collektive.host.library.RuntimeCompatibility
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.programs.ProgramFinder
 import org.collektive.host.programs.ProgramJar
@@ -32,7 +32,7 @@ public object SessionOpening {
     /** Version of the protocol: `schema/frame.fbs` and the entry points of [org.collektive.host.Host]. */
     public const val PROTOCOL: Int = 1
 
-    /** Opens the session of the `OpenRequest` between position and limit of [frame], with its record if it names one. */
+    /** Opens the session of the `OpenRequest` between position and limit of [frame], and creates its record if requested. */
     internal fun open(frame: ByteBuffer, shim: ShimCalls): Session {
         val request = reading { openRequest(frame) }
         val jars = (0 until request.jarsLength()).map { JarBytes.read(request.jars(it)) }
@@ -43,22 +43,22 @@ public object SessionOpening {
     /**
      * Opens the session of [request], a verified frame, with the programs of [jars].
      *
-     * @param record makes the session's record; called last, so that a failed opening does not overwrite one.
+     * @param record creates the session's record; called last, so that a failed opening does not overwrite a file.
      * @throws HostException when the library, the programs or their schema cannot be loaded, or a setting is out of range.
      */
     public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
-        val event = if (SessionEvents.wanted) SessionStartEvent() else null
+        val event = if (SessionEvents.isRecorderInitialized) SessionStartEvent() else null
         event?.begin()
         if (request.protocol() != PROTOCOL.toLong()) {
             throw HostException(
                 HostError.HOST,
-                "C# speaks protocol ${request.protocol()}, this host $PROTOCOL; use the host jar that came with the package",
+                "C# uses protocol version ${request.protocol()}, but this host uses version $PROTOCOL; use the host jar of the package",
             )
         }
         val settings = settings(request)
         val programJars = jars.map(ProgramJar::open)
         val library = AggregateLibrary.of(AggregateRuntime.of(request.runtime()), request.runtimeJars().orEmpty())
-        CompiledFor(library).check(programJars)
+        RuntimeCompatibility(library).check(programJars)
         val loader = ProgramLoader(programJars, library.loader)
         val schemas = SchemaFinder.all(loader, programJars)
         val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
@@ -83,7 +83,7 @@ public object SessionOpening {
 
     private fun settings(request: OpenRequest): EngineSettings {
         val schedule = Schedule.entries.getOrNull(request.schedule())
-            ?: throw HostException(HostError.FRAME, "there is no schedule ${request.schedule()}")
+            ?: throw HostException(HostError.FRAME, "unknown schedule ${request.schedule()}")
         return try {
             EngineSettings(request.seed(), request.threads(), schedule, network(request.network()))
         } catch (e: IllegalArgumentException) {

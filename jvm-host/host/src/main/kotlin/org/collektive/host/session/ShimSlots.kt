@@ -6,11 +6,11 @@ import org.collektive.host.jfr.SlotGrownEvent
 import org.collektive.host.shim.ShimCalls
 import java.nio.ByteBuffer
 
-/** The answer slots of [shim]. Emits an event when one grows. */
+/** The answer slots of [shim]. Emits an event when a slot grows. */
 internal class ShimSlots(private val shim: ShimCalls) : AnswerSlots {
     override fun grow(slot: Long, from: Int, to: Int): ByteBuffer? {
         val grown = shim.grow(slot, to)
-        if (grown != null && SessionEvents.wanted) {
+        if (grown != null && SessionEvents.isRecorderInitialized) {
             val event = SlotGrownEvent()
             event.before = from.toLong()
             event.after = grown.capacity().toLong()

@@ -4,21 +4,21 @@ import org.collektive.engine.TickResult
 import org.collektive.host.jfr.ProgramErrorEvent
 import org.collektive.host.jfr.SessionEvents
 
-/** Emits the events of one session's ticks, once this JVM has a flight recorder. Allocates only for failed rounds. */
+/** Emits the events of one session's ticks once the flight recorder is initialised. Allocates only for failed rounds. */
 internal class TickEvents {
     private var events = SessionEvents.ofRecorder()
     private var called = 0L
     private var written = 0L
     private var lastEnd = 0L
 
-    /** Marks the begin of a tick, whose host call began at [called] on the clock of `System.nanoTime()`. */
+    /** Marks the start of a tick, whose host call started at [called] on the clock of `System.nanoTime()`. */
     fun begin(called: Long) {
         this.called = called
         if (events == null) events = SessionEvents.ofRecorder()
         events?.tick?.begin()
     }
 
-    /** Marks the end of the rounds and the begin of writing the answer. */
+    /** Marks the end of the rounds and the start of writing the answer. */
     fun write() {
         written = System.nanoTime()
     }
@@ -35,7 +35,7 @@ internal class TickEvents {
         lastEnd = end
     }
 
-    /** Marks the end of the session after [ticks] ticks; [failure] is `null` if it ended normally. */
+    /** Marks the end of the session after [ticks] ticks. [failure] is `null` if it ended normally. */
     fun close(ticks: Long, failure: String?) {
         val event = (events ?: SessionEvents.ofRecorder())?.end ?: return
         event.ticks = ticks

@@ -1,6 +1,6 @@
 package org.collektive.host.shim
 
-/** A failure that the user can act on; [message] says what happened, to what, and what to do next. */
+/** A failure that the user can fix; [message] states what happened, to what, and what to do next. */
 public class HostException(public val error: HostError, message: String, cause: Throwable? = null) : RuntimeException(message, cause)
 
 /** The codes of `CLK_ERRORS` (collektive_shim.h) that the host returns. */

@@ -2,11 +2,11 @@ package org.collektive.host.shim
 
 import java.nio.ByteBuffer
 
-/** The shim's native functions. The shim registers them before it calls the host. */
+/** The native functions of the shim, which registers them before it calls the host. */
 public object Shim {
     /**
-     * Grows the buffer of [slot] to at least [capacity] bytes and returns it. Call it on the engine thread. The shim owns the buffer; the
-     * old one stays readable until the host call returns.
+     * Grows the buffer of [slot] to at least [capacity] bytes and returns the new buffer, which the shim owns. The old buffer stays readable
+     * until the host call returns. Call it on the engine thread.
      *
      * @throws OutOfMemoryError when memory is exhausted; other implementations of [ShimCalls] may return `null`.
      * @throws IllegalStateException when [slot] is not the answer slot of the running call.
@@ -18,12 +18,12 @@ public object Shim {
     @JvmStatic
     public external fun error(utf8: ByteArray)
 
-    /** Logs one line. [level] is a value of `clk_log_level`. Safe on any thread; never blocks. */
+    /** Logs one line. [level] is a value of `clk_log_level`. Thread-safe and non-blocking. */
     @JvmStatic
     public external fun log(level: Int, utf8: ByteArray)
 }
 
-/** The functions of [Shim], so that the host also runs without the native library. */
+/** The functions of [Shim] as an interface, so that the host also runs without the native library. */
 public interface ShimCalls {
     /** See [Shim.grow]. */
     public fun grow(slot: Long, capacity: Int): ByteBuffer?

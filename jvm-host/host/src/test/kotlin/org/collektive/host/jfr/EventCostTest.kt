@@ -7,12 +7,12 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import kotlin.test.assertTrue
 
-/** Our events cost almost nothing while there is no recording. */
+/** Events cost almost nothing without a recording. */
 @Timeout(120)
 class EventCostTest {
     @Test
     fun `the check for a recording costs little compared with a round`() {
-        val asking = (1..5).minOf { nanosPer(ASKS) { repeat(ASKS) { if (ProgramRounds.begin() != null) wanted++ } } }
+        val asking = (1..5).minOf { nanosPer(ASKS) { repeat(ASKS) { if (RoundSampling.begin() != null) wanted++ } } }
         val session = TestSession(TestShim()).apply { open(program = "probe", threads = 1) }
         val nodes = (0 until NODES).toList()
         session.ok(

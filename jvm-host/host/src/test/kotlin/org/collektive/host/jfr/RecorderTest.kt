@@ -80,7 +80,7 @@ class RecorderTest {
         assertEquals(listOf(2L, 0L, 0L, 0L), listOf("sent", "dropped", "delayed", "expired").map(network.last()::getLong))
 
         val rounds = events.getValue("collektive.ProgramRound").filter { it.getString("program") == "sum" }
-        assertEquals((TICKS * NODES + ProgramRounds.EVERY - 1) / ProgramRounds.EVERY, rounds.size.toLong())
+        assertEquals((TICKS * NODES + RoundSampling.INTERVAL - 1) / RoundSampling.INTERVAL, rounds.size.toLong())
         assertEquals(nodes, rounds.map { it.getInt("node") }.distinct().sorted())
         assertEquals(setOf("probe.Programs.sum"), rounds.map { it.getString("function") }.toSet())
         assertEquals(setOf(1), rounds.map { it.getInt("exports") }.toSet())
@@ -144,7 +144,7 @@ class RecorderTest {
 
     @Test
     fun `an action that fails reports the reason, and the next one works`() {
-        assertContains(refused { control.record(RecordingAction.Stop).recordingError() }, "none runs")
+        assertContains(refused { control.record(RecordingAction.Stop).recordingError() }, "no recording is running")
         assertContains(refused { start(folder.resolve("a.jfr"), "fast").recordingError() }, "no settings 'fast'")
         assertContains(refused { start(folder.resolve("a.jfr"), "$folder/none.jfc").recordingError() }, "none.jfc")
         assertContains(refused { start(folder).recordingError() }, "is a folder")
@@ -152,7 +152,7 @@ class RecorderTest {
         assertContains(refused { start(folder.resolve("a.jfr"), broken.toString()).recordingError() }, "broken.jfc")
         val first = folder.resolve("a.jfr")
         assertNull(start(first).recordingError())
-        assertContains(refused { start(folder.resolve("b.jfr")).recordingError() }, "runs already, to $first")
+        assertContains(refused { start(folder.resolve("b.jfr")).recordingError() }, "a recording to $first is already running")
         val file = Files.writeString(folder.resolve("file"), "")
         assertNotNull(control.record(RecordingAction.Dump, path = "$file/x.jfr").recordingError())
         assertNull(control.record(RecordingAction.Stop).recordingError())

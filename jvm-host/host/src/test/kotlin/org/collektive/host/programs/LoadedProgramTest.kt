@@ -18,10 +18,10 @@ class LoadedProgramTest {
     )
 
     @Test
-    fun `a number is asked for before the first round where the default is one`() {
+    fun `a value must be a number if its default is one`() {
         val refused = assertFailsWith<HostException> { program.parameters(3, mapOf("speed" to "quick")) }
         assertEquals(
-            "node 3 sets the parameter 'speed' of program 'steer' to 'quick': it must be a number, as its default 1.5 is",
+            "node 3 sets the parameter 'speed' of program 'steer' to 'quick': it must be a number like its default 1.5",
             refused.message,
         )
         assertEquals(2.0, program.parameters(3, mapOf("speed" to "2", "mode" to "slow")).double("speed"))

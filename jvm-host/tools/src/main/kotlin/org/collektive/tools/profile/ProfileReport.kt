@@ -3,15 +3,15 @@ package org.collektive.tools.profile
 import jdk.jfr.consumer.RecordedEvent
 import jdk.jfr.consumer.RecordedFrame
 import jdk.jfr.consumer.RecordingFile
-import org.collektive.host.jfr.ProgramRounds
+import org.collektive.host.jfr.RoundSampling
 import java.nio.file.Path
 import java.time.Duration
 import java.util.Locale
 
 /**
- * Summarises a flight recording as text: times of ticks, hot methods per program, allocations and pauses for garbage collection.
+ * Summarises a flight recording as text: tick times, hot methods per program, allocations and garbage collection pauses.
  *
- * A sample counts for the program whose function is on its stack; `collektive.ProgramRound` events name the function of each program.
+ * A sample belongs to the program whose function is on its stack; `collektive.ProgramRound` events contain the function of each program.
  */
 internal class ProfileReport {
     private val ticks = ArrayList<RecordedEvent>()
@@ -48,7 +48,7 @@ internal class ProfileReport {
 
     fun text(): String = buildString {
         writeTicks()
-        if (samples.isEmpty()) append("\nno samples: the recording is too short, or its settings have none\n")
+        if (samples.isEmpty()) append("\nno samples: the recording is too short, or its settings disable samples\n")
         writePrograms()
         writeAllocations()
         writePauses()
@@ -56,7 +56,7 @@ internal class ProfileReport {
 
     private fun StringBuilder.writeTicks() {
         if (ticks.isEmpty()) {
-            append("no ticks: nothing ran while it was recorded\n")
+            append("no ticks: no simulation ran during the recording\n")
             return
         }
         val last = ticks.maxBy { it.getLong("tick") }
@@ -66,13 +66,13 @@ internal class ProfileReport {
         phase("  rounds", ticks.map { it.getDuration("rounds") })
         phase("  answer", ticks.map { it.getDuration("write") })
         phase("between ticks", ticks.map { it.getDuration("wait") })
-        val (bytesIn, bytesOut) = listOf("bytesIn", "bytesOut").map { name -> ticks.map { it.getLong(name) / KILO }.middle() }
+        val (bytesIn, bytesOut) = listOf("bytesIn", "bytesOut").map { name -> ticks.map { it.getLong(name) / KILO }.median() }
         line("  %-22s %7.1f kB %7.1f kB", "frame in, out (median)", bytesIn, bytesOut)
     }
 
     private fun StringBuilder.phase(name: String, times: List<Duration>) {
         val sorted = times.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
-        line("  %-22s %7.3f ms %7.3f ms", name, sorted.middle(), sorted[(sorted.size * 99 / 100).coerceAtMost(sorted.lastIndex)])
+        line("  %-22s %7.3f ms %7.3f ms", name, sorted.median(), sorted[(sorted.size * 99 / 100).coerceAtMost(sorted.lastIndex)])
     }
 
     private fun StringBuilder.writePrograms() {
@@ -89,14 +89,14 @@ internal class ProfileReport {
             line(
                 "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports a round",
                 rounds.size,
-                ProgramRounds.EVERY,
-                rounds.middle(),
+                RoundSampling.INTERVAL,
+                rounds.median(),
                 rounds[(rounds.size * 99 / 100).coerceAtMost(rounds.lastIndex)],
                 program.exports.toDouble() / rounds.size,
             )
             writeTop(program.methods, "of %d samples")
         }
-        line("\noutside of programs")
+        line("\noutside programs")
         writeTop(others, "of %d samples")
     }
 
@@ -108,9 +108,9 @@ internal class ProfileReport {
     private fun StringBuilder.writePauses() {
         val sorted = pauses.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
         if (sorted.isEmpty()) {
-            line("\nno pauses for garbage collection")
+            line("\nno garbage collection pauses")
         } else {
-            line("\n%d pauses for garbage collection: %.2f ms in all, %.2f ms the longest", sorted.size, sorted.sum(), sorted.last())
+            line("\n%d garbage collection pauses: %.2f ms in total, %.2f ms maximum", sorted.size, sorted.sum(), sorted.last())
         }
     }
 
@@ -152,7 +152,7 @@ internal class ProfileReport {
 
         private fun RecordedFrame.place() = "${method.type.name}.${method.name}"
 
-        private fun List<Double>.middle(): Double = if (isEmpty()) 0.0 else sorted()[size / 2]
+        private fun List<Double>.median(): Double = if (isEmpty()) 0.0 else sorted()[size / 2]
 
         /** Converts the class name "[J" to "long[]". */
         private fun String.readable(): String {

@@ -10,29 +10,29 @@ import org.collektive.frames.target
 import org.collektive.frames.tick.StepResponseReader
 import java.nio.ByteBuffer
 
-/** One difference of two frames: whose data ("node 3", or empty), which field (or empty), and both values. */
-internal class Difference(private val whose: String, private val field: String, private val left: String, private val right: String) {
-    /** The difference in one line; [names] are the names of the two sides. */
+/** One difference of two frames: the owner of the data ("node 3", or empty), the field (or empty), and both values. */
+internal class Difference(private val owner: String, private val field: String, private val left: String, private val right: String) {
+    /** Returns the difference as one line; [names] are the names of the two sides. */
     fun line(names: Pair<String, String>): String {
-        val place = listOf(whose, field).filter(String::isNotEmpty).joinToString(", ")
+        val place = listOf(owner, field).filter(String::isNotEmpty).joinToString(", ")
         return "$place: $left in ${names.first}, $right in ${names.second}"
     }
 
     companion object {
         /**
-         * Fields without an effect on results. Paths of jars are among them, because jars are compared by content, and the runtime, which the
-         * comparison is to show.
+         * Fields without an effect on results. This includes paths of jars, which are compared by content, and the runtime, which is reported
+         * separately.
          */
         private val WITHOUT_EFFECT = setOf("threads", "record", "jars", "runtime", "runtimeJars")
 
-        /** Measured times, and the digest, which differs only if another field does. */
+        /** Measured times, and the digest, which differs only if another field differs. */
         private val MEASURED = setOf("digest", "hostMicros", "roundMicros")
 
-        /** The first difference that can change the results of a session. */
+        /** Returns the first difference that can change the results of a session, or `null`. */
         fun ofOpen(left: OpenRequest, right: OpenRequest): Difference? =
             ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
 
-        /** The first difference of two inputs of a tick, whatever the order of their changes. */
+        /** Returns the first difference of two inputs of a tick, or `null`. The order of their changes does not matter. */
         fun ofRequests(types: RecordedTypes, left: ByteBuffer, right: ByteBuffer): Difference? {
             if (left == right) return null
             val a = Request.read(types, left)
@@ -43,16 +43,16 @@ internal class Difference(private val whose: String, private val field: String, 
                 ?: ObjectDifference.first(a.globals, b.globals, field = "globals")
         }
 
-        /** The first difference of two outputs of a tick. */
+        /** Returns the first difference of two outputs of a tick, or `null`. */
         fun ofAnswers(types: RecordedTypes, left: StepResponseReader, right: StepResponseReader): Difference? =
             ofNodes("actuators", actuators(types, left), actuators(types, right))
                 ?: ObjectDifference.first(left.response.unpack(), right.response.unpack(), except = MEASURED)
 
-        private fun kind(request: Request?) = if (request == null) "damaged" else "another"
+        private fun kind(request: Request?) = if (request == null) "damaged" else "valid"
 
         private fun ofNodes(field: String, left: Map<Int, Any>, right: Map<Int, Any>): Difference? =
             (left.keys + right.keys).sorted().firstNotNullOfOrNull { node ->
-                ObjectDifference.first(left[node], right[node], whose = "node $node", field = field)
+                ObjectDifference.first(left[node], right[node], owner = "node $node", field = field)
             }
 
         private fun actuators(types: RecordedTypes, answer: StepResponseReader): Map<Int, Any> {
@@ -61,10 +61,10 @@ internal class Difference(private val whose: String, private val field: String, 
         }
     }
 
-    /** A `StepRequest`, converted to objects and trees. */
+    /** A `StepRequest`, converted to objects and maps. */
     private class Request(val frame: Any, val sensors: Map<Int, Any>, val globals: Any?) {
         companion object {
-            /** Reads [bytes]; `null` when they are damaged: a record may contain a frame that the host refused. */
+            /** Reads [bytes], or returns `null` if they are damaged: a record may contain a frame that the host rejected. */
             fun read(types: RecordedTypes, bytes: ByteBuffer): Request? = try {
                 val root = FrameChecker(FramePolicy.FRAME).checkRoot(bytes, FrameLayouts.STEP_REQUEST)
                 val request = StepRequest().__assign(root, bytes)

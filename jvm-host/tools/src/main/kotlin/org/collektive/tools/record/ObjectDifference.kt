@@ -2,24 +2,24 @@ package org.collektive.tools.record
 
 import java.lang.reflect.Modifier
 
-/** Compares objects of flatc's object API, and trees of users' data, field by field, in the order of the schema. */
+/** Compares objects of flatc's object API, and user data as maps, field by field in the order of the schema. */
 internal object ObjectDifference {
-    /** The first difference of [left] and [right]; ignores the fields of these two objects that [except] names. */
-    fun first(left: Any?, right: Any?, whose: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
+    /** Returns the first difference of [left] and [right], or `null`. Ignores their fields in [except]. */
+    fun first(left: Any?, right: Any?, owner: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
         left == null && right == null -> null
 
-        left == null || right == null -> Difference(whose, field, text(left), text(right))
+        left == null || right == null -> Difference(owner, field, text(left), text(right))
 
         left is IntArray && right is IntArray && field in ID_LISTS -> ofIds(left.toSet(), right.toSet(), field)
 
-        left is List<*> && right is List<*> -> ofArrays(left, right, whose, field)
+        left is List<*> && right is List<*> -> ofArrays(left, right, owner, field)
 
-        left.javaClass.isArray -> ofArrays(items(left), items(right), whose, field)
+        left.javaClass.isArray -> ofArrays(items(left), items(right), owner, field)
 
-        isLeaf(left) -> if (left == right) null else Difference(whose, field, text(left), text(right))
+        isLeaf(left) -> if (left == right) null else Difference(owner, field, text(left), text(right))
 
         else -> fields(left).zip(fields(right)).filter { (a, _) -> a.first !in except }.firstNotNullOfOrNull { (a, b) ->
-            first(a.second, b.second, whose, if (field.isEmpty()) a.first else "$field.${a.first}")
+            first(a.second, b.second, owner, if (field.isEmpty()) a.first else "$field.${a.first}")
         }
     }
 
@@ -27,20 +27,20 @@ internal object ObjectDifference {
         (left + right).sorted().find { it !in left || it !in right }
             ?.let { Difference("node $it", field, presence(it in left), presence(it in right)) }
 
-    private fun ofArrays(left: List<Any?>, right: List<Any?>, whose: String, field: String): Difference? {
-        val owners = (left + right).map { it?.let(::owner) }
-        if (owners.isEmpty() || owners.any { it == null } || whose.isNotEmpty()) return ofLists(left, right, whose, field)
-        val a = left.associateBy { owner(checkNotNull(it)) }
-        val b = right.associateBy { owner(checkNotNull(it)) }
+    private fun ofArrays(left: List<Any?>, right: List<Any?>, owner: String, field: String): Difference? {
+        val owners = (left + right).map { it?.let(::ownerOf) }
+        if (owners.isEmpty() || owners.any { it == null } || owner.isNotEmpty()) return ofLists(left, right, owner, field)
+        val a = left.associateBy { ownerOf(checkNotNull(it)) }
+        val b = right.associateBy { ownerOf(checkNotNull(it)) }
         return (a.keys + b.keys).filterNotNull().sorted().firstNotNullOfOrNull { first(a[it], b[it], it.name, field) }
     }
 
-    private fun ofLists(left: List<Any?>, right: List<Any?>, whose: String, field: String): Difference? =
-        (0 until minOf(left.size, right.size)).firstNotNullOfOrNull { first(left[it], right[it], whose, "$field[$it]") }
-            ?: if (left.size == right.size) null else Difference(whose, field, "${left.size} elements", "${right.size} elements")
+    private fun ofLists(left: List<Any?>, right: List<Any?>, owner: String, field: String): Difference? =
+        (0 until minOf(left.size, right.size)).firstNotNullOfOrNull { first(left[it], right[it], owner, "$field[$it]") }
+            ?: if (left.size == right.size) null else Difference(owner, field, "${left.size} elements", "${right.size} elements")
 
-    /** The node or link that an element of a list concerns, so that lists are compared independent of their order. */
-    private fun owner(element: Any): Owner? {
+    /** Returns the node or link to which an element of a list belongs, or `null`. Lists of such elements are compared regardless of their order. */
+    private fun ownerOf(element: Any): Owner? {
         if (isLeaf(element) || element is List<*> || element.javaClass.isArray) return null
         val values = fields(element).toMap()
         val from = values["from"]
@@ -70,7 +70,7 @@ internal object ObjectDifference {
 
     private fun isLeaf(value: Any) = value is Number || value is String || value is Boolean
 
-    private fun presence(isThere: Boolean) = if (isThere) PRESENT else ABSENT
+    private fun presence(isPresent: Boolean) = if (isPresent) PRESENT else ABSENT
 
     private fun text(value: Any?): String = when {
         value == null -> ABSENT

@@ -17,26 +17,26 @@ import java.nio.file.Path
 import java.nio.file.StandardOpenOption.READ
 import java.util.zip.CRC32
 
-/** Reads a record: first how its session was opened, then its steps in order. */
+/** Reads a record: first the settings of its session, then its steps in order. */
 internal class Record private constructor(private val path: Path, private val channel: FileChannel) : AutoCloseable {
     private val size = channel.size()
     private val crc = CRC32()
     private var offset = 0L
 
-    /** The last tick read completely; 0 before the first. */
+    /** The last complete tick; 0 before the first. */
     var tick = 0L
         private set
 
-    /** The properties of the recording side, one per line. */
+    /** Properties of the machine that wrote the record, one per line. */
     val head: String
 
     /** The session's `OpenRequest`, between position and limit. */
     val open: ByteBuffer
 
-    /** Accessor of [open]. */
+    /** The settings in [open]. */
     val settings: OpenRequest
 
-    /** The session's jars, as they were when recorded. */
+    /** The jars of the session at the time of the recording. */
     val jars: List<JarBytes>
 
     init {
@@ -49,17 +49,17 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 
     /**
-     * The next step; `null` after the last.
+     * Returns the next step, or `null` after the last one.
      *
      * @throws RecordDamaged when the step cannot be read.
      */
     fun next(): RecordedStep? {
         val step = chunk()
         if (step.kind == Chunk.END) {
-            if (offset != size) throw damaged(offset, "something follows the record's end")
+            if (offset != size) throw damaged(offset, "unexpected data after the end of the record")
             return null
         }
-        if (step.kind != Chunk.STEP) throw damaged(step.offset, "a chunk ${step.name} stands where a step or the end must come")
+        if (step.kind != Chunk.STEP) throw damaged(step.offset, "found a chunk ${step.name}, but expected a step or the end")
         val outcome = chunk()
         return when (outcome.kind) {
             Chunk.FAIL -> RecordedStep(step.payload, null, text(outcome))
@@ -70,11 +70,11 @@ internal class Record private constructor(private val path: Path, private val ch
                 RecordedStep(step.payload, answer, null)
             }
 
-            else -> throw damaged(outcome.offset, "a chunk ${outcome.name} stands where a step's outcome must come")
+            else -> throw damaged(outcome.offset, "found a chunk ${outcome.name}, but expected the outcome of a step")
         }
     }
 
-    /** Bytes read so far, and size of the file in bytes. */
+    /** The number of bytes read so far, and the size of the file in bytes. */
     val progress: Pair<Long, Long> get() = offset to size
 
     override fun close() {
@@ -85,35 +85,35 @@ internal class Record private constructor(private val path: Path, private val ch
         val magic = read(minOf(size, RecordWriter.MAGIC.size.toLong()).toInt()).array()
         val name = RecordWriter.MAGIC_TEXT.encodeToByteArray()
         if (magic.size < RecordWriter.MAGIC.size || !magic.copyOf(name.size).contentEquals(name)) {
-            throw RecordRefused("$path is not a record of frames: it does not begin with '${RecordWriter.MAGIC_TEXT}'")
+            throw RecordRefused("$path is not a record: it does not start with '${RecordWriter.MAGIC_TEXT}'")
         }
         val version = (magic[name.size].toInt() and 0xFF) or (magic[name.size + 1].toInt() and 0xFF shl 8)
         if (version != RecordWriter.VERSION.toInt()) {
             throw RecordRefused(
-                "$path is a record of version $version, and this release reads version ${RecordWriter.VERSION}: use the release that wrote it",
+                "$path has record version $version, but this release reads version ${RecordWriter.VERSION}: use the release that wrote it",
             )
         }
     }
 
     private fun expect(kind: Int): Chunk = chunk().also {
-        if (it.kind != kind) throw damaged(it.offset, "a chunk ${it.name} stands where ${Chunk.name(kind)} must come")
+        if (it.kind != kind) throw damaged(it.offset, "found a chunk ${it.name}, but expected ${Chunk.name(kind)}")
     }
 
     private fun chunk(): Chunk {
         val begin = offset
-        if (begin == size) throw damaged(begin, "the file ends without the record's end: the run was killed, or the file was cut")
-        if (size - begin < Chunk.HEADER_BYTES) throw damaged(begin, "the file ends inside a chunk's header")
+        if (begin == size) throw damaged(begin, "the end of the record is missing: the run was killed, or the file was truncated")
+        if (size - begin < Chunk.HEADER_BYTES) throw damaged(begin, "the file ends in the header of a chunk")
         val header = read(Chunk.HEADER_BYTES)
         val kind = header.getInt()
         val length = header.getInt().toLong() and UINT
-        if (length > size - offset) throw damaged(begin, "the chunk wants $length bytes, and the file has ${size - offset} more")
-        if (length > Int.MAX_VALUE) throw damaged(begin, "the chunk wants $length bytes, more than a frame can have")
+        if (length > size - offset) throw damaged(begin, "the chunk has $length bytes, but the file contains only ${size - offset} more")
+        if (length > Int.MAX_VALUE) throw damaged(begin, "the chunk has $length bytes, more than the maximum size of a frame")
         val payload = try {
             read(length.toInt())
         } catch (_: OutOfMemoryError) {
-            throw damaged(begin, "the chunk wants $length bytes, more than there is memory for")
+            throw damaged(begin, "the chunk has $length bytes, which do not fit into memory")
         }
-        if (header.getInt() != Chunk.checksum(crc, header, payload)) throw damaged(begin, "the chunk's checksum does not fit its bytes")
+        if (header.getInt() != Chunk.checksum(crc, header, payload)) throw damaged(begin, "the checksum of the chunk is wrong")
         return Chunk(kind, begin, payload)
     }
 
@@ -121,7 +121,7 @@ internal class Record private constructor(private val path: Path, private val ch
         val bytes = ByteBuffer.allocate(length).order(ByteOrder.LITTLE_ENDIAN)
         while (bytes.hasRemaining()) {
             val count = channel.read(bytes, offset + bytes.position())
-            if (count < 0) throw damaged(offset + bytes.position(), "the file became shorter while it was read")
+            if (count < 0) throw damaged(offset + bytes.position(), "the file was truncated while it was read")
         }
         offset += length
         return bytes.flip()
@@ -130,7 +130,7 @@ internal class Record private constructor(private val path: Path, private val ch
     private fun jar(chunk: Chunk): JarBytes {
         val payload = chunk.payload
         val nameLength = if (payload.remaining() < Int.SIZE_BYTES) -1 else payload.getInt()
-        if (nameLength !in 0..payload.remaining()) throw damaged(chunk.offset, "the jar's name lies outside of its chunk")
+        if (nameLength !in 0..payload.remaining()) throw damaged(chunk.offset, "the name of the jar lies outside its chunk")
         val name = ByteArray(nameLength).also(payload::get)
         return JarBytes(name.decodeToString(), ByteArray(payload.remaining()).also(payload::get))
     }
@@ -152,24 +152,24 @@ internal class Record private constructor(private val path: Path, private val ch
         /**
          * Opens the record at [path].
          *
-         * @throws RecordRefused when the file is no record, or a record of another version.
+         * @throws RecordRefused when the file is not a record, or has another version.
          * @throws RecordDamaged when the part before the first step is damaged.
          */
         fun open(path: Path): Record {
-            // Opening a pipe would wait for its other end.
-            if (Files.exists(path) && !Files.isRegularFile(path)) throw RecordRefused("$path is no file: name a record")
+            // Opening a pipe would block.
+            if (Files.exists(path) && !Files.isRegularFile(path)) throw RecordRefused("$path is not a regular file: enter the path of a record")
             val channel = try {
                 FileChannel.open(path, READ)
             } catch (_: NoSuchFileException) {
-                throw RecordRefused("there is no record $path; correct the path, or make one with the scenario's outputs.record")
+                throw RecordRefused("the record $path does not exist; correct the path, or create a record with the scenario's outputs.record")
             } catch (e: IOException) {
-                throw RecordRefused("the record $path cannot be read: $e")
+                throw RecordRefused("cannot read the record $path: $e")
             }
             return try {
                 Record(path, channel)
             } catch (e: IOException) {
                 channel.close()
-                throw RecordRefused("the record $path cannot be read: $e")
+                throw RecordRefused("cannot read the record $path: $e")
             } catch (e: RuntimeException) {
                 channel.close()
                 throw e
@@ -178,14 +178,14 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 }
 
-/** A recorded step: its `StepRequest`, and either the answer or the reason why there is none. */
+/** A recorded step: its `StepRequest`, and either the answer or the reason of the failure. */
 internal class RecordedStep(val request: ByteBuffer, val answer: StepResponseReader?, val failure: String?)
 
-/** A record cannot be used, or not to its end; [message] says why, where, and what to do. */
+/** Thrown when a record cannot be used, or only partly; [message] states the reason, the position, and what to do. */
 internal sealed class RecordException(message: String) : RuntimeException(message)
 
-/** A file is no record, or no record for this command. */
+/** Thrown when a file is not a record, or the command cannot use it. */
 internal class RecordRefused(message: String) : RecordException(message)
 
-/** A record is damaged from some byte on. */
+/** Thrown when a record is damaged after some position. */
 internal class RecordDamaged(message: String) : RecordException(message)

@@ -5,29 +5,29 @@ import org.collektive.host.library.AggregateRuntime
 import org.collektive.host.programs.JarBytes
 import java.security.MessageDigest
 
-/** Finds the first difference of two records of one schema. Runs no code of their jars. */
+/** Finds the first difference of two records with the same schema. Does not run the code of their jars. */
 internal class RecordDiff(private val left: Record, private val right: Record, private val report: Report) {
     private val names = "A" to "B"
     private val runtimes = AggregateRuntime.of(left.settings.runtime()) to AggregateRuntime.of(right.settings.runtime())
 
-    /** Compares the records up to the first difference. Returns whether all that was computed is equal. */
+    /** Compares the records up to the first difference. Returns whether settings, inputs and outputs are equal. */
     fun run(): Boolean {
         val types = left.settings.types
         for ((name, hash) in types.entries + right.settings.types.entries) {
             if (types[name] != hash || right.settings.types[name] != hash) {
-                throw RecordRefused("the records are of different schemas: type $name differs")
+                throw RecordRefused("the schemas of the records differ in type $name")
             }
         }
         if (left.settings.schema() != right.settings.schema()) {
-            throw RecordRefused("the records are of different schemas: ${left.settings.schema()} in A, ${right.settings.schema()} in B")
+            throw RecordRefused("the schemas of the records differ: ${left.settings.schema()} in A, ${right.settings.schema()} in B")
         }
         if (runtimes.first != runtimes.second) {
             report.line(
-                "on two runtimes: the ${runtimes.first.title} in A, the ${runtimes.second.title} in B; their programs' jars are not compared",
+                "different runtimes: the ${runtimes.first.title} in A, the ${runtimes.second.title} in B; their programs' jars are not compared",
             )
         }
         val opened = ofOpen()
-        opened?.let { report.line("opened differently: $it") }
+        opened?.let { report.line("different settings: $it") }
         return first(RecordedTypes.of(left.settings.schema(), left.jars)) && opened == null
     }
 
@@ -37,11 +37,11 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
             val a = left.next()
             val b = right.next()
             if (a == null && b == null) {
-                report.line("${tick - 1} ticks, and none differs; the last digest is ${hex(lastDigest)}")
+                report.line("${tick - 1} ticks without a difference; the last digest is ${hex(lastDigest)}")
                 return true
             }
             val difference = when {
-                a == null || b == null -> "the record ${if (a == null) "A" else "B"} ends after tick ${tick - 1}, the other goes on"
+                a == null || b == null -> "the record ${if (a == null) "A" else "B"} ends after tick ${tick - 1}, the other one continues"
                 else -> ofSteps(types, a, b)
             }
             if (difference != null) {
@@ -65,18 +65,18 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
         return when {
             x == null && y == null -> null
 
-            x == null -> "it failed in A (${a.failure}), and not in B"
+            x == null -> "it failed in A (${a.failure}) but not in B"
 
-            y == null -> "it failed in B (${b.failure}), and not in A"
+            y == null -> "it failed in B (${b.failure}) but not in A"
 
             else -> Difference.ofAnswers(types, x, y)?.let { "output of ${it.line(names)}" }
-                ?: if (x.response.digest() == y.response.digest()) null else "the digests differ, but no field does"
+                ?: if (x.response.digest() == y.response.digest()) null else "the digests differ, but all fields are equal"
         }
     }
 
     private fun ofOpen(): String? {
         Difference.ofOpen(left.settings, right.settings)?.let { return it.line(names) }
-        // Each runtime has a compiler plugin of its own.
+        // The runtimes have different compiler plugins, so their jars always differ.
         if (runtimes.first != runtimes.second) return null
         val a = left.jars.map(::sha256)
         val b = right.jars.map(::sha256)

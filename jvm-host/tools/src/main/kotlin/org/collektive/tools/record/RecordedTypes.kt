@@ -3,61 +3,61 @@ package org.collektive.tools.record
 import org.collektive.frames.FrameChecker
 import org.collektive.frames.FramePolicy
 import org.collektive.frames.MalformedFrameException
-import org.collektive.frames.data.DataTrees
+import org.collektive.frames.data.ReflectionReader
 import org.collektive.host.programs.JarBytes
 import java.nio.ByteBuffer
 
 /**
- * Reads the user data of a record by the binary schema in its jars. Runs no code of the jars: a record may come from anybody.
+ * Reads the user data of a record with the binary schema in its jars. Does not run the code of the jars, because records are untrusted.
  *
  * @throws MalformedFrameException when the schema is damaged.
  */
-internal class RecordedTypes(private val trees: DataTrees, namespace: String) {
+internal class RecordedTypes(private val reflection: ReflectionReader, namespace: String) {
     private val sensors = Elements("$namespace.SensorData")
     private val actuators = Elements("$namespace.ActuatorData")
     private val globalType = "$namespace.GlobalData"
-    private val globals = if (trees.defines(globalType)) trees.table(globalType) else null
+    private val globals = if (reflection.defines(globalType)) reflection.table(globalType) else null
     private val checker = FrameChecker(FramePolicy.USER_DATA)
 
-    /** The sensor data of the table `Sensors` at [position] of [frame], by node. */
+    /** Returns the sensor data of the table `Sensors` at [position] of [frame], by node. */
     fun sensors(frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> =
         sensors.read(frame, position, count, node)
 
-    /** The actuator data of the table `Actuators` at [position] of [frame], by node. */
+    /** Returns the actuator data of the table `Actuators` at [position] of [frame], by node. */
     fun actuators(frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> =
         actuators.read(frame, position, count, node)
 
-    /** The `GlobalData` at [position] of [frame]; `null` when there is none. */
+    /** Returns the `GlobalData` at [position] of [frame], or `null` if it is absent. */
     fun globals(frame: ByteBuffer, position: Int): Any? {
         if (position == 0 || globals == null) return null
         checker.check(frame, position, globals)
-        return trees.read(globalType, frame, position)
+        return reflection.read(globalType, frame, position)
     }
 
     private inner class Elements(private val type: String) {
-        private val reader = trees.elements(type)
+        private val reader = reflection.elements(type)
 
         fun read(frame: ByteBuffer, position: Int, count: Int, node: (Int) -> Int): Map<Int, Any> {
             if (position == 0) return emptyMap()
             reader.attach(frame, position)
             reader.check()
-            if (reader.size != count) throw MalformedFrameException("there are data of ${reader.size} nodes for $count")
-            return (0 until count).associate { node(it) to trees.read(type, frame, reader.place(it)) }
+            if (reader.size != count) throw MalformedFrameException("the data has ${reader.size} elements for $count nodes")
+            return (0 until count).associate { node(it) to reflection.read(type, frame, reader.place(it)) }
         }
     }
 
     companion object {
         /**
-         * The types of the [schema] in one of the [jars].
+         * Returns the types of the [schema], which one of the [jars] contains.
          *
-         * @throws RecordRefused when none has them, or they are damaged.
+         * @throws RecordRefused when they are missing or damaged.
          */
         fun of(schema: String, jars: List<JarBytes>): RecordedTypes {
-            val entry = DataTrees.entry(schema)
+            val entry = ReflectionReader.entry(schema)
             val binary = jars.firstNotNullOfOrNull { it.entry(entry) }
-                ?: throw RecordRefused("none of ${jars.map(JarBytes::path)} holds $entry: generate the code of the schema anew")
+                ?: throw RecordRefused("none of ${jars.map(JarBytes::path)} contains $entry: generate the code of the schema again and rebuild the jar")
             return try {
-                RecordedTypes(DataTrees(binary), schema.substringBeforeLast('.'))
+                RecordedTypes(ReflectionReader(binary), schema.substringBeforeLast('.'))
             } catch (e: MalformedFrameException) {
                 throw RecordRefused("$entry is damaged: ${e.message}")
             }

@@ -12,19 +12,19 @@ import kotlin.system.exitProcess
 
 private const val EQUAL = 0
 private const val DIFFERENT = 1
-private const val TROUBLE = 2
+private const val ERROR = 2
 
-/** Of `replay`, each with a value. */
+/** The options of `replay` that have a value. */
 private val OPTIONS = setOf("--programs", "--own", "--runtime", "--runtime-jars", "--out")
 
 /**
  * Runs `replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] [--out RECORD]` or `diff A B`
- * on a plain JVM, without Unity.
+ * on a standard JVM, without Unity.
  *
- * `--own` names a folder with a file for each jar that the user has run, named by its SHA-256: `replay` runs the record's jars only if they
- * are among them, or with `--trust`. `diff` never runs them.
+ * `--own` is a folder that contains one file per jar that the user has run, named by its SHA-256. `replay` runs the jars of the record only
+ * if the user has run them, or with `--trust`. `diff` never runs them.
  *
- * Exit code 0: no difference; 1: a difference; 2: a record or a jar cannot be used, or a record not to its end.
+ * The exit code is 0 without differences, 1 with differences, and 2 if a record or jar cannot be used, or a record only partly.
  */
 public fun main(arguments: Array<String>) {
     val results = System.out
@@ -47,22 +47,22 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
             )
         }
     } catch (e: RecordException) {
-        trouble(messages, e)
+        failure(messages, e)
     } catch (e: HostException) {
-        trouble(messages, e)
+        failure(messages, e)
     } catch (e: MalformedFrameException) {
-        trouble(messages, e)
+        failure(messages, e)
     } catch (e: IOException) {
-        trouble(messages, e)
+        failure(messages, e)
     }
 }
 
 private fun replay(arguments: List<String>, report: Report): Int {
-    val file = arguments.firstOrNull() ?: throw RecordRefused("replay: name a record")
+    val file = arguments.firstOrNull() ?: throw RecordRefused("replay: the path of the record is missing")
     val isTrusted = "--trust" in arguments
     val options = (arguments.drop(1) - "--trust").chunked(2).map { option ->
         if (option.first() !in OPTIONS || option.size < 2) {
-            throw RecordRefused("replay: '${option.first()}' is no option, or lacks its value")
+            throw RecordRefused("replay: '${option.first()}' is not an option, or its value is missing")
         }
         option[0] to option[1]
     }
@@ -71,19 +71,19 @@ private fun replay(arguments: List<String>, report: Report): Int {
     Record.open(path(file)).use { record ->
         report.line(describe(record))
         for (jar in jars) report.line("programs of ${jar.path}, SHA-256 ${sha256(jar)}")
-        if (jars.isEmpty() && !isTrusted) OwnPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
+        if (jars.isEmpty() && !isTrusted) KnownPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
         val request = record.settings.unpack()
         last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
         val runtimeJars = last["--runtime-jars"]
         if (runtimeJars == null && !request.runtimeJars.isNullOrEmpty() && !isTrusted) {
             throw RecordRefused(
-                "$file names the jars of its runtime, ${request.runtimeJars}, and a replay runs their code with your rights: " +
-                    "name a folder of yours with --runtime-jars FOLDER, or add --trust if you trust whoever made the record",
+                "$file uses the runtime jars in ${request.runtimeJars}, and a replay runs their code with your permissions: " +
+                    "set another folder with --runtime-jars FOLDER, or add --trust if you trust the author of the record",
             )
         }
         runtimeJars?.let { request.runtimeJars = it }
         val programs = jars.ifEmpty { record.jars }
-        // What the replay's own record names.
+        // The settings that the record of the replay contains.
         request.jars = programs.map(JarBytes::path).toTypedArray()
         request.record = last["--out"].orEmpty()
         return code(Replay(record, request, programs, last["--out"], report).run())
@@ -91,10 +91,10 @@ private fun replay(arguments: List<String>, report: Report): Int {
 }
 
 private fun runtime(name: String): AggregateRuntime = AggregateRuntime.entries.find { it.key == name }
-    ?: throw RecordRefused("replay: there is no runtime '$name'; there are ${AggregateRuntime.entries.joinToString { it.key }}")
+    ?: throw RecordRefused("replay: unknown runtime '$name'; use one of ${AggregateRuntime.entries.joinToString { it.key }}")
 
 private fun diff(arguments: List<String>, report: Report): Int {
-    if (arguments.size != 2) throw RecordRefused("diff: name two records")
+    if (arguments.size != 2) throw RecordRefused("diff: the paths of two records are required")
     Record.open(path(arguments[0])).use { left ->
         Record.open(path(arguments[1])).use { right -> return code(RecordDiff(left, right, report).run()) }
     }
@@ -106,7 +106,7 @@ private fun describe(record: Record): String {
     val text = "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars, " +
         "${AggregateRuntime.of(settings.runtime()).title}; " +
         "recorded with ${record.head.trim().replace("\n", ", ")}"
-    // A record must not steer the terminal.
+    // Escape sequences in a record must not reach the terminal.
     return text.map { if (it.isISOControl()) '?' else it }.joinToString("")
 }
 
@@ -118,7 +118,7 @@ private fun path(name: String): Path = try {
 
 private fun code(isEqual: Boolean) = if (isEqual) EQUAL else DIFFERENT
 
-private fun trouble(messages: PrintStream, e: Exception): Int {
+private fun failure(messages: PrintStream, e: Exception): Int {
     messages.println("collektive: ${e.message}")
-    return TROUBLE
+    return ERROR
 }

@@ -17,11 +17,11 @@ import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
 
 /**
- * Runs the programs of a record, or others, on the recorded requests, and compares the answers with the recorded ones.
+ * Runs the programs of a record, or other programs, on the recorded requests, and compares the answers with the recorded ones.
  *
- * @property request how the session is opened.
+ * @property request the settings of the session.
  * @property programs the jars of its programs.
- * @property out the file that records the replay; `null` for none.
+ * @property out the file that records the replay; `null` to record nothing.
  */
 internal class Replay(
     private val record: Record,
@@ -37,7 +37,7 @@ internal class Replay(
 
     private val types by lazy { RecordedTypes.of(record.settings.schema(), programs) }
 
-    /** Runs to the record's end. Returns whether every answer equals the recorded one. */
+    /** Runs all steps of the record. Returns whether every answer equals the recorded one. */
     fun run(): Boolean {
         val frame = openFrame(request)
         val session = SessionOpening.open(openRequest(frame), programs, this) { out?.let { RecordWriter.create(it, frame, programs) } }
@@ -59,7 +59,7 @@ internal class Replay(
                     val difference = difference(step, now)
                     if (difference != null) {
                         isEqual = false
-                        report.line("tick ${ticks + 1} is the first that differs. $difference")
+                        report.line("tick ${ticks + 1} is the first difference. $difference")
                     }
                 }
                 if (now is StepResponseReader) {
@@ -72,16 +72,16 @@ internal class Replay(
                 if (!isEqual && (now is StepResponseReader) != (step.answer != null)) break
             }
         } finally {
-            val verdict = if (isEqual) "every digest is that of the record" else "not all as recorded"
+            val verdict = if (isEqual) "all digests equal the record" else "with differences"
             report.line(
                 "$ticks ticks replayed, $verdict; the last digest is ${hex(digest)} (${AggregateRuntime.of(request.runtime).title})",
             )
-            if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; in the record $recordedFailedRounds")
+            if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; $recordedFailedRounds in the record")
         }
         return isEqual
     }
 
-    /** Runs [step]. Returns the answer as a [StepResponseReader], or the reason of its failure as a [String]. */
+    /** Runs [step]. Returns the answer as a [StepResponseReader], or the error message as a [String]. */
     private fun step(session: Session, step: RecordedStep): Any {
         val begin = System.nanoTime()
         return try {
@@ -96,14 +96,14 @@ internal class Replay(
     private fun difference(step: RecordedStep, now: Any): String? {
         val then = step.answer
         return when {
-            then == null -> if (now is StepResponseReader) "It failed in the record (${step.failure}), and not now" else null
+            then == null -> if (now is StepResponseReader) "It failed in the record (${step.failure}) but not in the replay" else null
 
-            now !is StepResponseReader -> "It fails now, and not in the record: $now"
+            now !is StepResponseReader -> "It failed in the replay but not in the record: $now"
 
             then.response.digest() == now.response.digest() -> null
 
-            else -> "Digest ${hex(then.response.digest())} in the record, ${hex(now.response.digest())} now. " +
-                (Difference.ofAnswers(types, then, now)?.line("the record" to "the replay") ?: "No field of its answers differs")
+            else -> "Digest ${hex(then.response.digest())} in the record, ${hex(now.response.digest())} in the replay. " +
+                (Difference.ofAnswers(types, then, now)?.line("the record" to "the replay") ?: "All fields of its answers are equal")
         }
     }
 

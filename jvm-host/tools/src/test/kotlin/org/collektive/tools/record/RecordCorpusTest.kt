@@ -55,7 +55,7 @@ class RecordCorpusTest {
         return file.readBytes()
     }
 
-    /** Two bytes instead of the jar, which is the larger part of a record and of no interest to its reader. */
+    /** Two bytes instead of the jar, which is the largest part of a record and irrelevant to its reader. */
     private fun withoutJar(record: ByteArray): ByteArray {
         val bytes = ByteBuffer.wrap(record).order(ByteOrder.LITTLE_ENDIAN)
         var at = RecordWriter.MAGIC.size

@@ -70,7 +70,7 @@ class RecordTest {
 
     private class Result(val code: Int, val results: String, val messages: String)
 
-    /** The tests trust their records, unless they name what is their own. */
+    /** Runs a command. Trusts the record unless the arguments contain `--own`. */
     private fun trust(arguments: Array<out Any>) =
         if (arguments.firstOrNull() == "replay" && "--own" !in arguments) listOf("--trust") else emptyList()
 
@@ -85,7 +85,7 @@ class RecordTest {
     fun `a replay computes the digests of the record`() {
         val result = run("replay", record())
         assertEquals(0, result.code, result.messages)
-        assertContains(result.results, "$TICKS ticks replayed, every digest is that of the record")
+        assertContains(result.results, "$TICKS ticks replayed, all digests equal the record")
         assertContains(result.results, "seed 42")
         assertContains(result.results, sha256(JarBytes.read(ProbeJars.programs.toString())))
     }
@@ -105,9 +105,9 @@ class RecordTest {
         assertEquals(0, run("replay", file, "--programs", summing("sensors.value() + 0")).code)
         val result = run("replay", file, "--programs", summing("sensors.value() + (sensors.value() == 403 ? 1 : 0)"))
         assertEquals(1, result.code)
-        assertContains(result.results, "tick 4 is the first that differs")
+        assertContains(result.results, "tick 4 is the first difference")
         assertContains(result.results, "node 3, actuators.value: 403 in the record, 404 in the replay")
-        assertContains(result.results, "$TICKS ticks replayed, not all as recorded")
+        assertContains(result.results, "$TICKS ticks replayed, with differences")
     }
 
     @Test
@@ -119,12 +119,12 @@ class RecordTest {
         assertContains(replayed.results, "built-in runtime; recorded with")
         assertContains(
             replayed.results,
-            Regex("every digest is that of the record; the last digest is [0-9a-f]{16} \\(Collektive runtime\\)"),
+            Regex("all digests equal the record; the last digest is [0-9a-f]{16} \\(Collektive runtime\\)"),
         )
         val compared = run("diff", file, other)
         assertEquals(0, compared.code, compared.results)
-        assertContains(compared.results, "on two runtimes: the built-in runtime in A, the Collektive runtime in B")
-        assertContains(compared.results, "$TICKS ticks, and none differs")
+        assertContains(compared.results, "different runtimes: the built-in runtime in A, the Collektive runtime in B")
+        assertContains(compared.results, "$TICKS ticks without a difference")
         assertContains(run("replay", other).results, "Collektive runtime; recorded with")
     }
 
@@ -143,7 +143,7 @@ class RecordTest {
     fun `an unknown runtime is refused`() {
         val result = run("replay", record(), "--runtime", "other")
         assertEquals(2, result.code)
-        assertContains(result.messages, "there is no runtime 'other'; there are builtIn, collektive")
+        assertContains(result.messages, "unknown runtime 'other'; use one of builtIn, collektive")
     }
 
     @Test
@@ -151,15 +151,15 @@ class RecordTest {
         val result =
             run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
         assertEquals(1, result.code)
-        assertContains(result.results, "tick 1 is the first that differs")
-        assertContains(result.results, "1 rounds failed; in the record 0")
+        assertContains(result.results, "tick 1 is the first difference")
+        assertContains(result.results, "1 rounds failed; 0 in the record")
     }
 
     @Test
     fun `records of the same run do not differ`() {
         val result = run("diff", record("a"), record("b"))
         assertEquals(0, result.code, result.results)
-        assertContains(result.results, "$TICKS ticks, and none differs")
+        assertContains(result.results, "$TICKS ticks without a difference")
     }
 
     @Test
@@ -257,7 +257,7 @@ class RecordTest {
     }
 
     @Test
-    fun `the order of changes is no difference`() {
+    fun `the order of changes is not a difference`() {
         assertEquals(
             0,
             run(
@@ -275,7 +275,7 @@ class RecordTest {
     fun `outputs that differ on the same input are named, and so are other programs`() {
         val result = run("diff", record("a", jar = summing("sensors.value()")), record("b", jar = summing("sensors.value() % 503")))
         assertEquals(1, result.code)
-        assertContains(result.results, "opened differently: programs: SHA-256")
+        assertContains(result.results, "different settings: programs: SHA-256")
         assertContains(result.results, "tick 5: output of node 3, actuators.value: 503 in A, 0 in B")
     }
 
@@ -355,7 +355,7 @@ class RecordTest {
                     result.messages,
                     "damaged at byte ${chunk.offset}, " + if (ticks == 0) "before the first tick" else "after tick $ticks",
                 )
-                if (index >= firstStep) assertContains(result.results, "$ticks ticks replayed, every digest is that of the record")
+                if (index >= firstStep) assertContains(result.results, "$ticks ticks replayed, all digests equal the record")
             }
         }
     }
@@ -397,7 +397,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a chunk that wants more memory than there is, in a file that is long but empty, is damage`() {
+    fun `a chunk that does not fit into memory, in a sparse file, is reported as damage`() {
         val bytes = record(ticks = 2).readBytes()
         val step = chunks(bytes).first { it.kind == Chunk.STEP }
         ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(step.offset.toInt() + Int.SIZE_BYTES, Int.MAX_VALUE)
@@ -406,17 +406,17 @@ class RecordTest {
         for (arguments in listOf(arrayOf<Any>("replay", file), arrayOf("diff", file, file))) {
             val result = run(*arguments)
             assertEquals(2, result.code)
-            assertContains(result.messages, "damaged at byte ${step.offset}, before the first tick: the chunk wants 2147483647 bytes")
+            assertContains(result.messages, "damaged at byte ${step.offset}, before the first tick: the chunk has 2147483647 bytes")
         }
     }
 
     @Test
-    fun `a pipe is no record`() {
+    fun `a pipe is not a record`() {
         val pipe = folder.resolve("pipe")
         assertEquals(0, ProcessBuilder("mkfifo", "$pipe").start().waitFor())
         val result = run("replay", pipe)
         assertEquals(2, result.code)
-        assertContains(result.messages, "$pipe is no file: name a record")
+        assertContains(result.messages, "$pipe is not a regular file: enter the path of a record")
     }
 
     @Test
@@ -436,12 +436,12 @@ class RecordTest {
     }
 
     @Test
-    fun `a file that is no record, or of another version or schema, is refused with the reason`() {
+    fun `a file that is not a record, or of another version or schema, is refused with the reason`() {
         val file = record()
         val bytes = file.readBytes()
         val other = folder.resolve("other")
         fun refused(vararg arguments: Any): String = run(*arguments).also { assertEquals(2, it.code, it.results) }.messages
-        assertContains(refused("replay", folder.resolve("nowhere")), "there is no record ${folder.resolve("nowhere")};")
+        assertContains(refused("replay", folder.resolve("nowhere")), "the record ${folder.resolve("nowhere")} does not exist;")
         other.writeBytes(bytes.copyOf().also { it[0] = 'X'.code.toByte() })
         assertContains(refused("replay", other), "is not a record")
         other.writeBytes(bytes.copyOf().also { it[RecordWriter.MAGIC_TEXT.length] = 9 })
@@ -462,7 +462,7 @@ class RecordTest {
     }
 
     @Test
-    fun `programs of somebody else run only with trust`() {
+    fun `unknown programs run only with --trust`() {
         val jar = summing("sensors.value()")
         val file = record(jar = jar)
         val own = Files.createDirectory(folder.resolve("own"))
@@ -518,7 +518,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a record cannot steer the terminal`() {
+    fun `a record cannot print escape sequences`() {
         val jar = folder.resolve("\u001b[2Jhidden.jar")
         Files.copy(ProbeJars.programs, jar)
         val result = run("replay", record(jar = jar))

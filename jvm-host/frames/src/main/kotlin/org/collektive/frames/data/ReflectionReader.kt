@@ -9,32 +9,37 @@ import java.nio.ByteBuffer
 import com.google.flatbuffers.reflection.Object as Composite
 
 /**
- * Reads any type of a schema by the binary form of the schema, for tools that compare or show data: structs and tables as maps from the
- * names of their fields, in the order of the schema, vectors as lists, an absent field as `null`. An absent vector is
- * empty, as for programs. It needs no generated code, so none runs.
+ * Reads data of any type with the binary schema, for tools that compare or show data. It runs no generated code.
+ *
+ * Structs and tables become maps from field names to values, in the order of the schema. Vectors become lists. An absent field is `null`,
+ * but an absent vector is an empty list, as in programs.
  *
  * @param binarySchema flatc's binary form of the schema.
- * @throws org.collektive.frames.MalformedFrameException when that is damaged.
+ * @throws org.collektive.frames.MalformedFrameException when the schema is damaged.
  */
-public class DataTrees(binarySchema: ByteArray) {
+public class ReflectionReader(binarySchema: ByteArray) {
     private val schema = BinarySchema(binarySchema)
 
-    /** Whether the schema defines [type], named with its namespace. */
+    /** Returns whether the schema defines the qualified name [type]. */
     public fun defines(type: String): Boolean = schema.find(type) != null
 
     /**
-     * Makes a reader of the table `Sensors` or `Actuators` with elements of [type].
+     * Creates a reader of the table `Sensors` or `Actuators` with elements of [type].
      *
      * @throws org.collektive.frames.MalformedFrameException when the schema does not define [type], or is damaged there.
      */
     public fun elements(type: String): ElementReader = schema.elements(type)
 
-    /** The layout of the table [type]; throws like [elements]. */
+    /**
+     * Returns the layout of the table [type].
+     *
+     * @throws org.collektive.frames.MalformedFrameException when the schema does not define [type], or is damaged there.
+     */
     public fun table(type: String): TableLayout = schema.table(type)
 
-    /** Reads a [type], named with its namespace, at [position] of [frame]. The data must have passed the check of its layout. */
+    /** Reads a value of the qualified [type] at [position] of [frame]. The data must have passed the check of its layout. */
     public fun read(type: String, frame: ByteBuffer, position: Int): Map<String, Any?> =
-        read(checkNotNull(schema.find(type)) { "the schema defines no $type" }, frame, position)
+        read(checkNotNull(schema.find(type)) { "the schema does not define $type" }, frame, position)
 
     private fun read(type: Composite, frame: ByteBuffer, position: Int): Map<String, Any?> =
         List(type.fieldsLength(), type::fields).sortedBy(Field::id).filter { !it.deprecated() }.associate { field ->
@@ -105,7 +110,7 @@ public class DataTrees(binarySchema: ByteArray) {
     private fun unsigned(frame: ByteBuffer, at: Int): Int = frame.getShort(at).toUShort().toInt()
 
     public companion object {
-        /** The entry of a programs' jar that holds the binary form of the schema [name]. */
+        /** Returns the name of the jar entry with the binary form of the schema [name]. */
         public fun entry(name: String): String = "META-INF/collektive/$name.bfbs"
     }
 }

@@ -7,7 +7,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 /** The order in which rounds run on one thread, recorded by the programs. */
-class BreadthFirstTest {
+class RoundOrderTest {
     private val ran = ArrayList<Int>()
     private val recorder = program { device -> ran += device.id }
 

@@ -5,8 +5,8 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
-class InlinedLinesTest {
-    private val lines = InlinedLines.of(javaClass)
+class InlineSourceMapTest {
+    private val lines = InlineSourceMap.of(javaClass)
 
     @Test
     fun `code that the compiler inlined has the line of its call`() {
@@ -17,13 +17,13 @@ class InlinedLinesTest {
     }
 
     @Test
-    fun `other lines stay as they are, as do those of classes without inlined code`() {
+    fun `other lines do not change, nor do lines of classes without inlined code`() {
         for (line in 1..LAST_LINE) assertEquals(line, lines.inFile(line))
-        assertEquals(500, InlinedLines.of(Any::class.java).inFile(500))
-        assertEquals(500, InlinedLines.of(Runnable {}.javaClass).inFile(500))
+        assertEquals(500, InlineSourceMap.of(Any::class.java).inFile(500))
+        assertEquals(500, InlineSourceMap.of(Runnable {}.javaClass).inFile(500))
         // Not as one text, which would be the first map of this class.
         val nonsense = listOf("SMAP", "x", "Kotlin", "*S KotlinDebug", "*L", "nonsense#1:1,,", "*E").joinToString("\n")
-        assertEquals(500, InlinedLines.of(nonsense.encodeToByteArray()).inFile(500))
+        assertEquals(500, InlineSourceMap.of(nonsense.encodeToByteArray()).inFile(500))
     }
 
     @Suppress("NOTHING_TO_INLINE")

@@ -12,43 +12,43 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Reads data by the binary schema alone, as for a record of somebody else: no generated code runs. */
-internal class DataTreesTest {
+/** Reads data with the binary schema only, as for untrusted records: no generated code runs. */
+internal class ReflectionReaderTest {
     private val random = Random(3)
 
     @Test
     fun `elements are read as generated code reads them`() {
         for (schema in listOf(GeneratedSchemas.features, GeneratedSchemas.blocks)) {
-            val trees = trees(schema)
-            val elements = trees.elements(schema.sensorType.name)
+            val reflection = reflectionReader(schema)
+            val elements = reflection.elements(schema.sensorType.name)
             repeat(100) {
                 val frame = sensors(schema)
                 elements.attach(frame.buffer(), frame.position)
                 elements.check()
-                val read = List(elements.size) { Objects.dump(trees.read(schema.sensorType.name, elements.frame, elements.place(it))) }
+                val read = List(elements.size) { Objects.dump(reflection.read(schema.sensorType.name, elements.frame, elements.place(it))) }
                 assertEquals(frame.objects.map(Objects::dump), read)
             }
         }
     }
 
     @Test
-    fun `tables are checked by their layout, and unknown types refused`() {
+    fun `tables are verified with their layout, and unknown types are rejected`() {
         val schema = GeneratedSchemas.globals
-        val trees = trees(schema)
-        assertTrue(trees.defines("test.globals.GlobalData"))
-        assertFalse(trees.defines("test.globals.Other"))
+        val reflection = reflectionReader(schema)
+        assertTrue(reflection.defines("test.globals.GlobalData"))
+        assertFalse(reflection.defines("test.globals.Other"))
         val checker = FrameChecker(FramePolicy.USER_DATA)
         val frame = SensorFrames.table(schema, "test.globals.GlobalData", random)
-        checker.check(frame.buffer(), frame.position, trees.table("test.globals.GlobalData"))
+        checker.check(frame.buffer(), frame.position, reflection.table("test.globals.GlobalData"))
         assertFailsWith<MalformedFrameException> {
-            checker.check(frame.buffer().limit(frame.bytes.size - 1), frame.position, trees.table("test.globals.GlobalData"))
+            checker.check(frame.buffer().limit(frame.bytes.size - 1), frame.position, reflection.table("test.globals.GlobalData"))
         }
-        assertContains(assertFailsWith<MalformedFrameException> { trees.elements("test.Other") }.message.orEmpty(), "defines no test.Other")
+        assertContains(assertFailsWith<MalformedFrameException> { reflection.elements("test.Other") }.message.orEmpty(), "does not define test.Other")
     }
 
     @Tag("slow")
     @Test
-    fun `a damaged schema is refused, or reads what it has checked`() {
+    fun `a damaged schema is rejected, or reads only verified data`() {
         var refused = 0
         repeat(20_000) { number ->
             val schema = if (number % 2 == 0) GeneratedSchemas.features else GeneratedSchemas.blocks
@@ -56,11 +56,11 @@ internal class DataTreesTest {
             repeat(1 + random.nextInt(3)) { damage(bytes) }
             val frame = sensors(schema)
             try {
-                val trees = DataTrees(bytes)
-                val elements = trees.elements(schema.sensorType.name)
+                val reflection = ReflectionReader(bytes)
+                val elements = reflection.elements(schema.sensorType.name)
                 elements.attach(frame.buffer(), frame.position)
                 elements.check()
-                for (i in 0 until elements.size) trees.read(schema.sensorType.name, elements.frame, elements.place(i))
+                for (i in 0 until elements.size) reflection.read(schema.sensorType.name, elements.frame, elements.place(i))
             } catch (_: MalformedFrameException) {
                 refused++
             }

@@ -4,9 +4,9 @@ import java.io.ByteArrayInputStream
 import java.io.DataInputStream
 import java.io.IOException
 
-/** The classes that a class file names, as in `java/lang/String`. Arrays are left out. */
-internal object ClassLinks {
-    /** The names in the class file [bytes]; none when it is damaged or of an unknown form, which the JVM says when it loads the class. */
+/** Lists the classes that a class file references, such as `java/lang/String`, without array classes. */
+internal object ClassReferences {
+    /** Returns the names in the class file [bytes]. Empty if it is damaged or of an unknown format: the JVM reports that when it loads the class. */
     fun of(bytes: ByteArray): List<String> = try {
         read(bytes)
     } catch (_: IOException) {
@@ -28,7 +28,7 @@ internal object ClassLinks {
 
                 LONG, DOUBLE -> {
                     input.skipBytes(Long.SIZE_BYTES)
-                    // They take two places.
+                    // These constants take two entries.
                     index++
                 }
 
@@ -57,6 +57,6 @@ internal object ClassLinks {
     private const val MODULE = 19
     private const val PACKAGE = 20
 
-    /** Numbers, references to members, names with types, and dynamic constants. */
+    /** Tags of numbers, references to members, names with types, and dynamic constants. */
     private val OTHERS = setOf(3, 4, 9, 10, 11, 12, 17, 18)
 }

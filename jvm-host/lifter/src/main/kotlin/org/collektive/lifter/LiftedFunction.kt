@@ -18,49 +18,51 @@ import kotlin.reflect.KType
 import kotlin.reflect.jvm.jvmErasure
 import kotlin.reflect.typeOf
 
-/** [plain] with fields at the places [fields]: 0 is the receiver, 1 the first parameter. */
-internal class Lifted private constructor(private val plain: Plain, private val fields: List<Int>) {
-    private val given = listOf(plain.receiver) + plain.parameters.map { it.type }
-    private val types = given.mapIndexed { place, type -> if (place in fields) fieldOf(type) else typeName(type) }
-    private val names = listOf("this") + plain.parameters.map { checkNotNull(it.name) }
-    private val isReified = plain.typeParameters.any { it.isReified }
+/** A version of [function] that accepts fields at the positions [fields]: 0 is the receiver, 1 the first parameter. */
+internal class LiftedFunction private constructor(private val function: StdlibFunction, private val fields: List<Int>) {
+    private val parameterTypes = listOf(function.receiver) + function.parameters.map { it.type }
+    private val types = parameterTypes.mapIndexed { place, type -> if (place in fields) fieldOf(type) else typeName(type) }
+    private val names = listOf("this") + function.parameters.map { checkNotNull(it.name) }
+    private val isReified = function.typeParameters.any { it.isReified }
 
-    /** Two functions of an object with the same signature on the JVM need two names there. */
-    val erased: String = plain.name + given.indices.map { if (it in fields) "Field" else given[it].jvmErasure.qualifiedName }
+    /** The signature on the JVM. Functions of an object with equal signatures need different names there. */
+    val jvmSignature: String =
+        function.name + parameterTypes.indices.map { if (it in fields) "Field" else parameterTypes[it].jvmErasure.qualifiedName }
 
-    /** The function. With [isNamed] its name on the JVM contains its types. */
+    /** Returns the function. With [isNamed], its name on the JVM contains its parameter types. */
     @OptIn(ExperimentalTypeInference::class)
-    fun function(isNamed: Boolean): FunSpec {
-        val typeParameters = plain.typeParameters.map {
+    fun toFunSpec(isNamed: Boolean): FunSpec {
+        val typeParameters = function.typeParameters.map {
             TypeVariableName(it.name, it.upperBounds.map(::typeName)).copy(reified = it.isReified)
         }
-        return FunSpec.builder(plain.name).apply {
+        return FunSpec.builder(function.name).apply {
             if (isNamed) {
-                val name = plain.name + types.joinToString("", transform = ::letters)
+                val name = function.name + types.joinToString("", transform = ::letters)
                 addAnnotation(AnnotationSpec.builder(JvmName::class).addMember("%S", name).build())
             }
-            // Like Kotlin's own overloads: the result of a lambda chooses between `Iterable` and `Sequence`.
+            // As in Kotlin's library, the result of a lambda selects the overload for `Iterable` or `Sequence`.
             if (isNamed && takesFunction()) addAnnotation(OverloadResolutionByLambdaReturnType::class)
             if (isReified) addModifiers(KModifier.INLINE)
-            if (plain.isOperator) addModifiers(KModifier.OPERATOR)
-            if (plain.isInfix) addModifiers(KModifier.INFIX)
-            addTypeVariables(if (plain.isMember && 0 in fields) listOf(ID) + typeParameters else typeParameters + ID)
+            if (function.isOperator) addModifiers(KModifier.OPERATOR)
+            if (function.isInfix) addModifiers(KModifier.INFIX)
+            addTypeVariables(if (function.isMember && 0 in fields) listOf(ID) + typeParameters else typeParameters + ID)
             receiver(types.first())
             for (place in 1 until types.size) addParameter(names[place], types[place])
-            returns(fieldOf(plain.result))
+            returns(fieldOf(function.result))
             addStatement("return·%L", body())
         }.build()
     }
 
-    private fun takesFunction() = given.indices.any { it !in fields && given[it].jvmErasure.java.packageName == "kotlin.jvm.functions" }
+    private fun takesFunction() =
+        parameterTypes.indices.any { it !in fields && parameterTypes[it].jvmErasure.java.packageName == "kotlin.jvm.functions" }
 
     private fun body(): String {
         val values = if (fields.size == 1) listOf("it") else fields.indices.map { "v$it" }
         val arguments = names.indices.map { place -> if (place in fields) values[fields.indexOf(place)] else names[place] }
-        val reified = if (isReified) plain.typeParameters.joinToString(prefix = "<", postfix = ">") { it.name } else ""
+        val reified = if (isReified) function.typeParameters.joinToString(prefix = "<", postfix = ">") { it.name } else ""
         val call =
-            "${arguments[0]}.${plain.name}$reified" +
-                if (plain.isProperty) "" else arguments.drop(1).joinToString(prefix = "(", postfix = ")")
+            "${arguments[0]}.${function.name}$reified" +
+                if (function.isProperty) "" else arguments.drop(1).joinToString(prefix = "(", postfix = ")")
         val first = names[fields.first()]
         if (fields.size == 1) return "$first.mapValues { $call }"
         return "$first.alignedMapValues(${fields.drop(1).joinToString { names[it] }}) { ${values.joinToString()} -> $call }"
@@ -70,18 +72,19 @@ internal class Lifted private constructor(private val plain: Plain, private val 
         private val FIELD = ClassName("it.unibo.collektive.aggregate", "Field")
         private val ID = TypeVariableName("ID", Any::class)
 
-        /** All ways to lift [plain]: each non-empty set of places. A field is itself a value of type `Any?`, which is thus not a place. */
-        fun of(plain: Plain): List<Lifted> {
-            val places = listOf(0) + plain.parameters.indices.map { it + 1 }.filter { plain.parameters[it - 1].type != typeOf<Any?>() }
-            return (1 until (1 shl places.size)).map { set -> Lifted(plain, places.filterIndexed { index, _ -> set shr index and 1 == 1 }) }
-                .filter { 0 in it.fields || plain.parameters.size + 1 == places.size }
+        /** Returns all lifted versions of [function]: one per non-empty set of positions. Parameters of type `Any?` already accept fields. */
+        fun of(function: StdlibFunction): List<LiftedFunction> {
+            val places = listOf(0) + function.parameters.indices.map { it + 1 }.filter { function.parameters[it - 1].type != typeOf<Any?>() }
+            return (1 until (1 shl places.size))
+                .map { set -> LiftedFunction(function, places.filterIndexed { index, _ -> set shr index and 1 == 1 }) }
+                .filter { 0 in it.fields || function.parameters.size + 1 == places.size }
         }
 
         private fun fieldOf(type: KType) = FIELD.parameterizedBy(ID, typeName(type))
 
         private fun typeName(type: KType) = adapted(type.asTypeName())
 
-        /** [type] without annotations, and like Collektive with `Comparator<Byte>` where Kotlin has `Comparator<in Byte>`. */
+        /** Returns [type] without annotations. As in Collektive, `Comparator<in Byte>` becomes `Comparator<Byte>`. */
         private fun adapted(type: TypeName): TypeName = when (type) {
             is ParameterizedTypeName -> type.copy(annotations = emptyList(), typeArguments = type.typeArguments.map(::adapted))
 

@@ -1,15 +1,15 @@
 package org.collektive.engine
 
 /** A list of nodes in ascending order of their ids. */
-internal open class Peers {
-    var keys = IntArray(INITIAL)
+internal open class NodeList {
+    var keys = IntArray(INITIAL_CAPACITY)
         private set
-    var nodes = arrayOfNulls<Node>(INITIAL)
+    var nodes = arrayOfNulls<Node>(INITIAL_CAPACITY)
         private set
     var size = 0
         private set
 
-    /** Index of the node [id], or `-(insertion index) - 1` if there is none. */
+    /** Returns the index of the node [id], or `-(insertion index) - 1` if it is not in the list. */
     fun indexOf(id: Int): Int {
         // Nodes are often added in ascending order.
         if (size == 0 || keys[size - 1] < id) return -size - 1
@@ -19,18 +19,18 @@ internal open class Peers {
         return keys.binarySearch(id, 0, size)
     }
 
-    /** Same as [indexOf], in constant time while [hint], an earlier result, is still correct. */
+    /** Returns the same as [indexOf], in constant time if [hint], an earlier result, is still correct. */
     fun indexOf(id: Int, hint: Int): Int {
         val at = if (hint < 0) -hint - 1 else hint
-        val holds = if (hint < 0) {
+        val isValid = if (hint < 0) {
             at <= size && (at == 0 || keys[at - 1] < id) && (at == size || keys[at] > id)
         } else {
             at < size && keys[at] == id
         }
-        return if (holds) hint else indexOf(id)
+        return if (isValid) hint else indexOf(id)
     }
 
-    fun node(index: Int): Node = nodes[index] ?: error("no node at $index of $size")
+    fun node(index: Int): Node = nodes[index] ?: error("no node $index of $size")
 
     fun find(id: Int): Node? {
         val index = indexOf(id)
@@ -72,11 +72,11 @@ internal open class Peers {
         }
     }
 
-    inline fun removeIf(gone: (Node) -> Boolean) {
+    inline fun removeIf(isRemoved: (Node) -> Boolean) {
         var kept = 0
         for (index in 0 until size) {
             val node = node(index)
-            if (gone(node)) continue
+            if (isRemoved(node)) continue
             nodes[kept] = node
             keys[kept++] = node.id
         }
@@ -89,11 +89,11 @@ internal open class Peers {
         nodes = nodes.copyOf(capacity)
     }
 
-    private fun reserve(wanted: Int) {
-        if (wanted > keys.size) resize(maxOf(wanted, keys.size + (keys.size shr 1)))
+    private fun reserve(required: Int) {
+        if (required > keys.size) resize(maxOf(required, keys.size + (keys.size shr 1)))
     }
 
     private companion object {
-        const val INITIAL = 8
+        const val INITIAL_CAPACITY = 8
     }
 }

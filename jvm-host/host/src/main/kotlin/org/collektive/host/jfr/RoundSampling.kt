@@ -3,22 +3,22 @@ package org.collektive.host.jfr
 import org.collektive.engine.RoundDevice
 import org.collektive.engine.RoundThread
 
-/** Samples the rounds that become events: one in [EVERY] per thread. An event for every round would cost more than a short round. */
-public object ProgramRounds {
-    /** A prime, so that the sampled nodes change from tick to tick. */
-    public const val EVERY: Int = 17
+/** Samples rounds for JFR events: one in [INTERVAL] per thread, because an event would cost more than a short round. */
+public object RoundSampling {
+    /** Number of rounds per sample: a prime, so that the sampled nodes change from tick to tick. */
+    public const val INTERVAL: Int = 17
 
-    /** Only answers whether such events are enabled. Its class loads on first use. */
+    /** An event that is only used to check whether these events are enabled. Loaded on first use. */
     private object Sample {
         @JvmField
         val event = ProgramRoundEvent()
     }
 
-    /** Begins an event for the round that begins on this thread; `null` if it is not sampled. Without a recording it takes nanoseconds. */
+    /** Starts an event for the current round of this thread; `null` if it is not sampled. Takes nanoseconds without a recording. */
     internal fun begin(): ProgramRoundEvent? {
-        if (!SessionEvents.wanted || !Sample.event.isEnabled) return null
+        if (!SessionEvents.isRecorderInitialized || !Sample.event.isEnabled) return null
         val thread = Thread.currentThread() as? RoundThread ?: return null
-        if (thread.rounds % EVERY != 0L) return null
+        if (thread.rounds % INTERVAL != 0L) return null
         return ProgramRoundEvent().apply { begin() }
     }
 

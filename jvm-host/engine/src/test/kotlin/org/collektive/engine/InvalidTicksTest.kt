@@ -7,33 +7,33 @@ import org.junit.jupiter.api.TestFactory
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** A bad tick is refused with a message that names the tick, the id and the value, and has no effect. */
-class RefusedTicksTest {
+/** An invalid tick is rejected with a message that names the tick, the id and the value. It has no effect. */
+class InvalidTicksTest {
     private class Case(val message: String, val fill: TestEngine.(Tick) -> Unit)
 
     private val cases = listOf(
-        Case("tick 7: tick 3 must come next") { it.number = 7 },
-        Case("tick 2: tick 3 must come next") { it.number = 2 },
+        Case("tick 7: expected tick 3") { it.number = 7 },
+        Case("tick 2: expected tick 3") { it.number = 2 },
         Case("tick 3: the time is NaN; it must be finite") { it.time = Double.NaN },
         Case("tick 3: the time is Infinity; it must be finite") { it.time = Double.POSITIVE_INFINITY },
         Case("tick 3: the delta time is NaN; it must be finite and 0 or greater") { it.deltaTime = Double.NaN },
         Case("tick 3: the delta time is -0.5; it must be finite and 0 or greater") { it.deltaTime = -0.5 },
-        Case("tick 3: node 9 cannot be removed: there is none") { it.nodesRemoved.add(9) },
+        Case("tick 3: node 9 cannot be removed: unknown node") { it.nodesRemoved.add(9) },
         Case("tick 3: node 1 is removed twice") { tick -> repeat(2) { tick.nodesRemoved.add(1) } },
-        Case("tick 3: node -1 cannot be added: ids are 0 or greater") { it.add(-1) },
-        Case("tick 3: node 2 cannot be added: it is there already") { it.add(2) },
+        Case("tick 3: node -1 cannot be added: the id must be 0 or greater") { it.add(-1) },
+        Case("tick 3: node 2 cannot be added: the id is already in use") { it.add(2) },
         Case("tick 3: node 8 is added twice") { it.add(8, 7, 8) },
-        Case("tick 3: link 1 -> 9 cannot be removed: there is none") { it.unlink(1, 9) },
-        Case("tick 3: link 2 -> 1 cannot be removed: there is none") { it.unlink(2, 1) },
+        Case("tick 3: link 1 -> 9 cannot be removed: unknown link") { it.unlink(1, 9) },
+        Case("tick 3: link 2 -> 1 cannot be removed: unknown link") { it.unlink(2, 1) },
         Case("tick 3: link 1 -> 2 is removed twice") { tick -> repeat(2) { tick.unlink(1, 2) } },
-        Case("tick 3: link 1 -> 2 cannot be removed: there is none") {
+        Case("tick 3: link 1 -> 2 cannot be removed: unknown link") {
             it.nodesRemoved.add(2)
             it.unlink(1, 2)
         },
         Case("tick 3: node 1 cannot be linked to itself") { it.link(1, 1) },
-        Case("tick 3: link 9 -> 1: there is no node 9") { it.link(9, 1) },
-        Case("tick 3: link 1 -> 9: there is no node 9") { it.link(1, 9) },
-        Case("tick 3: link 1 -> 2: there is no node 2") {
+        Case("tick 3: link 9 -> 1: unknown node 9") { it.link(9, 1) },
+        Case("tick 3: link 1 -> 9: unknown node 9") { it.link(1, 9) },
+        Case("tick 3: link 1 -> 2: unknown node 2") {
             it.nodesRemoved.add(2)
             it.link(1, 2)
         },
@@ -43,21 +43,21 @@ class RefusedTicksTest {
         Case("tick 3: link 1 -> 2 has attenuation Infinity; it must be finite and 0 or greater") {
             it.link(1, 2, 1f, Float.POSITIVE_INFINITY)
         },
-        Case("tick 3: link 1 -> 2 is given twice") { tick -> repeat(2) { tick.link(1, 2) } },
-        Case("tick 3: link 3 -> 1 is made twice") { tick ->
+        Case("tick 3: link 1 -> 2 is updated twice") { tick -> repeat(2) { tick.link(1, 2) } },
+        Case("tick 3: link 3 -> 1 is added twice") { tick ->
             tick.link(3, 1)
             tick.link(2, 1)
             tick.link(3, 1)
         },
-        Case("tick 3: link 1 -> 2 is made twice") { tick ->
+        Case("tick 3: link 1 -> 2 is added twice") { tick ->
             tick.unlink(1, 2)
             repeat(2) { tick.link(1, 2) }
         },
-        Case("tick 3: due node 9: there is no such node") { it.due(1, 9) },
-        Case("tick 3: due node 1 comes after 2; due ids must ascend without repetition") { it.due(2, 1) },
-        Case("tick 3: due node 1 comes after 1; due ids must ascend without repetition") { it.due(1, 1) },
-        Case("tick 3: due node -5 comes after -1; due ids must ascend without repetition") { it.due(-5) },
-        Case("tick 3: due node 2: there is no such node") {
+        Case("tick 3: due node 9: unknown node") { it.due(1, 9) },
+        Case("tick 3: due node 1 comes after 2; due ids must be in ascending order without duplicates") { it.due(2, 1) },
+        Case("tick 3: due node 1 comes after 1; due ids must be in ascending order without duplicates") { it.due(1, 1) },
+        Case("tick 3: due node -5 comes after -1; due ids must be in ascending order without duplicates") { it.due(-5) },
+        Case("tick 3: due node 2: unknown node") {
             it.nodesRemoved.add(2)
             it.due(1, 2)
         },

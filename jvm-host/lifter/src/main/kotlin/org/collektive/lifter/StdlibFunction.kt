@@ -16,8 +16,8 @@ import kotlin.reflect.full.valueParameters
 import kotlin.reflect.jvm.jvmErasure
 import kotlin.reflect.jvm.kotlinFunction
 
-/** A function or property of Kotlin's library, with [receiver] before its dot. A member has the type parameters of its class. */
-internal class Plain private constructor(
+/** A function or property of Kotlin's library with the receiver type [receiver]. A member has the type parameters of its class. */
+internal class StdlibFunction private constructor(
     private val callable: KCallable<*>,
     val receiver: KType,
     val typeParameters: List<KTypeParameter>,
@@ -29,25 +29,25 @@ internal class Plain private constructor(
     val isProperty: Boolean get() = callable is KProperty<*>
     val isInfix: Boolean get() = callable is KFunction<*> && callable.isInfix
 
-    /** A lifted `compareTo` returns a field, so that `<` cannot use it. */
+    /** Whether it is an operator, except `compareTo`: its lifted version returns a field, which `<` cannot use. */
     val isOperator: Boolean get() = callable is KFunction<*> && callable.isOperator && name != "compareTo"
 
     /**
-     * Whether fields have it: a function of values that Kotlin's sources declare.
+     * Returns whether this function is lifted: it is pure, public, and declared in Kotlin.
      *
-     * What comes from Java's classes differs from one JDK to the next.
+     * Functions of Java's classes are excluded, because they differ between JDKs.
      */
     private fun isLifted(): Boolean = callable.visibility == KVisibility.PUBLIC &&
         name !in NOT_LIFTED &&
         !callable.hasAnnotation<Deprecated>() &&
         result.jvmErasure != Unit::class &&
         (result.jvmErasure !in ARRAYS || receiver.jvmErasure == result.jvmErasure) &&
-        (parameters.map { it.type } + result + typeParameters.flatMap { it.upperBounds }).none { UNWANTED.containsMatchIn("$it") }
+        (parameters.map { it.type } + result + typeParameters.flatMap { it.upperBounds }).none { EXCLUDED_TYPES.containsMatchIn("$it") }
 
     companion object {
         /**
-         * What Collektive does not lift: functions of every object, `inc` and `dec`, which assign; the Boolean that `in` needs; names that
-         * fields themselves have; what only the JVM has; and what is newer than Collektive 28.3's Kotlin.
+         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` needs a Boolean; names
+         * that fields already have; functions of Kotlin/JVM only; and functions newer than the Kotlin version of Collektive 28.3.
          */
         private val NOT_LIFTED = setOf(
             "equals",
@@ -79,8 +79,8 @@ internal class Plain private constructor(
             "allEqualBy",
         )
 
-        /** Types of what changes, of arrays but for the receiver's own, and, by `!` and their package, of Java's. */
-        private val UNWANTED = Regex("Mutable|Appendable|HashSet|kotlin\\.Array<|!|^java\\.")
+        /** Matches mutable types, arrays, and Java's types (`!` or their package). */
+        private val EXCLUDED_TYPES = Regex("Mutable|Appendable|HashSet|kotlin\\.Array<|!|^java\\.")
 
         private val ARRAYS = setOf<KClass<*>>(
             BooleanArray::class,
@@ -93,20 +93,20 @@ internal class Plain private constructor(
             ShortArray::class,
         )
 
-        /** The members of [type]. */
-        fun members(type: KClass<*>): List<Plain> {
+        /** Returns the lifted members of [type]. */
+        fun members(type: KClass<*>): List<StdlibFunction> {
             val receiver = type.createType(type.typeParameters.map { KTypeProjection.invariant(it.createType()) })
             return type.members.filter { it is KFunction<*> || it is KProperty<*> }
-                .map { Plain(it, receiver, type.typeParameters, isMember = true) }
+                .map { StdlibFunction(it, receiver, type.typeParameters, isMember = true) }
                 .filter { it.isLifted() }
         }
 
-        /** The extensions of [type] in the file [facade] of `kotlin.collections`. */
-        fun extensions(facade: String, type: KClass<*>): List<Plain> = Class.forName("kotlin.collections.$facade").methods
+        /** Returns the lifted extensions of [type] in the file [facade] of `kotlin.collections`. */
+        fun extensions(facade: String, type: KClass<*>): List<StdlibFunction> = Class.forName("kotlin.collections.$facade").methods
             .filter { it.parameterTypes.firstOrNull() == type.java }
             .mapNotNull { it.kotlinFunction }
             .mapNotNull { function ->
-                function.extensionReceiverParameter?.let { Plain(function, it.type, function.typeParameters, isMember = false) }
+                function.extensionReceiverParameter?.let { StdlibFunction(function, it.type, function.typeParameters, isMember = false) }
             }
             .filter { it.receiver.jvmErasure == type && !it.receiver.toString().contains("Mutable") && it.isLifted() }
     }

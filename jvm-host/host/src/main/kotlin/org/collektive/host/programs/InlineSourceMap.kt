@@ -1,37 +1,39 @@
 package org.collektive.host.programs
 
 /**
- * The lines of a class that stand for code which the Kotlin compiler inlined. Such code has line numbers behind the end of its file; the compiler's
- * source map (JSR-45, stratum `KotlinDebug`) says from which line of the file it was called.
+ * Maps the lines of code that the Kotlin compiler inlined into a class to the lines of the calls.
+ *
+ * Inlined code has line numbers beyond the end of the file. The source map of the compiler (JSR-45, stratum `KotlinDebug`) contains the line
+ * of each call.
  */
-internal class InlinedLines private constructor(private val ranges: List<Range>) {
+internal class InlineSourceMap private constructor(private val ranges: List<Range>) {
     private class Range(val lines: IntRange, val calledFrom: Int)
 
-    /** The line of the user's file for [line]: itself, unless its code was inlined. */
+    /** Returns the line in the user's file: the line of the call if the code of [line] was inlined, otherwise [line]. */
     fun inFile(line: Int): Int = ranges.find { line in it.lines }?.calledFrom ?: line
 
     companion object {
-        private val NONE = InlinedLines(emptyList())
+        private val NONE = InlineSourceMap(emptyList())
         private val ENTRY = Regex("""(\d+)(?:#\d+)?(?:,(\d+))?:(\d+)(?:,(\d+))?""")
 
-        /** Of [type], read from its file once: a program may fail in each round. */
-        fun of(type: Class<*>): InlinedLines = OF_CLASSES.get(type)
+        /** Returns the source map of [type]. Cached, because a program may fail in each round. */
+        fun of(type: Class<*>): InlineSourceMap = CACHE.get(type)
 
-        private val OF_CLASSES = object : ClassValue<InlinedLines>() {
-            override fun computeValue(type: Class<*>): InlinedLines {
+        private val CACHE = object : ClassValue<InlineSourceMap>() {
+            override fun computeValue(type: Class<*>): InlineSourceMap {
                 val file = type.getResourceAsStream("/" + type.name.replace('.', '/') + ".class") ?: return NONE
                 return of(file.use { it.readAllBytes() })
             }
         }
 
-        /** Of a class file. The map is a text in it. */
-        fun of(classFile: ByteArray): InlinedLines {
+        /** Returns the source map in [classFile], which contains it as text. */
+        fun of(classFile: ByteArray): InlineSourceMap {
             val map = String(classFile, Charsets.ISO_8859_1).substringAfter("SMAP\n", "").substringBefore("*E")
             val entries = map.substringAfter("*S KotlinDebug\n", "").substringAfter("*L\n", "").lineSequence()
-            return InlinedLines(entries.mapNotNull { ENTRY.matchEntire(it)?.groupValues }.map(::range).toList())
+            return InlineSourceMap(entries.mapNotNull { ENTRY.matchEntire(it)?.groupValues }.map(::range).toList())
         }
 
-        /** Of an entry "input line, repetitions : first output line, output lines each". */
+        /** Parses an entry "input line, repetitions : first output line, output lines each". */
         private fun range(entry: List<String>): Range {
             val first = entry[OUTPUT].toInt()
             val count = (entry[REPETITIONS].toIntOrNull() ?: 1) * (entry[INCREMENT].toIntOrNull() ?: 1)
