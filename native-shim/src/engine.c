@@ -151,7 +151,8 @@ int32_t engine_run(engine_work *work, int64_t deadline) {
     if (engine_state() == CLK_STATE_RUNNING) repair_signals();
     if (!engine.started) {
         engine.started = prim_thread_start(engine_main, "collektive", STACK_BYTES);
-        if (!engine.started) return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the limit of threads");
+        if (!engine.started)
+            return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the limit of threads");
     }
     engine.work = work;
     atomic_store(&engine.phase, BUSY);

@@ -111,7 +111,8 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
     (void)class;
     struct host_call *call = engine_is_current() ? java.running : NULL;
     if (call == NULL || call->slot != (clk_slot)slot) {
-        throw_new(env, "java/lang/IllegalStateException", "Shim.grow accepts only the answer slot of the running call, on the engine thread");
+        throw_new(env, "java/lang/IllegalStateException",
+                  "Shim.grow accepts only the answer slot of the running call, on the engine thread");
         return NULL;
     }
     if (capacity > call->answer->capacity) {
@@ -153,7 +154,10 @@ static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray u
 
 /* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */
 
-static void refuse_exit(JNIEnv *env) { (*env)->ThrowNew(env, java.security_exception, "System.exit and Runtime.halt are not allowed: they would end the whole process; return from the program instead"); }
+static void refuse_exit(JNIEnv *env) {
+    (*env)->ThrowNew(env, java.security_exception,
+                     "System.exit and Runtime.halt are not allowed: they would end the whole process; return from the program instead");
+}
 
 static void JNICALL shutdown_before_halt(JNIEnv *env, jclass class) {
     (void)class;
@@ -272,7 +276,8 @@ int32_t host_run(struct host_call *call) {
     java.running = NULL;
     if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, where);
     if (result < 0) {
-        if (!is_host_code(result)) return error_set(CLK_HOST, "%s returned %lld, which is not an error code of the host", where, (long long)result);
+        if (!is_host_code(result))
+            return error_set(CLK_HOST, "%s returned %lld, which is not an error code of the host", where, (long long)result);
         if (!java.has_error_text) error_set(CLK_OK, "%s: %s", where, clk_error_text((int32_t)result));
         return (int32_t)result;
     }

@@ -92,7 +92,8 @@ static int32_t load(create_function **create) {
     created_function *created;
     *(void **)create = prim_library_symbol(library, "JNI_CreateJavaVM");
     *(void **)&created = prim_library_symbol(library, "JNI_GetCreatedJavaVMs");
-    if (*create == NULL || created == NULL) return error_set(CLK_JVM_NOT_FOUND, "%s is not a JVM library: it lacks JNI_CreateJavaVM; reinstall the JVM", path);
+    if (*create == NULL || created == NULL)
+        return error_set(CLK_JVM_NOT_FOUND, "%s is not a JVM library: it lacks JNI_CreateJavaVM; reinstall the JVM", path);
     *(void **)&jvm.halt = prim_library_symbol(library, "JVM_Halt");
     /* Called before JNI_CreateJavaVM: after a second JNI_CreateJavaVM the count is 0. */
     JavaVM *other;
@@ -219,7 +220,8 @@ static int32_t compare(const clk_jvm_config *config) {
     bool equal = configuration != NULL && strcmp(configuration, jvm.launch.configuration) == 0;
     free(configuration);
     if (equal) return CLK_OK;
-    return error_set(CLK_JVM_RUNNING, "a JVM is already running with another home, class path or options; restart the process to change them");
+    return error_set(CLK_JVM_RUNNING,
+                     "a JVM is already running with another home, class path or options; restart the process to change them");
 }
 
 static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
@@ -273,7 +275,8 @@ static int lock_archive(void) {
  * removes its signal handlers. */
 static int32_t work_stop(void) {
     bool idle = true;
-    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK) log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
+    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK)
+        log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
     session_forget_all();
     int lock = lock_archive();
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);

@@ -21,7 +21,8 @@ int32_t launch_check_config(const clk_jvm_config *config) {
     for (const uint8_t *at = (const uint8_t *)config + sizeof *config; at < (const uint8_t *)config + config->size; at++) {
         if (*at != 0) return error_set(CLK_ARGUMENT, "config has fields that this version of the shim does not support; update the shim");
     }
-    if (config->home == NULL || config->home[0] == '\0') return error_set(CLK_ARGUMENT, "home is empty; set it to the root of a JRE or JDK");
+    if (config->home == NULL || config->home[0] == '\0')
+        return error_set(CLK_ARGUMENT, "home is empty; set it to the root of a JRE or JDK");
     if (config->class_path == NULL || config->class_path[0] == '\0') {
         return error_set(CLK_ARGUMENT, "class_path is empty; set it to the jars of the host");
     }
@@ -77,8 +78,8 @@ static void check_archive(struct launch *launch) {
     if (!prim_jvm_can_decode(archive)) {
         log_format(CLK_LOG_WARNING, "no class archive is written, so the JVM starts more slowly: " PRIM_FOREIGN_TEXT, archive);
     } else if (prim_disk_free(archive) < ARCHIVE_BYTES) {
-        log_format(CLK_LOG_WARNING, "no class archive is written, so the JVM starts more slowly: less than 32 MB of disk space are free for %s",
-                   archive);
+        log_format(CLK_LOG_WARNING,
+                   "no class archive is written, so the JVM starts more slowly: less than 32 MB of disk space are free for %s", archive);
     } else {
         return;
     }
@@ -130,8 +131,7 @@ static int32_t check_home_file(const char *home, const char *file) {
         case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "cannot read %s; " PRIM_READ_ADVICE, path);
         default:
             return error_set(CLK_JVM_NOT_FOUND,
-                             "%s is missing; set the JVM's home to the root of a JRE or JDK 17 or newer for " PRIM_PLATFORM,
-                             path);
+                             "%s is missing; set the JVM's home to the root of a JRE or JDK 17 or newer for " PRIM_PLATFORM, path);
     }
 }
 
@@ -163,7 +163,8 @@ static int32_t check_version(const char *home) {
 static int32_t check_home(const char *home) {
     switch (prim_file_kind(home)) {
         case PRIM_DIRECTORY: break;
-        case PRIM_MISSING: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; set it to the root of a JRE or JDK", home);
+        case PRIM_MISSING:
+            return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s does not exist; set it to the root of a JRE or JDK", home);
         case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "cannot read the JVM's home %s; " PRIM_READ_ADVICE, home);
         default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is not a folder; set it to the root of a JRE or JDK", home);
     }
@@ -178,7 +179,8 @@ static int32_t check_class_path(const char *class_path) {
     for (const char *at = class_path; *at != '\0';) {
         const char *end = strchr(at, PRIM_PATH_SEPARATOR);
         size_t length = end != NULL ? (size_t)(end - at) : strlen(at);
-        if (length >= sizeof entry) return error_set(CLK_HOST, "an entry of the host's class path is too long; move the package to a shorter path");
+        if (length >= sizeof entry)
+            return error_set(CLK_HOST, "an entry of the host's class path is too long; move the package to a shorter path");
         memcpy(entry, at, length);
         entry[length] = '\0';
         enum prim_file kind = length > 0 ? prim_file_kind(entry) : PRIM_DIRECTORY;

@@ -165,5 +165,6 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
                          "corrupt; it printed: %s",
                          home, status - 128, printed);
     }
-    return error_set(CLK_JVM_OPTIONS, "the JVM in %s rejects its options (exit code %d): %s; correct the JVM options", home, status, printed);
+    return error_set(CLK_JVM_OPTIONS, "the JVM in %s rejects its options (exit code %d): %s; correct the JVM options", home, status,
+                     printed);
 }

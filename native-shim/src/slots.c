@@ -169,7 +169,8 @@ static int32_t grow(clk_slot handle, int32_t capacity, int32_t keep, clk_memory 
     struct slot *slot = slot_find(handle);
     if (slot == NULL) return CLK_HANDLE;
     struct block *old = slot->block;
-    if (keep < 0 || keep > old->capacity) return error_set(CLK_ARGUMENT, "keep is %d; it must be 0 to %d, the size of the slot", keep, old->capacity);
+    if (keep < 0 || keep > old->capacity)
+        return error_set(CLK_ARGUMENT, "keep is %d; it must be 0 to %d, the size of the slot", keep, old->capacity);
     if (old->pins > 0) return error_set(CLK_ARGUMENT, "the slot is in use by a running call; grow it after the call");
     if (capacity > old->capacity) {
         struct block *block = block_take(capacity);

@@ -140,8 +140,7 @@ void files_that_cannot_be_read(void) {
     CHECK_CODE(CLK_JVM_NOT_FOUND, PRIM_LIBJVM "; " PRIM_READ_ADVICE, start_home(home));
     unblock_reading(library);
     void *jar = block_reading(home, "host.jar");
-    CHECK_CODE(CLK_HOST, "host.jar on the host's class path; " PRIM_READ_ADVICE,
-               start_at(java_home(), path, NULL, true, 60000));
+    CHECK_CODE(CLK_HOST, "host.jar on the host's class path; " PRIM_READ_ADVICE, start_at(java_home(), path, NULL, true, 60000));
     unblock_reading(jar);
     check_start_still_works();
 }

@@ -89,13 +89,23 @@ class WholeRuns(Project):
             self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
 
     def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self) -> None:
-        for code in ["manager.Paused = true;", "manager.enabled = false;"]:
+        for code, cause in [("manager.Paused = true;", "paused the Simulation Manager"), ("manager.enabled = false;", "disabled the Simulation Manager"),
+                            ("Destroy(manager);", "destroyed the Simulation Manager"), ("Time.timeScale = 0;", "set Time.timeScale to 0")]:
             with self.subTest(code):
                 result = self.at_tick_4(code)
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 1)
-                self.assertIn("4 of 10 ticks were done", last_error(result))
+                self.assertIn(f"4 of 10 ticks were done: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
+
+    def test_ticks_may_be_as_long_as_an_hour(self) -> None:
+        for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
+            for seconds in [0.34, 1, 60, 3600]:
+                with self.subTest(f"{schedule}, {seconds} s"):
+                    timing = ["--set", f'timing={{"period": {seconds}}}'] if schedule == "Asynchronous" else []
+                    result = self.run_it("--set", f"deltaTime={seconds}", "--set", f"schedule={schedule}", *timing, "--seconds", str(3 * seconds))
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    self.assertEqual(self.manifest(self.path("out"))["ticks"], 3)
 
     def test_a_stop_condition_and_quit_end_a_run_in_order(self) -> None:
         for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:
@@ -117,7 +127,8 @@ class WholeRuns(Project):
 
     def test_a_crash_of_the_jvm_has_not_completed_the_run(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
-                    'val mine = sensors.brightness()\n    val field = Class.forName("sun.misc.Unsafe").getDeclaredField("theUnsafe").apply { isAccessible = true }\n'
+                    'val mine = sensors.brightness()\n'
+                    '    val field = Class.forName("sun.misc.Unsafe").getDeclaredField("theUnsafe").apply { isAccessible = true }\n'
                     '    if (sensors.brightness() == 3f) (field.get(null) as sun.misc.Unsafe).putAddress(0, 0)')
         result = self.run_it()
         self.assertNotEqual(result.returncode, 0)
@@ -144,7 +155,8 @@ class WholeRuns(Project):
 
     def test_csharp_that_does_not_return_uses_up_the_limit_of_a_tick(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "stepLimitMs": 700')
-        for code in ["while (true) { }", "while (true) { try { System.Threading.Thread.Sleep(100); } catch (System.Exception) { System.Threading.Thread.ResetAbort(); } }"]:
+        caught = "try { System.Threading.Thread.Sleep(100); } catch (System.Exception) { System.Threading.Thread.ResetAbort(); }"
+        for code in ["while (true) { }", f"while (true) {{ {caught} }}"]:
             with self.subTest(code):
                 line = f"if (SimulationManager.Current.Tick == 4) {{ {code} }}\n            data.Brightness = Brightness;"
                 self.change("scene/Lamps.cs", "data.Brightness = Brightness;", line)

@@ -3,10 +3,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import commits
 import pytest
 
 from build.places import ROOT
-import commits
 
 
 @pytest.mark.parametrize("subject", ["Report repeated sensor errors once", "Address review", "Process links in order", "Merge branch 'x'", "Focus the view",

@@ -83,7 +83,7 @@ def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Chec
 
 
 def test_orphans_of_a_program_end_whichever_group_they_are_in(checkout: Checkout) -> None:
-    program = "processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > ' + str(root / 'pid')])"
+    program = """processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > "$0"', str(root / 'pid')])"""
     began = time.monotonic()
     assert checkout.run(attended(f"{program} or processes.end_orphans() or 0")).returncode == 0
     assert time.monotonic() - began < 10

@@ -20,7 +20,7 @@ def test_a_checkout_whose_path_has_a_separator_is_refused(checkout: Checkout, se
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can mount")
 def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, words: tuple[str, ...], code: int) -> None:
     mount = 'mount --bind "$1" "$1" && mount -o remount,ro,bind "$1" || exit 99; command=$1/collektive; shift; exec "$command" "$@"'
-    result = subprocess.run(["unshare", "--mount", "sh", "-c", mount, "sh", checkout.root, *words], capture_output=True, text=True)
+    result = subprocess.run(["unshare", "--mount", "sh", "-c", mount, "sh", str(checkout.root), *words], capture_output=True, text=True)
     if result.returncode == 99 or "unshare:" in result.stderr:
         pytest.skip("this system lets nobody mount")
     assert result.returncode == code
@@ -29,7 +29,7 @@ def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, 
 
 
 def test_a_folder_that_is_not_a_jdk_is_reported_before_anything_is_fetched(checkout: Checkout) -> None:
-    command = [checkout.root / "collektive", "plot", "sweep"]
+    command = [str(checkout.root / "collektive"), "plot", "sweep"]
     result = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "COLLEKTIVE_JAVA_HOME": "/nope"})
     assert result.returncode == 1
     assert result.stderr == "collektive: COLLEKTIVE_JAVA_HOME is not a JDK: '/nope' has no lib/server/libjvm.so, bin/javac and release\n"

@@ -6,8 +6,8 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ends frames whose C# does not return. The JVM has <see cref="SimulationSettings.stepLimitMs"/> for its part of a tick, so a frame that takes twice as long
-    /// has used up as much in C#. Frames in which the simulation is not open yet have no limit.
+    /// Ends frames whose C# does not return. The JVM has <see cref="SimulationSettings.stepLimitMs"/> for its part of a tick, so a frame that takes
+    /// twice as long has used up as much in C#. Frames in which the simulation is not open yet have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {

@@ -30,7 +30,9 @@ namespace Collektive.Headless
         private const string WritingSwitches =
             "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
 
-        /// <summary>Ends of the names of options whose value is a path, even when it looks like a number, or a limit at which the JVM ends the process.</summary>
+        /// <summary>
+        /// Ends of the names of options whose value is a path, even when it looks like a number, or a limit at which the JVM ends the process.
+        /// </summary>
         private const string NamesOfPlaces = "MallocLimit|File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
 
         internal static bool Contains(string flag) => Forms.Any(form => form.IsMatch(flag));

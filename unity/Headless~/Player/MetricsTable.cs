@@ -53,7 +53,8 @@ namespace Collektive.Headless
             {
                 if (known.Add(name)) continue;
                 throw new ScenarioException(
-                    "the scene " + scene.GetType().FullName + " names the metric '" + name + "', which is the name of another column of metrics.csv: rename it");
+                    "the scene " + scene.GetType().FullName + " names the metric '" + name
+                        + "', which is the name of another column of metrics.csv: rename it");
             }
         }
 

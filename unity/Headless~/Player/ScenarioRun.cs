@@ -30,6 +30,7 @@ namespace Collektive.Headless
         private Manifest manifest;
         private MetricsTable metrics;
         private FrameLimit limit;
+        private string cause = "";
         private int done;
 
         /// <param name="began">When the run began; by default, when the process did.</param>
@@ -58,6 +59,8 @@ namespace Collektive.Headless
             Installation.JavaHome = options.JavaHome;
             Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
+            // A frame is a tick, however long.
+            Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
             var manager = MakeManager();
             var scene = MakeScene(manager);
             manifest.Write();
@@ -194,9 +197,9 @@ namespace Collektive.Headless
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
-                    // A script has paused or disabled the manager.
                     if (done == before)
                     {
+                        cause = CauseOfNoTick(manager);
                         ended = Stopwatch.GetTimestamp();
                         continue;
                     }
@@ -240,8 +243,8 @@ namespace Collektive.Headless
             }
             if (done < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
             {
-                var problem = done + " of " + ticks + " ticks were done: a script paused, disabled or destroyed the Simulation Manager";
-                Console.Error.WriteLine("collektive: " + problem + "; end a run with Application.Quit or a stop condition");
+                var problem = done + " of " + ticks + " ticks were done" + cause;
+                Console.Error.WriteLine("collektive: " + problem + "; to end a run early, use Application.Quit or a stop condition");
                 manifest.Outcome = problem;
                 return 1;
             }
@@ -260,6 +263,15 @@ namespace Collektive.Headless
             Console.Error.WriteLine(
                 "collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");
             return 1;
+        }
+
+        /// <summary>Returns why a frame had no tick, as far as that can be seen.</summary>
+        private static string CauseOfNoTick(SimulationManager manager)
+        {
+            if (!manager) return ": a script destroyed the Simulation Manager";
+            if (!manager.isActiveAndEnabled) return ": a script disabled the Simulation Manager";
+            if (manager.Paused) return ": a script paused the Simulation Manager";
+            return Time.timeScale == 1 ? "" : ": a script set Time.timeScale to " + Time.timeScale.ToString(CultureInfo.InvariantCulture);
         }
 
         /// <summary>Whether the scenario ends now, since all has converged.</summary>

@@ -18,16 +18,20 @@ namespace Collektive.Headless
         private const BindingFlags All =
             BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.Instance | BindingFlags.DeclaredOnly;
 
-        private static readonly HashSet<string> Assemblies = new HashSet<string> { "Collektive.FlatBuffers", "Collektive.Bridge", "Collektive.Unity", "UnityEngine" };
+        private static readonly HashSet<string> Assemblies = new HashSet<string>
+        {
+            "Collektive.FlatBuffers", "Collektive.Bridge", "Collektive.Unity", "UnityEngine",
+        };
 
         private static readonly HashSet<string> Namespaces = new HashSet<string> { "System.Collections", "System.Collections.Generic", "System.Linq" };
 
         private static readonly HashSet<string> SystemTypes = new HashSet<string>((
-            "Object String Boolean Byte SByte Char Int16 UInt16 Int32 UInt32 Int64 UInt64 Single Double Decimal Void Math MathF Array Enum ValueType Nullable`1 "
-            + "IDisposable IComparable IComparable`1 IEquatable`1 IFormattable IFormatProvider Delegate MulticastDelegate EventHandler EventHandler`1 EventArgs "
-            + "Predicate`1 Comparison`1 Converter`2 Exception ArgumentException ArgumentNullException ArgumentOutOfRangeException InvalidOperationException "
-            + "NotSupportedException NotImplementedException IndexOutOfRangeException FormatException Index Range Span`1 ReadOnlySpan`1 ArraySegment`1 Random StringComparison "
-            + "StringComparer Convert HashCode RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
+            "Object String Boolean Byte SByte Char Int16 UInt16 Int32 UInt32 Int64 UInt64 Single Double Decimal Void Math MathF Array Enum ValueType "
+            + "Nullable`1 IDisposable IComparable IComparable`1 IEquatable`1 IFormattable IFormatProvider Delegate MulticastDelegate EventHandler "
+            + "EventHandler`1 EventArgs Predicate`1 Comparison`1 Converter`2 Exception ArgumentException ArgumentNullException "
+            + "ArgumentOutOfRangeException InvalidOperationException NotSupportedException NotImplementedException IndexOutOfRangeException "
+            + "FormatException Index Range Span`1 ReadOnlySpan`1 ArraySegment`1 Random StringComparison StringComparer Convert HashCode "
+            + "RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
 
         /// <summary>Types of any number of parameters.</summary>
         private static readonly HashSet<string> Families = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
@@ -47,7 +51,8 @@ namespace Collektive.Headless
         private static readonly HashSet<string> OtherTypes = new HashSet<string>
         {
             "System.Text.StringBuilder", "System.Globalization.NumberStyles", "System.Reflection.MemberInfo", "System.Collections.IEnumerator",
-            "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Security.Permissions.SecurityAction", "System.Collections.Generic.List`1+Enumerator",
+            "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Security.Permissions.SecurityAction",
+            "System.Collections.Generic.List`1+Enumerator",
         };
 
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>
@@ -55,7 +60,10 @@ namespace Collektive.Headless
             "System.ThreadStaticAttribute", "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
         };
 
-        private static readonly HashSet<string> ForbiddenMembers = new HashSet<string> { "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly" };
+        private static readonly HashSet<string> ForbiddenMembers = new HashSet<string>
+        {
+            "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly",
+        };
 
         private static readonly OpCode[] PointerCodes =
         {
@@ -74,7 +82,8 @@ namespace Collektive.Headless
             {
                 if (ForbiddenMembers.Contains(member.Name)) return member.DeclaringType?.FullName + "." + member.Name;
                 var type = member.DeclaringType?.FullName;
-                if (type != null && Members.TryGetValue(type, out var known) && Array.IndexOf(known.Split(' '), member.Name) < 0) return type + "." + member.Name;
+                if (type == null || !Members.TryGetValue(type, out var known)) continue;
+                if (Array.IndexOf(known.Split(' '), member.Name) < 0) return type + "." + member.Name;
             }
             foreach (var type in scripts.GetTypes())
             {
@@ -123,14 +132,17 @@ namespace Collektive.Headless
                 var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
-                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner) || IsStateless(owner)
-                    || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
+                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner)
+                    || IsStateless(owner) || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
                 if (!isHarmless) return true;
             }
             return false;
         }
 
-        /// <summary>Returns what the rows of a table of metadata name. Members of generic types that scripts construct cannot be resolved, but their types can.</summary>
+        /// <summary>
+        /// Returns the types or members that the rows of a table of metadata name. Members of generic types that scripts construct cannot be resolved,
+        /// but their types can.
+        /// </summary>
         private static IEnumerable<T> Resolve<T>(Func<int, T> resolve) where T : class
         {
             for (var row = 1;; row++)

@@ -48,7 +48,8 @@ namespace Collektive.Headless
         internal bool IsUnchanged => Problem == null && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
 
         private static bool IsComparable(FieldInfo field) =>
-            IsLambda(field) || IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType()) || field.IsInitOnly && IsWithoutState(field.FieldType);
+            IsLambda(field) || IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType())
+                || field.IsInitOnly && IsWithoutState(field.FieldType);
 
         /// <summary>Whether the compiler keeps a lambda without variables in a field.</summary>
         private static bool IsLambda(FieldInfo field) =>

@@ -18,9 +18,10 @@ namespace Collektive.Headless
     /// <summary>
     /// Runs a scenario for a sweep, one or more times with one JVM. Requests and answers are lines of JSON on the descriptor <c>--channel</c>; an answer has
     /// the <c>id</c> of its request. <c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM, and answers <c>keepsState</c>: what in the scripts could
-    /// leave something behind for the next run, or null. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and whether another run
-    /// may follow <c>again</c>. What a run prints goes to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario and the scene's fields,
-    /// and runs nothing; the answer has the <c>problem</c>, or the names of the scene's <c>metrics</c>. The process ends when the channel is closed.
+    /// leave something behind for the next run, or null. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and
+    /// whether another run may follow <c>again</c>. What a run prints goes to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario
+    /// and the scene's fields, and runs nothing; the answer has the <c>problem</c>, or the names of the scene's <c>metrics</c>. The process
+    /// ends when the channel is closed.
     /// </summary>
     internal sealed class Server
     {

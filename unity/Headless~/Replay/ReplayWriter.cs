@@ -12,8 +12,9 @@ namespace Collektive.Headless
     /// <summary>
     /// Writes a run as a replay page; the format is in FORMAT.md. For each frame: <see cref="BeginFrame"/>, each node, then each
     /// link between those nodes, <see cref="EndFrame"/>; at the end <see cref="Finish"/>. Every <see cref="FramesPerSegment"/> frames go to a
-    /// scratch file, and slots of nodes that left go to others: memory grows by eight bytes a frame, and between two of those moments a frame allocates nothing once the greatest
-    /// numbers of nodes and links were seen. One thread at a time. After an exception the recording is of no further use: dispose the writer.
+    /// scratch file, and slots of nodes that left go to others: memory grows by eight bytes a frame, and between two of those moments a frame
+    /// allocates nothing once the greatest numbers of nodes and links were seen. One thread at a time. After an exception the
+    /// recording is of no further use: dispose the writer.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
     {

@@ -16,7 +16,9 @@ namespace Collektive.Headless
             return new StreamWriter(new FileStream(path, FileMode.CreateNew, FileAccess.Write, FileShare.Read), new UTF8Encoding(false));
         }
 
-        /// <summary>Writes a file beside <paramref name="path"/>, syncs it, and replaces the file of that name. After an exception that one is unchanged.</summary>
+        /// <summary>
+        /// Writes a file beside <paramref name="path"/>, syncs it, and replaces the file of that name. After an exception that file is unchanged.
+        /// </summary>
         internal static void Write(string path, Action<TextWriter> write)
         {
             var part = path + ".part";

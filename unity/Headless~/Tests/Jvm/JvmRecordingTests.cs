@@ -92,7 +92,7 @@ namespace Collektive.Headless.Tests
         public void What_cannot_be_recorded_says_why()
         {
             JvmRecording.Start(Path.Combine(folder, "a.jfr"), "fastest");
-            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("no settings 'fastest'"));
+            Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("unknown settings 'fastest'"));
             JvmRecording.Stop();
             Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("no recording is running"));
             Assert.Throws<ArgumentException>(() => JvmRecording.Start(" "));

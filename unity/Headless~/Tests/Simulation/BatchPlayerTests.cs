@@ -28,6 +28,22 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Loop.ExitCode, Is.EqualTo(0));
         }
 
+        [TestCase(0.5f)]
+        [TestCase(3600f)]
+        public void A_frame_is_a_tick_longer_than_frames_usually_are(float deltaTime)
+        {
+            Loop.IsEditor = false;
+            Configure("double", settings =>
+            {
+                settings.deltaTime = deltaTime;
+                settings.stopAfter = 3 * deltaTime;
+            });
+            MakeNode(2);
+            for (var frame = 0; frame < 3; frame++) Loop.Frame(0.001f);
+            Assert.That(Manager.Tick, Is.EqualTo(3));
+            Assert.That(Loop.QuitRequested, Is.True);
+        }
+
         [Test]
         public void It_ends_with_1_after_errors()
         {

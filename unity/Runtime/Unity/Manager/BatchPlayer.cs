@@ -10,7 +10,9 @@ namespace Collektive.Unity
     {
         internal static void Begin(SimulationSettings settings)
         {
-            if (Plays(settings)) Time.captureDeltaTime = settings.deltaTime;
+            if (!Plays(settings)) return;
+            Time.captureDeltaTime = settings.deltaTime;
+            Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, settings.deltaTime);
         }
 
         /// <param name="isGood">Whether the run reached its end without an error; the process ends with 0 then, else with 1.</param>

@@ -100,7 +100,9 @@ public object Host {
         sessions.clear()
         val deadline = System.nanoTime() + millis(limitMillis)
         control.close(limitMillis)
-        val remaining = Thread.getAllStackTraces().keys.filter { !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM" }
+        val remaining = Thread.getAllStackTraces().keys.filter {
+            !it.isDaemon && it !== Thread.currentThread() && it.name != "DestroyJavaVM"
+        }
         remaining.forEach(Thread::interrupt)
         for (thread in remaining) {
             val wait = TimeUnit.NANOSECONDS.toMillis(deadline - System.nanoTime())

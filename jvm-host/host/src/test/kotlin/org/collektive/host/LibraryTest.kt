@@ -52,8 +52,11 @@ class LibraryTest {
     }
 
     @Test
-    fun `a jar that was compiled with other jars of the same runtime is refused`() =
-        refused(marked("collektive abc"), AggregateRuntime.Collektive, "was compiled with different jars than those of the Collektive runtime")
+    fun `a jar that was compiled with other jars of the same runtime is refused`() = refused(
+        marked("collektive abc"),
+        AggregateRuntime.Collektive,
+        "was compiled with different jars than those of the Collektive runtime",
+    )
 
     @Test
     fun `a jar that was compiled for the session's runtime is accepted`() {

@@ -74,7 +74,8 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
 
         /** Returns all lifted versions of [function]: one per non-empty set of positions. Parameters of type `Any?` already accept fields. */
         fun of(function: StdlibFunction): List<LiftedFunction> {
-            val places = listOf(0) + function.parameters.indices.map { it + 1 }.filter { function.parameters[it - 1].type != typeOf<Any?>() }
+            val places =
+                listOf(0) + function.parameters.indices.map { it + 1 }.filter { function.parameters[it - 1].type != typeOf<Any?>() }
             return (1 until (1 shl places.size))
                 .map { set -> LiftedFunction(function, places.filterIndexed { index, _ -> set shr index and 1 == 1 }) }
                 .filter { 0 in it.fields || function.parameters.size + 1 == places.size }

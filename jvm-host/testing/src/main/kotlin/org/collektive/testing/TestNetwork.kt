@@ -169,8 +169,8 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             val provider = if (name == null) found.find { it.name == "builtIn" } ?: found.firstOrNull() else found.find { it.name == name }
             checkNotNull(provider) {
                 val names = found.map(RuntimeProvider::name)
-                "${if (name == null) "no runtime is" else "the runtime $name is not"} on the class path, which contains the runtimes $names: add " +
-                    "collektive-library.jar for the built-in runtime, or collektive-adapter.jar and Collektive's jars"
+                val missing = if (name == null) "no runtime is" else "the runtime $name is not"
+                "$missing on the class path, which contains the runtimes $names: add collektive-library.jar for the built-in runtime, or collektive-adapter.jar and Collektive's jars"
             }
             return provider.runtimes(ViewRule)
         }

@@ -1,3 +1,5 @@
+@file:Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
+
 package org.collektive.conformance.golden
 
 import it.unibo.collektive.aggregate.Field

@@ -38,7 +38,8 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
      */
     internal fun readGlobals(frame: ByteBuffer, position: Int): Any? {
         if (position == 0) return null
-        val holder = globals ?: throw MalformedFrameException("the frame contains global data, but schema ${schema.name} does not define GlobalData")
+        val holder =
+            globals ?: throw MalformedFrameException("the frame contains global data, but schema ${schema.name} does not define GlobalData")
         return holder.read(frame, position)
     }
 

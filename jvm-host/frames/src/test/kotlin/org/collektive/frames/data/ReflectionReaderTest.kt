@@ -43,7 +43,12 @@ internal class ReflectionReaderTest {
         assertFailsWith<MalformedFrameException> {
             checker.check(frame.buffer().limit(frame.bytes.size - 1), frame.position, reflection.table("test.globals.GlobalData"))
         }
-        assertContains(assertFailsWith<MalformedFrameException> { reflection.elements("test.Other") }.message.orEmpty(), "does not define test.Other")
+        assertContains(
+            assertFailsWith<MalformedFrameException> {
+                reflection.elements("test.Other")
+            }.message.orEmpty(),
+            "does not define test.Other",
+        )
     }
 
     @Tag("slow")

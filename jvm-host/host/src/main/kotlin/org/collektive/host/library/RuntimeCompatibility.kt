@@ -46,8 +46,10 @@ internal class RuntimeCompatibility(private val library: AggregateLibrary) {
             for (name in ClassReferences.of(bytes)) {
                 if (PREFIXES.none(name::startsWith) || !known.add(name) || "$name.class" in own || library.contains(name)) continue
                 val isBuiltIn = name.startsWith(ALIGNMENT)
-                val reason = if (isBuiltIn) "it was compiled for the built-in runtime" else "one of its jars is missing or of another version"
-                throw incompatible("the jar ${jar.path} references ${name.replace('/', '.')}, which is missing in the $library: $reason")
+                val other = "one of its jars is missing or of another version"
+                val reason = if (isBuiltIn) "it was compiled for the built-in runtime" else other
+                val missing = name.replace('/', '.')
+                throw incompatible("the jar ${jar.path} references $missing, which is missing in the $library: $reason")
             }
         }
     }
@@ -55,8 +57,10 @@ internal class RuntimeCompatibility(private val library: AggregateLibrary) {
     private fun targetOf(jar: ProgramJar): String? =
         jar.entries[JarFile.MANIFEST_NAME]?.let { Manifest(ByteArrayInputStream(it)).mainAttributes.getValue(ATTRIBUTE) }
 
-    private fun incompatible(what: String) =
-        HostException(HostError.PROGRAM, "$what. Rebuild the programs for the session's runtime, or run the session on the runtime that they were compiled for")
+    private fun incompatible(what: String) = HostException(
+        HostError.PROGRAM,
+        "$what. Rebuild the programs for the session's runtime, or run the session on the runtime that they were compiled for",
+    )
 
     private companion object {
         val ATTRIBUTE = Attributes.Name("Collektive-Runtime")

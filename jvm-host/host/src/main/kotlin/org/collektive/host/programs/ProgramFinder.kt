@@ -39,7 +39,10 @@ internal class ProgramFinder(
                     val place = "${method.declaringClass.name}.${method.name} in ${jar.path}"
                     val other = places.put(info.name, place)
                     if (other != null) {
-                        throw HostException(HostError.PROGRAM, "two programs are named '${info.name}': $other and $place; rename one of them")
+                        throw HostException(
+                            HostError.PROGRAM,
+                            "two programs are named '${info.name}': $other and $place; rename one of them",
+                        )
                     }
                     programs[info.name] =
                         LoadedProgram(info, function(method, place), "${method.declaringClass.name}.${method.name}", loader)

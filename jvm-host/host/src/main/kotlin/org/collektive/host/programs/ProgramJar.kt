@@ -44,7 +44,10 @@ public class ProgramJar private constructor(public val path: String, internal va
                     val bytes = zip.readNBytes(left + 1)
                     left -= bytes.size
                     if (left < 0) {
-                        throw HostException(HostError.PROGRAM, "the jar ${jar.path} contains more than 256 MiB: divide it into several jars")
+                        throw HostException(
+                            HostError.PROGRAM,
+                            "the jar ${jar.path} contains more than 256 MiB: divide it into several jars",
+                        )
                     }
                     if (!entry.isDirectory) entries[entry.name] = bytes
                 }

@@ -17,7 +17,11 @@ internal class Programs(private val byName: Map<String, LoadedProgram>, default:
         val selected = if (program.isNotEmpty()) {
             find(program) { "node $id" }
         } else {
-            default ?: throw HostException(HostError.PROGRAM, "node $id has no program, and the session has no default program; set one of them")
+            default
+                ?: throw HostException(
+                    HostError.PROGRAM,
+                    "node $id has no program, and the session has no default program; set one of them",
+                )
         }
         return NewNode(id, selected, selected.parameters(id, parameters))
     }

@@ -157,11 +157,17 @@ internal class Record private constructor(private val path: Path, private val ch
          */
         fun open(path: Path): Record {
             // Opening a pipe would block.
-            if (Files.exists(path) && !Files.isRegularFile(path)) throw RecordRefused("$path is not a regular file: enter the path of a record")
+            if (Files.exists(path) &&
+                !Files.isRegularFile(path)
+            ) {
+                throw RecordRefused("$path is not a regular file: enter the path of a record")
+            }
             val channel = try {
                 FileChannel.open(path, READ)
             } catch (_: NoSuchFileException) {
-                throw RecordRefused("the record $path does not exist; correct the path, or create a record with the scenario's outputs.record")
+                throw RecordRefused(
+                    "the record $path does not exist; correct the path, or create a record with the scenario's outputs.record",
+                )
             } catch (e: IOException) {
                 throw RecordRefused("cannot read the record $path: $e")
             }

@@ -55,7 +55,9 @@ internal class RecordedTypes(private val reflection: ReflectionReader, namespace
         fun of(schema: String, jars: List<JarBytes>): RecordedTypes {
             val entry = ReflectionReader.entry(schema)
             val binary = jars.firstNotNullOfOrNull { it.entry(entry) }
-                ?: throw RecordRefused("none of ${jars.map(JarBytes::path)} contains $entry: generate the code of the schema again and rebuild the jar")
+                ?: throw RecordRefused(
+                    "none of ${jars.map(JarBytes::path)} contains $entry: generate the code of the schema again and rebuild the jar",
+                )
             return try {
                 RecordedTypes(ReflectionReader(binary), schema.substringBeforeLast('.'))
             } catch (e: MalformedFrameException) {

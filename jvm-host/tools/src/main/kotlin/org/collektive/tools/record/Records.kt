@@ -71,7 +71,11 @@ private fun replay(arguments: List<String>, report: Report): Int {
     Record.open(path(file)).use { record ->
         report.line(describe(record))
         for (jar in jars) report.line("programs of ${jar.path}, SHA-256 ${sha256(jar)}")
-        if (jars.isEmpty() && !isTrusted) KnownPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
+        if (jars.isEmpty() &&
+            !isTrusted
+        ) {
+            KnownPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
+        }
         val request = record.settings.unpack()
         last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
         val runtimeJars = last["--runtime-jars"]

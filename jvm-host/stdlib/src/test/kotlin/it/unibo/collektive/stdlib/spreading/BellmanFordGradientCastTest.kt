@@ -72,7 +72,9 @@ class BellmanFordGradientCastTest {
     fun `a sum that is less than one of its parts is an error`() {
         val swarm = Swarm(2).line(1.0)
         val error = assertFailsWith<IllegalStateException> {
-            swarm.rounds(2) { bellmanFordGradientCast(localId == 0, 0, accumulateDistance = { a, b -> a - b }, metric = with(swarm) { lengths() }) }
+            swarm.rounds(2) {
+                bellmanFordGradientCast(localId == 0, 0, accumulateDistance = { a, b -> a - b }, metric = with(swarm) { lengths() })
+            }
         }
         assertTrue("triangle inequality" in error.message.orEmpty(), error.message)
     }
