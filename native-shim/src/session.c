@@ -142,7 +142,7 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
         slots_unpin(request);
         return CLK_HANDLE;
     }
-    int64_t left_ms = (deadline - prim_now()) / PRIM_MILLI;
+    int64_t left_ms = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
     *call = (struct host_call){.entry = entry,
                                .session = session_handle(session),
                                .request = request,

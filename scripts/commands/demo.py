@@ -3,7 +3,7 @@ manifest.json, metrics.csv, replay.html (open it in a browser) and three picture
 import argparse
 
 from build.places import ROOT
-from commands import run as run_command
+from commands.run import run_scenario
 
 SCENARIO = ROOT / "unity/Samples~/GradientAscent/scenario.json"
 
@@ -24,6 +24,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     values = [] if arguments.nodes is None else [f"nodes={arguments.nodes}"]
-    return run_command.run(argparse.Namespace(
-        scenario=str(SCENARIO), out=arguments.out or f"out/demo-seed{arguments.seed}", overwrite=arguments.overwrite or not arguments.out,
-        seed=arguments.seed, seconds=arguments.seconds, values=values, recording=None, keep_going=False, trust_jvm=False, folder=None))
+    return run_scenario(str(SCENARIO), out=arguments.out or f"out/demo-seed{arguments.seed}", overwrite=arguments.overwrite or not arguments.out,
+                        seed=arguments.seed, seconds=arguments.seconds, values=values)

@@ -22,8 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     recording = Path(out, "profile.jfr")
     before = _modified(recording)
     # A run whose rounds failed has a recording, too: the one that is needed most.
-    code = run_command.run(argparse.Namespace(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out,
-                                                 "recording": str(recording), "folder": None}))
+    code = run_command.run_scenario(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out, "recording": str(recording)})
     # A run that could not begin leaves an earlier recording.
     if _modified(recording) not in (0, before):
         processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from build.console import Failure
-from commands import run as run_command
+from commands.run import run_scenario
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,5 +24,4 @@ def run(arguments: argparse.Namespace) -> int:
     if b'"folder":' not in manifest.read_bytes():
         raise Failure(f"repeat: '{manifest}' is not the manifest of a run: ./collektive run runs scenario files")
     out = arguments.out or f"{manifest.parent.resolve()}-repeated"
-    return run_command.run(argparse.Namespace(**{**vars(arguments), "scenario": str(manifest), "out": out, "seed": None, "seconds": None, "values": [],
-                                                 "recording": None, "keep_going": False}))
+    return run_scenario(str(manifest), out=out, overwrite=arguments.overwrite, folder=arguments.folder, trust_jvm=arguments.trust_jvm)

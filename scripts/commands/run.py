@@ -21,6 +21,8 @@ REPLAY_PAGE = BUILD / "replay.html"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", metavar="SCENARIO.json")
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME-seedK below the current folder)")
+    parser.add_argument("--debug", metavar="PORT", nargs="?", const="5005", help="begin when a debugger has attached to the JVM on this port of "
+                        "127.0.0.1 (default: 5005); ticks have no time limit")
     parser.add_argument("--recording", metavar="FILE.jfr", help="make a flight recording of the JVM")
     parser.add_argument("--folder", metavar="DIR", help=argparse.SUPPRESS)
     add_run_arguments(parser)
@@ -37,6 +39,13 @@ def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--keep-going", action="store_true", help="continue after a tick of which every round failed")
     parser.add_argument("--trust-jvm", action="store_true",
                         help="allow JVM settings that write files, open ports or load code: Documentation~/trust.md")
+
+
+def run_scenario(scenario: str, **options: object) -> int:
+    """Runs a scenario with these options, the others at their defaults."""
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    return run(parser.parse_args([scenario], argparse.Namespace(**options)))
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -60,6 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
     projects.own_program(jar)
     if arguments.recording is not None:
         words += ["--recording", arguments.recording]
+    if arguments.debug is not None:
+        words += ["--debug", arguments.debug]
     if arguments.keep_going:
         words.append("--keep-going")
     has_pictures = plan["pictures"] == "yes"

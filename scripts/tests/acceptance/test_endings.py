@@ -1,11 +1,12 @@
 """However a run ends, exit code 0 means that the ticks asked for were done."""
 import csv
 import os
+import socket
 import subprocess
 import time
 
 import replay
-from command import Project, collektive, last_error, processes
+from command import Project, collektive, jdk, last_error, processes
 
 from build.places import COLLEKTIVE
 
@@ -144,6 +145,24 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("the player ended with code 1 before its run did. Usual causes: endless recursion in a script,", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "running")
+
+    def test_a_debugger_may_stop_a_run_for_longer_than_the_limit_of_a_tick(self) -> None:
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = str(free.getsockname()[1])
+        run = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--debug", port, "--set", "stepLimitMs=100"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while "waiting for a debugger on 127.0.0.1:" + port not in run.stderr.readline():
+            self.assertIsNone(run.poll())
+        debugger = subprocess.Popen([jdk() + "/bin/jdb", "-attach", "127.0.0.1:" + port], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        debugger.stdin.write("stop in lamps.BrightestKt.brightest\n")
+        debugger.stdin.flush()
+        while "Breakpoint hit" not in debugger.stdout.readline():
+            self.assertIsNone(debugger.poll())
+        time.sleep(1)
+        debugger.communicate("print sensors.brightness()\nclear lamps.BrightestKt.brightest\ncont\nquit\n")
+        self.assertEqual(run.wait(60), 0, run.stderr.read())
+        self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
 
     def test_threads_and_processes_of_a_script_do_not_outlive_the_run(self) -> None:
         began = time.monotonic()

@@ -12,7 +12,7 @@ namespace Collektive.Headless
             "Player plan SCENARIO [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
-            "           [--inputs JSON] [--keep-going] [--trust-jvm]\n" +
+            "           [--inputs JSON] [--keep-going] [--trust-jvm] [--debug PORT]\n" +
             "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--inputs JSON] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
@@ -46,6 +46,9 @@ namespace Collektive.Headless
 
         /// <summary>File of a flight recording of the whole run; null for none.</summary>
         internal string Recording { get; private set; }
+
+        /// <summary>Port on which the run waits for a debugger; 0 for none.</summary>
+        internal int DebugPort { get; private set; }
 
         internal ulong? Seed { get; private set; }
 
@@ -108,6 +111,13 @@ namespace Collektive.Headless
                 case "--template": Template = value; break;
                 case "--recording": Recording = value; break;
                 case "--set": AddAssignment(Assignment.Parse(value, out var field), field); break;
+                case "--debug":
+                    if (!int.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out var port) || port < 1024 || port > 65535)
+                    {
+                        throw new ScenarioException("--debug " + value + ": it must be a port from 1024 to 65535");
+                    }
+                    DebugPort = port;
+                    break;
                 case "--seed":
                     if (!ulong.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out var seed))
                     {

@@ -66,6 +66,7 @@ namespace Collektive.Headless
             manifest.Write();
             try
             {
+                if (options.DebugPort != 0) DebuggedRun.AwaitDebugger(scenario.Jvm, manager.Settings, options.DebugPort, interrupt);
                 using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording)) return Play(manager, scene);
             }
             catch (ThreadAbortException) when (limit?.IsExceeded == true)

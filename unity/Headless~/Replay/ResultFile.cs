@@ -26,7 +26,7 @@ namespace Collektive.Headless
             {
                 using (var writer = Create(part)) write(writer);
                 Sync(part);
-                if (Stdlib.rename(part, path) != 0) throw Failure(path);
+                if (Syscall.renameat(Syscall.AT_FDCWD, part, Syscall.AT_FDCWD, path) != 0) throw Failure(path);
                 Sync(Path.GetDirectoryName(Path.GetFullPath(path)));
             }
             catch

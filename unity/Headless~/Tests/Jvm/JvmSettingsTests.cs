@@ -80,6 +80,13 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void A_JVM_with_an_agent_has_no_class_archive()
+        {
+            foreach (var settings in new[] { new JvmSettings { debugPort = 5005 }, new JvmSettings { flags = { "-agentpath:/agent.so" } } })
+                Assert.That(settings.ToLaunch(TestJvm.Home, TestJvm.HostJar, "/nowhere").Options, Has.None.Contains("SharedArchive"));
+        }
+
+        [Test]
         public void Class_archives_that_no_JVM_would_replace_are_removed()
         {
             if (JvmSettings.JavaVersion(TestJvm.Home) < 19) return;

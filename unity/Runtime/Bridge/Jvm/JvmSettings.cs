@@ -132,7 +132,7 @@ namespace Collektive.Bridge
             if (compiler == JvmCompiler.Interpreter) options.Add("-Xint");
             if (compileThreshold != 100) options.Add("-XX:CompileThresholdScaling=" + (compileThreshold / 100.0).ToString(CultureInfo.InvariantCulture));
             if (codeCacheMb > 0) options.Add("-XX:ReservedCodeCacheSize=" + Text(codeCacheMb) + "m");
-            if (cdsArchive && JavaVersion(javaHome) >= FirstWithAutomaticArchive) note = AddArchive(options, javaHome, hostJar, cacheFolder);
+            if (cdsArchive && !HasAgent && JavaVersion(javaHome) >= FirstWithAutomaticArchive) note = AddArchive(options, javaHome, hostJar, cacheFolder);
             if (assertions) options.Add("-ea");
             if (debugPort != 0) options.Add("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:" + Text(debugPort));
             if (repeatableMaths)
@@ -143,6 +143,10 @@ namespace Collektive.Bridge
             options.AddRange(flags);
             return new JvmLaunch(javaHome, hostJar, options) { Note = note };
         }
+
+        /// <summary>Whether the JVM loads a native agent, such as the debugger's. It aborts if it must also write a class archive.</summary>
+        private bool HasAgent =>
+            debugPort != 0 || flags.Exists(flag => flag.StartsWith("-agent", StringComparison.Ordinal) || flag.StartsWith("-Xrun", StringComparison.Ordinal));
 
         /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 if its <c>release</c> file names none.</summary>
         internal static int JavaVersion(string javaHome)

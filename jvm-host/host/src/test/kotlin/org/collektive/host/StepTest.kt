@@ -271,7 +271,7 @@ class StepTest {
             sensors = listOf(Step.Sensor(0), Step.Sensor(0, "loop"))
         }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(endless.bytes(), limitMillis = 300))
-        assertContains(shim.error, "tick 2: rounds did not finish within the time limit")
+        assertContains(shim.error, "tick 2: rounds did not finish within the time limit of 300 ms (stepLimitMs)")
         assertTrue(shim.logs.any { "in the round of node 2" in it.second })
         assertTrue(shim.logs.any { "probe.Programs.probe(Programs.java:" in it.second })
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(2).bytes()))

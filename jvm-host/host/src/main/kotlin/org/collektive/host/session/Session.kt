@@ -21,6 +21,7 @@ import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
 import java.io.IOException
 import java.nio.ByteBuffer
+import java.util.concurrent.TimeUnit
 
 /**
  * One simulation: reads its frames, runs them on its engine and writes the answers. Not thread-safe.
@@ -76,21 +77,25 @@ public class Session internal constructor(
         events.begin(begin)
         engine.wake()
         val tick = reading { requests.read(frame) }
-        val result = runRounds(tick, deadline)
+        val result = runRounds(tick, begin, deadline)
         data.accept(tick)
         val place = write(result, tick.due, slot, answer, begin)
         events.end(result, frame.remaining(), place.toInt())
         return place
     }
 
-    private fun runRounds(tick: Tick, deadline: Long): TickResult = try {
+    private fun runRounds(tick: Tick, begin: Long, deadline: Long): TickResult = try {
         engine.step(tick, data, deadline)
     } catch (e: TickRefused) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
     } catch (e: RoundsNotFinished) {
         shim.log(LogLevel.ERROR, "${e.message}; stack traces of its threads:")
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
-        throw fail(e) { "${e.message}; the log shows what each thread was doing. Fix the program, then start the simulation again" }
+        throw fail(e) {
+            val limit = TimeUnit.NANOSECONDS.toMillis(deadline - begin)
+            "${e.message} of $limit ms (stepLimitMs); the log shows what each thread was doing. Fix the program or raise the limit, " +
+                "then start the simulation again"
+        }
     } catch (e: Throwable) {
         throw fail(e) { "tick ${tick.number} failed with an internal error: $e" }
     }
