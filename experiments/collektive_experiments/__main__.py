@@ -67,9 +67,8 @@ def _sweep(options: argparse.Namespace) -> int:
     if options.slurm and todo:
         print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
         return 0
-    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
-    print(os.path.join(out, "runs.parquet"))
-    print(os.path.join(out, "series.parquet"))
+    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv, options.keep_going)
+    print("\n".join(path for name in ("runs", "series", "nodes") if os.path.exists(path := os.path.join(out, f"{name}.parquet"))))
     return code
 
 

@@ -26,6 +26,9 @@ REPEATED_SHARE = 0.02
 LEAST_REPEATED = 3
 """A share of the runs, and at least so many, is repeated in processes of their own: results must not depend on earlier runs."""
 
+MOST_EQUAL_FAILURES = 5
+"""After so many first runs that failed with one message, the others would fail, too."""
+
 Task = tuple[Run, bool]
 """A run, and whether it is repeated."""
 Ended = tuple[Run, Outcome]
@@ -111,9 +114,9 @@ def _spread(count: int) -> Iterable[int]:
     return ((index + 1) * count // size - 1 for index in range(size))
 
 
-def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool) -> int:
-    """Runs what is not done yet. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
-    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
+def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool, keep_going: bool = False) -> int:
+    """Runs what is not done yet. If the first runs all fail in the same way, the others run only with `keep_going`. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
+    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MOST_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
@@ -133,17 +136,19 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
             outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
             seconds.append(time.monotonic() - began)
             if outcome.status != "complete":
-                print(f"collektive: {run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
+                worker.stop()
+                raise ExperimentError(f"the trial of '{run.name}' is not complete ({outcome.status}: {outcome.message}), so the time is not known")
         worker.stop()
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 
-def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int) -> int:
+def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int, most_equal: float) -> int:
     ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
     progress = Progress(experiment.count, done, jobs)
     interrupted: list[int] = []
     handlers = {number: signal.signal(number, lambda number, frame: interrupted.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
     failed = 0
+    messages: set[str] = set()
     try:
         pool.start(todo, ended)
         left = len(todo)
@@ -159,9 +164,13 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
             run, outcome = event
             if outcome.status != "complete":
                 failed += 1
+                messages.add(outcome.message)
                 progress.say(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
+            if failed >= most_equal and progress.done == 0 and len(messages) == 1:
+                raise ExperimentError(f"the sweep stops: its first {failed} runs all failed in the same way; correct the cause and continue with "
+                                      "--resume, or run all with --keep-going")
             if outcome.status == "differs":
                 raise ExperimentError(f"the sweep stops: runs of '{run.name}' gave different results; the program or the scene reads something other than its "
                                       "inputs, such as a clock, a file or a random number without the scenario's seed")

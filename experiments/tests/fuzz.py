@@ -225,7 +225,7 @@ def try_case(case: Case, folder: Path) -> None:
     """Sweeps, damages, resumes and plots an experiment."""
     chance, path, out = case.chance, folder / "experiment.json", folder / "out"
     fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
-    words = ["sweep", str(path), "--out", str(out), "--jobs", "2", *(["--csv"] if chance.random() < 0.3 else [])]
+    words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going", *(["--csv"] if chance.random() < 0.3 else [])]
 
     def sweep(*more: str) -> str:
         path.write_text(case.text(), encoding="utf-8")
@@ -330,11 +330,11 @@ def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
     path, out = folder / "experiment.json", folder / "out"
     path.write_text(case.text(), encoding="utf-8")
     with Fault(case.chance.randint(1, 200) if at is None else at) as fault:
-        code, errors = run_command("sweep", str(path), "--out", str(out), "--jobs", "2")
+        code, errors = run_command("sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going")
     require("Traceback" not in errors and (code == 1 or fault.count < fault.at), f"exit code {code} with call {fault.at} of {fault.count} failing: {errors}")
     check_folders(out)
     fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
-    code, errors = run_command("sweep", str(path), "--out", str(out), "--resume")
+    code, errors = run_command("sweep", str(path), "--out", str(out), "--resume", "--keep-going")
     require(code == int(fails), f"exit code {code} after call {fault.at} failed: {errors}")
     check_folders(out)
     check(case, out)

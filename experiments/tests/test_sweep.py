@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -134,6 +135,23 @@ def test_a_dry_run_tells_how_many_runs_there_are(project: Project) -> None:
     assert result.returncode == 0, result.stderr
     assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
     assert not (project.folder / "out").exists()
+
+
+def test_a_dry_run_whose_trial_fails_estimates_nothing(project: Project) -> None:
+    result = project.sweep("--dry-run", vary={"fields.lamps": [0, 1]})
+    assert result.returncode == 1
+    assert "not complete (failed: there was no node in any tick" in result.stderr
+    assert "runs into" not in result.stdout
+
+
+def test_first_runs_that_all_fail_in_the_same_way_end_the_sweep_unless_it_keeps_going(project: Project) -> None:
+    keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
+    result = project.sweep(**keys)
+    assert result.returncode == 1
+    assert "the sweep stops: its first 5 runs all failed in the same way" in result.stderr
+    result = project.sweep("--resume", "--keep-going", **keys)
+    assert result.returncode == 1
+    assert list(project.table()["status"]) == ["failed"] * 8
 
 
 def test_a_run_that_fails_crashes_or_hangs_is_told_and_the_others_are_done(project: Project) -> None:

@@ -25,7 +25,7 @@ class WholeRuns(Project):
 
     def run_it(self, *arguments, **environment):
         return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", *arguments],
-                              capture_output=True, text=True, env={**os.environ, **environment})
+                              capture_output=True, text=True, env={**os.environ, **environment}, cwd=self.folder)
 
     def at_tick_4(self, code):
         self.change("scene/Lamps.cs", "\n        protected override void Build(", self.SCRIPT % code)

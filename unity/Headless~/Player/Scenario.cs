@@ -211,13 +211,13 @@ namespace Collektive.Headless
 
         private double ReadInterval(JsonFile file, JObject part, string place)
         {
-            var interval = file.Optional(part, "interval", System.Math.Max(1.0, Settings.deltaTime));
-            // Of a delta time of 0.1f, 0.1 is a little less. What is wrong with the delta time itself is told with the settings.
-            if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
+            var interval = file.Optional(part, "interval", System.Math.Max(1.0, SimulatedSeconds.Exact(Settings.deltaTime)));
+            // An invalid delta time is reported with the settings.
+            if (interval >= SimulatedSeconds.Exact(Settings.deltaTime) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
                 "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds " + (interval > MaxTicks
-                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(Settings.deltaTime)));
+                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -255,7 +255,7 @@ namespace Collektive.Headless
         private void Count(System.Func<string, ScenarioException> error)
         {
             // An invalid delta time is refused together with the other settings.
-            var deltaTime = RowSchedule.Exact(Settings.deltaTime);
+            var deltaTime = SimulatedSeconds.Exact(Settings.deltaTime);
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
             if (ticks > MaxTicks)

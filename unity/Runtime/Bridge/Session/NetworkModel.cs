@@ -27,6 +27,15 @@ namespace Collektive.Bridge
         /// <summary>Seconds for which a link holds a message that arrived; 0: until a later one replaces it.</summary>
         public double retention;
 
+        /// <summary>Share of a link's messages that are sent in its bad state (Gilbert-Elliott), 0 or greater and less than 1; 0: no bursts.</summary>
+        public double burstShare;
+
+        /// <summary>Mean number of successive messages in the bad state, at least 1 and at least share / (1 - share).</summary>
+        public double burstLength = 1;
+
+        /// <summary>Probability that a message is lost in the bad state, 0..1.</summary>
+        public double burstLoss = 1;
+
         /// <summary>The first thing that is wrong; null when all is right.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(double deltaTime)
@@ -36,6 +45,11 @@ namespace Collektive.Bridge
             if (!IsAmount(lossPerAttenuation)) return "network loss per attenuation is " + lossPerAttenuation + ": it must be 0 or greater";
             if (!IsAmount(delay)) return "network delay is " + delay + " s: it must be 0 or greater";
             if (!IsAmount(jitter)) return "network jitter is " + jitter + " s: it must be 0 or greater";
+            if (!(burstShare >= 0 && burstShare < 1)) return "network burst share is " + burstShare + ": it must be at least 0 and less than 1";
+            var shortest = Math.Max(1, burstShare / (1 - burstShare));
+            if (!(burstLength >= shortest) || double.IsInfinity(burstLength))
+                return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
+            if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be in 0..1";
             if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
             return "network retention is " + retention + " s: it must be 0 (until a later message comes) or at least the delta time, " + deltaTime +
                 " s, else messages end before anyone reads them";

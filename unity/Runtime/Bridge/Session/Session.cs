@@ -14,6 +14,9 @@ namespace Collektive.Bridge
         private const int FirstCapacity = 64 * 1024;
         private const int ForgottenLimitMs = 1000;
 
+        /// <summary>Simulated times are multiples of a nanosecond.</summary>
+        private const int TimeDecimals = 9;
+
         private readonly SlotAllocator slot;
         private readonly FlatBufferBuilder builder;
         private readonly AnswerMemory answerMemory = new AnswerMemory();
@@ -79,7 +82,8 @@ namespace Collektive.Bridge
             Answer.Actuators.Retain();
             Shim.Check(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer));
             Tick++;
-            Time += deltaTime;
+            // Without the rounding errors of the sum.
+            Time = Math.Round(Time + deltaTime, TimeDecimals);
             Request.Clear();
             Point(answer);
             Answer.Read(answerBuffer);

@@ -59,7 +59,8 @@ namespace Collektive.Bridge
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
                 builder.CreateString(Program ?? ""),
                 Frame.Network.CreateNetwork(
-                    builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention),
+                    builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention,
+                    Network.burstShare, Network.burstLength, Network.burstLoss),
                 builder.CreateString(Record ?? ""),
                 (Frame.AggregateRuntime)Runtime, builder.CreateString(RuntimeJars ?? "")).Value);
         }

@@ -146,7 +146,7 @@ namespace Collektive.Unity
                 return "runtime is Collektive, and runtime jars is empty: name the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: add it to the settings, or remove the jar";
             var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
-            return problem ?? network.FindProblem(deltaTime);
+            return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
     }
 }

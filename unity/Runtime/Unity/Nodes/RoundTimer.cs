@@ -18,9 +18,9 @@ namespace Collektive.Unity
         internal RoundTimer(RoundTiming timing, RandomStream random, double start)
         {
             this.random = random;
-            period = timing.period;
-            jitter = timing.jitter;
-            origin = start + (timing.phase < 0 ? period * random.NextDouble() : timing.phase);
+            period = SimulatedSeconds.Exact(timing.period);
+            jitter = SimulatedSeconds.Exact(timing.jitter);
+            origin = start + (timing.phase < 0 ? period * random.NextDouble() : SimulatedSeconds.Exact(timing.phase));
             next = Next();
         }
 

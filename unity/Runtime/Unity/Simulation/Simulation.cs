@@ -27,6 +27,7 @@ namespace Collektive.Unity
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
         private bool isTicking;
+        private bool hasWarnedMovedCollider;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
         /// <param name="globals">What is written there goes out with the next tick.</param>
@@ -140,6 +141,15 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
+        /// <summary>Warns of the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
+        internal void WarnMovedCollider(Component part)
+        {
+            if (hasWarnedMovedCollider) return;
+            hasWarnedMovedCollider = true;
+            Debug.LogWarning(part.GetType().Name + " moves '" + part.name + "', a collider without a Rigidbody, through walls and other nodes: "
+                + "add a Rigidbody, or make the collider a trigger", part);
+        }
+
         /// <summary>Does one tick.</summary>
         /// <returns>Whether the tick was completed; otherwise the simulation has ended.</returns>
         internal bool TryTick()
@@ -243,7 +253,7 @@ namespace Collektive.Unity
             }
             if (!IsOpen) return;
             var sensed = Stopwatch.GetTimestamp();
-            using (TickMarkers.Step.Auto()) session.Step(Settings.deltaTime, Settings.stepLimitMs);
+            using (TickMarkers.Step.Auto()) session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             var stepped = Stopwatch.GetTimestamp();
             using (TickMarkers.Act.Auto())
             {

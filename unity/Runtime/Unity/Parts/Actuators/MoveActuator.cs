@@ -21,6 +21,7 @@ namespace Collektive.Unity
         private float reachTime = 0.5f;
 
         private Rigidbody body;
+        private bool isChecked;
 
         /// <summary>Metres per second, 0 or greater.</summary>
         public float MaxSpeed
@@ -57,6 +58,11 @@ namespace Collektive.Unity
 
         private void Go(Vector3 target)
         {
+            if (!isChecked)
+            {
+                isChecked = true;
+                if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) Node.Simulation.WarnMovedCollider(this);
+            }
             var place = Node.Body.position;
             Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);
         }

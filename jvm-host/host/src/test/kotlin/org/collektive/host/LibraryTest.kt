@@ -68,12 +68,12 @@ class LibraryTest {
     @Test
     fun `a jar that references a class that is missing in the library is refused`() {
         val other = patched("it/unibo/collektive/aggregate/FieldEntry", "it/unibo/collektive/aggregate/FieldOther")
-        refused(other, AggregateRuntime.BuiltIn, "links to it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
+        refused(other, AggregateRuntime.BuiltIn, "references it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
         val plugin = patched("it/unibo/collektive/aggregate/FieldEntry", "org/collektive/alignment/ProgramPlacesOf")
         refused(
             plugin,
             AggregateRuntime.Collektive,
-            "links to org.collektive.alignment.ProgramPlacesOf",
+            "references org.collektive.alignment.ProgramPlacesOf",
             "it was compiled for the built-in runtime",
         )
     }
@@ -85,7 +85,7 @@ class LibraryTest {
         val error = session.errors(session.ok(step(1))).values.first()
         session.close()
         assertContains(error, "NoSuchMethodError")
-        assertContains(error, "build the programs again with the jars that run them")
+        assertContains(error, "rebuild the programs with the jars that run them")
     }
 
     @Test
@@ -107,7 +107,7 @@ class LibraryTest {
 
     private fun refused(jar: String, runtime: Int, vararg parts: String) {
         assertEquals(HostError.PROGRAM.code.toLong(), TestSession(shim).open(listOf(jar), runtime = runtime), shim.error)
-        for (part in listOf(*parts, jar, "Build the programs again")) assertContains(shim.error, part)
+        for (part in listOf(*parts, jar, "Rebuild the programs")) assertContains(shim.error, part)
     }
 
     private fun step(number: Int) = Step(number.toLong()).apply {
