@@ -12,12 +12,6 @@ from command import Folder
 from build import inputs, projects
 from build.places import ROOT
 
-SCHEMA = """
-include "types.fbs";
-namespace swarm;
-table SensorData { intensity: float; source: bool; position: org.collektive.schema.Vector3; }
-struct ActuatorData { target: org.collektive.schema.Vector3; hops: float; distance: float; leader: int; }
-"""
 USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
 # What stands around members, and around statements.
 CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
@@ -61,6 +55,9 @@ def kotlin(number, place, code):
 
 
 class Fragments(Folder):
+    def test_a_page_has_the_schema_of_the_fragments(self) -> None:
+        self.assertEqual(len(fragments("fbs")), 1)
+
     def written(self, kind, made):
         """A folder with the fragments, one a file."""
         os.makedirs(self.path(kind))
@@ -70,7 +67,7 @@ class Fragments(Folder):
                 with open(self.path(kind, f"Fragment{number}.{'cs' if kind == 'csharp' else 'kt'}"), "w") as file:
                     file.write(made(number, place, code))
         with open(self.path("swarm.fbs"), "w") as file:
-            file.write(SCHEMA)
+            file.write(fragments("fbs")[0][1])
         return self.path(kind)
 
     def test_csharp_compiles(self) -> None:
