@@ -63,11 +63,12 @@ def _sweep(options: argparse.Namespace) -> int:
         if experiment.count > 5:
             print("  ...")
         return 0
-    store, todo = begin(experiment, out, options.resume, options.trust_jvm)
-    if options.slurm and todo:
-        print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
-        return 0
-    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
+    with Store(out) as store:
+        todo = begin(experiment, store, options.resume, options.trust_jvm)
+        if options.slurm and todo:
+            print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
+            return 0
+        code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
     print(os.path.join(out, "runs.parquet"))
     print(os.path.join(out, "series.parquet"))
     return code
