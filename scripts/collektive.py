@@ -86,6 +86,8 @@ def main(words: list[str]) -> int:
         return attended(lambda: guarded(arguments))
     except Failure as failure:
         return report(failure)
+    except OSError as error:
+        return report(Failure(f"cannot start a process: {error.strerror}"))
 
 
 def guarded(arguments: argparse.Namespace) -> int:

@@ -95,9 +95,8 @@ class LocalPool:
             worker.stop()
 
 
-def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[Store, list[Task]]:
+def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
     """Creates the folder with everything that runs need, checks the keys, and returns the runs that are not complete yet."""
-    store = Store(out)
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
     _check_keys(experiment, store, trust)
@@ -105,7 +104,7 @@ def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are done already", file=sys.stderr)
     repeated = set(_spread(len(todo)))
-    return store, [(run, index in repeated) for index, run in enumerate(todo)]
+    return [(run, index in repeated) for index, run in enumerate(todo)]
 
 
 def _spread(count: int) -> Iterable[int]:
@@ -127,18 +126,19 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
     """About how many seconds the sweep takes, from two runs of it: the first and the one in the middle, the latter twice in one process."""
     runs = list(experiment.runs())
-    with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
-        store, _ = begin(experiment, os.path.join(folder, "out"), False, trust)
+    with tempfile.TemporaryDirectory(prefix="collektive-") as folder, Store(os.path.join(folder, "out")) as store:
+        begin(experiment, store, False, trust)
         worker = Worker(store.bundle, os.path.join(store.logs, "trial.txt"), trust)
         seconds = []
-        for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
-            began = time.monotonic()
-            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
-            seconds.append(time.monotonic() - began)
-            if outcome.status != "complete":
-                worker.stop()
-                raise ExperimentError(f"the trial of '{run.name}' is not complete ({outcome.status}: {outcome.message}), so the time is not known")
-        worker.stop()
+        try:
+            for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
+                began = time.monotonic()
+                outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
+                seconds.append(time.monotonic() - began)
+                if outcome.status != "complete":
+                    raise ExperimentError(f"the trial of '{run.name}' is not complete ({outcome.status}: {outcome.message}), so the time is not known")
+        finally:
+            worker.stop()
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 

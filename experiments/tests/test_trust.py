@@ -41,6 +41,14 @@ def change_program(project: Project, statement: str) -> None:
      'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
+    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
+     'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
+    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
+     'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),
+    ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
+    ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
+    ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
+    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; Time.timeScale = 1; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
 ])
 def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:

@@ -2,10 +2,11 @@
 """Disturbs runs of a small scenario in every way that a machine or a user can, and checks what is left of them. Prints a table of what was tried and
 what came out, then "N passed, N failed".
 
-chaos.py KILLS DISKS SIGNALS OTHERS [--seed N] [--results FILE.xml]: so many trials of each kind; OTHERS of a jumping clock and of little memory.
+chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]: so many trials of each kind; OTHERS of a jumping clock and of little
+memory. In each of FAULTS, one call to the system fails in a run that replaces earlier results.
 
 After each trial must hold: exit code 0 only with all ticks; a folder whose manifest says "complete" is; no process is left; earlier results in
-another folder are as they were; and the next run, at the end, works.
+another folder are as they were; replaced results are there until the new run began; and the next run, at the end, works.
 """
 import argparse
 import collections
@@ -26,7 +27,7 @@ from typing import Any
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
-from build.places import COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
+from build.places import BUILD, COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
 from tests import junit  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
@@ -48,12 +49,14 @@ class Outcome:
 class Trial:
     """One disturbed run, in a folder of its own."""
 
-    def __init__(self, kind: str, number: int, seed: int, reference: dict[str, Any], took: float) -> None:
-        self.kind, self.reference, self.took = kind, reference, took
+    def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], took: float) -> None:
+        self.kind, self.number, self.count, self.reference, self.took = kind, number, count, reference, took
         self.mark = f"{os.getpid()}-{kind}-{number}"
         self.random = random.Random(f"{seed} {kind} {number}")
         self.folder = tempfile.mkdtemp(prefix="collektive-chaos-")
         self.detail = ""
+        self.is_edited = self.random.random() < 0.2
+        self.problems: list[str] = []
 
     def path(self, *parts: str) -> str:
         return os.path.join(self.folder, *parts)
@@ -62,14 +65,13 @@ class Trial:
         try:
             shutil.copytree(PROJECT, self.path("project"))
             write_scenario(self.path("project", "lamps.json"))
-            if self.random.random() < 0.2:
+            if self.is_edited:
                 # It must be compiled first, and is disturbed in that, too.
                 with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
                     file.write(f"// {self.mark}\n")
             shutil.copytree(self.reference["folder"], self.path("earlier"))
             code, output, out = getattr(self, self.kind)()
-            problems = self.wait_for_the_last()
-            problems += broken(out, code, self.reference)
+            problems = self.problems + self.wait_for_the_last() + broken(out, code, self.reference)
             if digest_of(self.path("earlier")) != self.reference["files"]:
                 problems.append("earlier results have changed")
             if problems:
@@ -78,8 +80,8 @@ class Trial:
         finally:
             shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start(self, prefix: tuple[str, ...] = (), out: str = "out", **environment: str) -> subprocess.Popen[str]:
-        command = [*prefix, str(COLLEKTIVE), "run", self.path("project", "lamps.json"), "--out", self.path(out)]
+    def start(self, prefix: tuple[str, ...] = (), out: str = "out", words: tuple[str, ...] = (), **environment: str) -> subprocess.Popen[str]:
+        command = [*prefix, str(COLLEKTIVE), "run", self.path("project", "lamps.json"), "--out", self.path(out), *words]
         return subprocess.Popen(command, cwd=self.folder, env={**os.environ, MARK: self.mark, **environment}, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
 
@@ -152,6 +154,24 @@ class Trial:
         kilobytes = self.random.choice([100, 300, 600, 1000, 1500, 2000, 3000, 5000]) * 1000
         self.detail = f"{kilobytes} KB of address space"
         return (*self.end(self.start(("bash", "-c", f'ulimit -v {kilobytes}; "$@"', "bash"))), self.path("out"))
+
+    def fault(self) -> tuple[int, str, str]:
+        """One write, rename, deletion, sync or start of a process fails in a run that replaces earlier results."""
+        at = self.random.randint(1, 1000) if self.is_edited else 1 + self.number * self.reference["calls"] // self.count
+        self.detail = f"call {at} fails"
+        shutil.copytree(self.reference["folder"], self.path("out"))
+        process = self.start(words=("--overwrite",), **failing(at, self.folder))
+        code, output = self.end(process)
+        if "Traceback" in output:
+            self.problems.append("a traceback")
+        kept = next((folder for folder in (self.path("out"), self.path("out", "earlier.part")) if os.path.exists(os.path.join(folder, "manifest.json"))), None)
+        if kept is None:
+            self.problems.append("the earlier results are lost")
+        elif content(os.path.join(kept, "manifest.json")) == content(os.path.join(self.reference["folder"], "manifest.json")):
+            found = {**digest_of(self.path("out")), **(digest_of(self.path("out", "earlier.part")) if os.path.isdir(self.path("out", "earlier.part")) else {})}
+            if not self.reference["files"].items() <= found.items():
+                self.problems.append("the earlier results are not whole")
+        return code, output, self.path("out")
 
     def wait_for_the_last(self) -> list[str]:
         end = time.monotonic() + GONE_S
@@ -256,8 +276,18 @@ def make_reference(work: str) -> tuple[dict[str, Any], float]:
         if result.returncode != 0:
             sys.exit(f"collektive: chaos: the undisturbed run failed:\n{result.stderr}")
     took = time.monotonic() - began
+    subprocess.run([COLLEKTIVE, "run", scenario, "--out", out, "--overwrite"], check=True, capture_output=True, env={**os.environ, **failing(0, work)})
+    calls = int.from_bytes(content(os.path.join(work, "calls")), sys.byteorder)
     digest = json.loads(content(os.path.join(out, "manifest.json")))["digest"]
-    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario}, took
+    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario, "calls": calls}, took
+
+
+def failing(at: int, folder: str) -> dict[str, str]:
+    """The environment of a command in which the call with that number fails."""
+    calls = os.path.join(folder, "calls")
+    with open(calls, "wb") as file:
+        file.write(bytes(8))
+    return {"LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_CALLS": calls, "FAILING_AT": str(at), "FAILING_BELOW": f"{folder}:{BUILD}"}
 
 
 def clock_library() -> str:
@@ -271,14 +301,14 @@ def can_mount() -> bool:
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    for kind in ("kills", "disks", "signals", "others"):
+    for kind in ("kills", "disks", "signals", "others", "faults"):
         parser.add_argument(kind, type=int)
     parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
     parser.add_argument("--results")
     given = parser.parse_args()
     # Jobs of scripts ignore SIGINT, and hand that down to the runs.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others}
+    counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others, "fault": given.faults}
     if not can_mount():
         print("disk: skipped, this system lets nobody mount")
         counts["disk"] = 0
@@ -290,7 +320,7 @@ def main() -> int:
         reference, took = make_reference(work)
         print(f"an undisturbed run takes {took:.1f} s; seed {given.seed}\n{'kind':8} {'trials':>6} {'wrong':>6}  ends", flush=True)
         for kind, count in counts.items():
-            trials = [Trial(kind, number, given.seed, reference, took) for number in range(count)]
+            trials = [Trial(kind, number, count, given.seed, reference, took) for number in range(count)]
             outcomes = list(pool.map(Trial.run, trials))
             ends = collections.Counter(outcome.end for outcome in outcomes)
             wrong = [outcome for outcome in outcomes if outcome.problems]

@@ -58,6 +58,7 @@ namespace Collektive.Headless
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>
         {
             "System.ThreadStaticAttribute", "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
+            "UnityEngine.GUIContent", "Collektive.Bridge.Jvm", "Collektive.Bridge.JvmRecording", "Collektive.Bridge.Session", "Collektive.Unity.Installation",
         };
 
         private static readonly HashSet<string> ForbiddenMembers = new HashSet<string>

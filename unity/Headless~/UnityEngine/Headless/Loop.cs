@@ -91,6 +91,9 @@ namespace UnityEngine.Headless
             Time.ResetState();
             Random.InitState(0);
             Debug.ResetState();
+            Material.ResetState();
+            Mesh.ResetState();
+            Object.ForgetCount();
             Application.ResetState();
             SceneManagement.SceneManager.ResetState();
             DrawLog.Clear();
