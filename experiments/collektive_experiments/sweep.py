@@ -114,7 +114,10 @@ def _spread(count: int) -> Iterable[int]:
 
 
 def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool, keep_going: bool = False) -> int:
-    """Runs what is not done yet. If the first runs all fail in the same way, the others run only with `keep_going`. Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C."""
+    """Runs what is not done yet. If the first runs all fail in the same way, the others run only with `keep_going`.
+
+    Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C.
+    """
     code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MOST_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:

@@ -48,7 +48,8 @@ def change_program(project: Project, statement: str) -> None:
     ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
     ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
     ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
-    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; Time.timeScale = 1; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
+    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; Time.timeScale = 1; '
+     'if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
 ])
 def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:

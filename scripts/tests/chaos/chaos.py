@@ -160,7 +160,7 @@ class Trial:
         at = self.random.randint(1, 1000) if self.is_edited else 1 + self.number * self.reference["calls"] // self.count
         self.detail = f"call {at} fails"
         shutil.copytree(self.reference["folder"], self.path("out"))
-        process = self.start(words=("--overwrite",), **failing(at, self.folder))
+        process = self.start((), "out", ("--overwrite",), **failing(at, self.folder))
         code, output = self.end(process)
         if "Traceback" in output:
             self.problems.append("a traceback")
