@@ -73,7 +73,8 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_collider_without_a_body_is_warned_of_once()
         {
             var warnings = 0;
-            Application.logMessageReceived += (text, stack, type) => warnings += type == LogType.Warning && text.Contains("collider without a Rigidbody") ? 1 : 0;
+            Application.logMessageReceived += (text, stack, type) =>
+                warnings += type == LogType.Warning && text.Contains("collider without a Rigidbody") ? 1 : 0;
             for (var i = 0; i < 2; i++)
             {
                 var node = MakeNode(500).Node;
