@@ -25,7 +25,13 @@ class Plan:
         return self.values.get(key, "")
 
     def programs_jar(self) -> Path:
-        """Returns the jar of the scenario's programs, compiled if they changed."""
+        """Returns the jar of the scenario's programs, compiled if they changed.
+
+        Raises `Failure` before the compilation if the sources lack the scenario's program.
+        """
+        known = projects.program_names(self.parts["programs"])
+        if known is not None and self["program"] not in known:
+            raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known)) or 'no program'}")
         return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
 
     def scripts_dll(self) -> Path:

@@ -37,6 +37,13 @@ class WholeRuns(Project):
         self.assertIn("without its class archive", result.stdout + result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
 
+    def test_an_unknown_program_is_refused_before_anything_is_compiled(self) -> None:
+        self.change("programs/Brightest.kt", "val mine", "val mine = ")
+        result = self.run_it("--set", "program=brigthest")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("unknown program 'brigthest'; '", last_error(result))
+        self.assertIn("contains brightest", last_error(result))
+
     def test_runs_that_cannot_be_are_refused(self) -> None:
         for old, new, words in [
             ('"seconds": 1', '"seconds": 3e8', ["seconds", "3E+09 ticks", "100 million"]),

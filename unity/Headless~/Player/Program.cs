@@ -79,6 +79,7 @@ namespace Collektive.Headless
             Console.WriteLine("scripts=" + scenario.Scripts);
             Console.WriteLine("schema=" + scenario.Schema);
             Console.WriteLine("programs=" + scenario.Programs);
+            Console.WriteLine("program=" + scenario.Settings.program);
             Console.WriteLine("runtimeJars=" + scenario.RuntimeJars);
             Console.WriteLine("runtimePlugin=" + scenario.RuntimePlugin);
             Console.WriteLine("seed=" + scenario.Settings.seed);
