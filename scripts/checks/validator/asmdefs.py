@@ -1,17 +1,23 @@
 """Assembly definitions: names, references, platforms, and that every C# file of the package belongs to one."""
 import json
 import os
+from collections.abc import Iterator
+from typing import Any
+
+from validator.assets import Assets
 
 # Assemblies and plugins that Unity's own packages bring.
 UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 UNITY_PLUGINS = {"nunit.framework.dll"}
 # What the build puts into the package.
 BUILT_PLUGINS = {"Collektive.FlatBuffers.dll"}
+# Path and content by assembly.
+Definitions = dict[str, tuple[str, dict[str, Any]]]
 PLATFORMS = {"Editor", "LinuxStandalone64", "macOSStandalone", "WindowsStandalone64"}
 
 
-def problems(assets):
-    definitions = {}
+def problems(assets: Assets) -> Iterator[str]:
+    definitions: Definitions = {}
     for path in assets.with_ending(".asmdef"):
         try:
             definition = json.loads(assets.read(path))
@@ -24,13 +30,13 @@ def problems(assets):
         if name in definitions:
             yield f"{path}: the name '{name}' is also that of {definitions[name][0]}"
         definitions[name] = (path, definition)
-    for name, (path, definition) in sorted(definitions.items()):
-        yield from of_one(name, path, definition, definitions)
+    for _, (path, definition) in sorted(definitions.items()):
+        yield from of_one(path, definition, definitions)
     yield from cycles(definitions)
     yield from unassigned(assets, definitions)
 
 
-def of_one(name, path, definition, definitions):
+def of_one(path: str, definition: dict[str, Any], definitions: Definitions) -> Iterator[str]:
     for reference in definition.get("references", []):
         if reference not in definitions and reference not in UNITY_ASSEMBLIES:
             yield f"{path}: refers to the assembly '{reference}', which is not in the package"
@@ -54,9 +60,10 @@ def of_one(name, path, definition, definitions):
         yield f"{path}: tests refer to nunit.framework.dll"
 
 
-def cycles(definitions):
+def cycles(definitions: Definitions) -> Iterator[str]:
     for name in sorted(definitions):
-        seen, open_names = set(), list(definitions[name][1].get("references", []))
+        seen: set[str] = set()
+        open_names = list(definitions[name][1].get("references", []))
         while open_names:
             reference = open_names.pop()
             if reference == name:
@@ -67,7 +74,7 @@ def cycles(definitions):
                 open_names += definitions[reference][1].get("references", [])
 
 
-def unassigned(assets, definitions):
+def unassigned(assets: Assets, definitions: Definitions) -> Iterator[str]:
     """C# that Unity would compile into the users' own assembly."""
     folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):

@@ -22,6 +22,7 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
+from typing import Any
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
@@ -47,7 +48,7 @@ class Outcome:
 class Trial:
     """One disturbed run, in a folder of its own."""
 
-    def __init__(self, kind: str, number: int, seed: int, reference: dict, took: float) -> None:
+    def __init__(self, kind: str, number: int, seed: int, reference: dict[str, Any], took: float) -> None:
         self.kind, self.reference, self.took = kind, reference, took
         self.mark = f"{os.getpid()}-{kind}-{number}"
         self.random = random.Random(f"{seed} {kind} {number}")
@@ -77,12 +78,12 @@ class Trial:
         finally:
             shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start(self, prefix: tuple[str, ...] = (), out: str = "out", **environment: str) -> subprocess.Popen:
-        command = [*prefix, COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(out)]
+    def start(self, prefix: tuple[str, ...] = (), out: str = "out", **environment: str) -> subprocess.Popen[str]:
+        command = [*prefix, str(COLLEKTIVE), "run", self.path("project", "lamps.json"), "--out", self.path(out)]
         return subprocess.Popen(command, cwd=self.folder, env={**os.environ, MARK: self.mark, **environment}, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
 
-    def end(self, process: subprocess.Popen) -> tuple[int, str]:
+    def end(self, process: subprocess.Popen[str]) -> tuple[int, str]:
         try:
             output = process.communicate(timeout=LIMIT_S)[0]
         except subprocess.TimeoutExpired:
@@ -213,7 +214,7 @@ def content(path: str) -> bytes:
         return file.read()
 
 
-def broken(out: str, code: int, reference: dict) -> list[str]:
+def broken(out: str, code: int, reference: dict[str, Any]) -> list[str]:
     """What is wrong with the outputs of a run that ended with a code."""
     path = os.path.join(out, "manifest.json")
     if not os.path.exists(path):
@@ -244,7 +245,7 @@ def ending(code: int) -> str:
     return f"ended by {signal.Signals(code - 128).name}" if 128 < code < 160 else "killed" if code < 0 else "refused or failed"
 
 
-def make_reference(work: str) -> tuple[dict, float]:
+def make_reference(work: str) -> tuple[dict[str, Any], float]:
     """An undisturbed run, and how long it takes once all is compiled."""
     shutil.copytree(PROJECT, os.path.join(work, "project"))
     scenario, out = os.path.join(work, "project", "lamps.json"), os.path.join(work, "out")

@@ -6,7 +6,7 @@ import unittest
 from build.places import ROOT
 
 
-def declaration(path, test):
+def declaration(path: str, test: str) -> str:
     """How a file declares a test; a page of checks by hand numbers it."""
     name = re.escape(test)
     return {
