@@ -38,7 +38,7 @@ class LongRun(NamedTuple):
 
 
 LONG_RUNS = {
-    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "misfit"), ("--all",), "inject each fault of scripts/tests/faults/faults.json (or "
+    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "incompatible_host"), ("--all",), "inject each fault of scripts/tests/faults/faults.json (or "
                       "those whose name contains WORDS) on every runtime and JVM"),
     "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "end 200 runs in different ways: scene change, quit, Ctrl-C, "
                      "unhandled exceptions"),

@@ -76,7 +76,7 @@ class Trial:
 
     def host(self, kind):
         return {"missing": lambda: self.path("host.jar"), "cut": lambda: self.cut(self.places["host"], "host.jar"),
-                "misfit": lambda: self.places["misfit"]}[kind]()
+                "incompatible": lambda: self.places["incompatible"]}[kind]()
 
     def jar(self, kind):
         if kind == "missing":
@@ -84,7 +84,7 @@ class Trial:
         if kind == "cut":
             return self.cut(self.places["jar"], "programs.jar")
         if kind == "other-schema":
-            return self.places["misfit"]
+            return self.places["incompatible"]
         with open(self.path("programs.jar"), "wb") as file:
             if kind == "newer":
                 with zipfile.ZipFile(file, "w") as made, zipfile.ZipFile(self.places["jar"]) as real:
