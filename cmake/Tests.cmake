@@ -52,7 +52,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
-# On CoreCLR, hashes need OpenSSL 1.1, and time limits do not work.
+# On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
 suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --only Slow)
