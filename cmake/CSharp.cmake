@@ -1,4 +1,4 @@
-# The C# assemblies: build/csharp/NAME. Roslyn runs on Mono, since no .NET SDK can be expected.
+# The C# assemblies: build/csharp/NAME. Roslyn runs on Mono, since a .NET SDK may not be installed.
 set(CSHARP "${COLLEKTIVE_BUILD}/csharp")
 set(ROSLYN "${COLLEKTIVE_BUILD}/roslyn")
 collektive_python(csc build/csharp.py)
@@ -6,7 +6,7 @@ collektive_python(csc build/csharp.py)
 collektive_step(roslyn OUTPUT "${ROSLYN}/roslyn.exe"
   BYPRODUCTS "${ROSLYN}/Newtonsoft.Json.dll" COMMAND ${csc} --roslyn DEPENDS scripts/build/csharp.py tools/roslyn/Roslyn.cs "${COLLEKTIVE_BUILD}/stamp/npm")
 
-# What Unity compiles the bridge with; FlatBuffers' own code needs the same symbols.
+# Symbols of the bridge in Unity, which the code of FlatBuffers also needs.
 set(symbols --symbols)
 set(UNITY "${PROJECT_SOURCE_DIR}/unity")
 set(HEADLESS "${UNITY}/Headless~")
@@ -36,7 +36,7 @@ function(assembly NAME)
   endif()
 endfunction()
 
-# library(FILE): puts an assembly of others beside ours, where CoreCLR looks for it.
+# library(FILE): copies a third-party assembly to the folder of our assemblies, where CoreCLR searches.
 function(library FILE)
   cmake_path(GET FILE FILENAME name)
   collektive_step(${name} OUTPUT "${CSHARP}/${name}" COMMAND "${CMAKE_COMMAND}" -E copy "${FILE}" "${CSHARP}/${name}" DEPENDS ${ARGN} "${FILE}")
@@ -45,7 +45,7 @@ endfunction()
 set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
   --include "${PROJECT_SOURCE_DIR}/schema")
 
-# The code of the frames that cross the boundary, and of the value types.
+# Generated C# of frames and value types.
 collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   COMMAND "${CMAKE_COMMAND}" -E rm -rf "${GENERATED}/bridge"
   AND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
@@ -53,7 +53,7 @@ collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   DEPENDS flatc schema/types.fbs schema/frame.fbs)
 
 library("${ROSLYN}/Newtonsoft.Json.dll")
-# Mono has it in a place of its own.
+# Part of Mono, but not on CoreCLR.
 library(/usr/lib/mono/4.5/Mono.Posix.dll)
 assembly(Collektive.FlatBuffers.dll SOURCES "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"
   OPTIONS ${symbols} -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-)
@@ -64,8 +64,8 @@ assembly(Collektive.Unity.dll SOURCES "${UNITY}/Runtime/Unity" REFERENCES Collek
 set(package Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll)
 assembly(Collektive.Player.exe SOURCES "${HEADLESS}/Player" "${HEADLESS}/Replay" REFERENCES ${package} Newtonsoft.Json.dll Mono.Posix.dll)
 
-# generated_code(TARGET FOLDER SCHEMA...): the generator's C# of schemas, each in a folder below FOLDER.
-# The folder has the name of the sample or of the folder below build/generated, or else of the schema.
+# generated_code(TARGET FOLDER SCHEMA...): generates the C# of each schema in a folder below FOLDER, named after the sample, the folder below
+# build/generated, or the schema.
 function(generated_code TARGET FOLDER)
   set(commands)
   foreach(schema ${ARGN})
@@ -88,7 +88,7 @@ assembly(Collektive.Headless.Bench.exe SOURCES "${HEADLESS}/Bench" "${HEADLESS}/
   OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll Newtonsoft.Json.dll DEPENDS "${GENERATED}/samples.stamp")
 assembly(Collektive.Fuzz.exe SOURCES "${HEADLESS}/Fuzz" REFERENCES ${package} Collektive.Player.exe Newtonsoft.Json.dll)
 
-# What the tests and the reference of the API read: XML documentation, and the bridge as Unity compiles it for platforms without the shim.
+# XML documentation for tests and the API reference, and the bridge as compiled for platforms without the shim.
 set(documentation "${COLLEKTIVE_BUILD}/documentation")
 collektive_step(documentation OUTPUT "${documentation}/stamp"
   COMMAND ${csc} --documentation "${documentation}/Bridge.xml" "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" -- ${symbols}
@@ -100,7 +100,7 @@ collektive_step(documentation OUTPUT "${documentation}/stamp"
 assembly(stubs/Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} -define:UNITY_5_3_OR_NEWER
   REFERENCES Collektive.FlatBuffers.dll DEPENDS "${GENERATED}/bridge.stamp")
 
-# The code of the test schemas, and of one with sensor and actuator data swapped.
+# Generated C# of the test schemas, and of a copy with sensor and actuator data swapped.
 set(probe "${HEADLESS}/Tests/Simulation/Probe")
 file(GLOB schemas "${PROJECT_SOURCE_DIR}/schema/test/*.fbs")
 collektive_python(swap build/swap_data.py)

@@ -1,4 +1,4 @@
-# C# projects for IDEs: build/ide/Collektive.slnx, with the sources and references that the build compiles. The build does not use them.
+# C# projects for IDEs, build/ide/Collektive.slnx. The build does not use them.
 set(IDE "${COLLEKTIVE_BUILD}/ide")
 file(READ "${UNITY}/Runtime/Bridge/csc.rsp" defines)
 string(REGEX REPLACE "^-define:|\n" "" defines "${defines}")

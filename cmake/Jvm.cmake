@@ -1,4 +1,4 @@
-# The JVM side: Maven builds the modules that changed; the POMs alone describe modules, their dependencies and versions.
+# The JVM side. Maven builds the changed modules; the POMs declare modules, dependencies and versions.
 set(JVM "${PROJECT_SOURCE_DIR}/jvm-host")
 set(GENERATOR_JAR "${JVM}/generator/target/collektive-generator.jar")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS jvm-host/pom.xml)
@@ -17,7 +17,7 @@ function(jvm_step TARGET COMMENT)
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 
-# What runs scenes, with the samples; all modules; the tests of all modules. Each uses the terminal, so Ninja runs one at a time.
+# The modules that run scenes and the samples, all modules, and all tests. Each step uses the terminal, so Ninja runs one at a time.
 jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
 jvm_step(jvm_modules "all modules of the JVM side")
 file(GLOB tests "${JVM}/*/src")

@@ -5,7 +5,7 @@ set(FLATBUFFERS_BUILD_FLATLIB OFF)
 set(FLATBUFFERS_BUILD_FLATHASH OFF)
 set(FLATBUFFERS_INSTALL OFF)
 block()
-  # flatc runs for milliseconds: a fast build matters more than fast code.
+  # flatc runs for milliseconds, so a fast build matters more than fast code.
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O0")
   add_subdirectory("${COLLEKTIVE_FLATBUFFERS}" flatbuffers EXCLUDE_FROM_ALL)
 endblock()

@@ -1,4 +1,4 @@
-# The replay page, one HTML file that every run with a replay fills with its data.
+# The template of replay pages, into which each run inserts its data.
 collektive_step(replay_page OUTPUT "${COLLEKTIVE_BUILD}/replay.html"
   COMMAND "${CMAKE_COMMAND}" -E env "COLLEKTIVE_NODE_MODULES=${COLLEKTIVE_BUILD}/npm/node_modules"
     node "${HEADLESS}/Replay/build.mjs" "${COLLEKTIVE_BUILD}/replay.html"

@@ -1,8 +1,8 @@
 # collektive_step(TARGET OUTPUT FILE COMMAND WORD... [AND WORD...]... [DEPENDS FILE-OR-TARGET...] [FOLDERS DIR...]
 #   [BYPRODUCTS FILE...] [COMMENT TEXT] [TERMINAL])
 #
-# Adds a target whose command makes one file. It runs again if an input is newer: a file, another target's output, or anything below a folder.
-# A command that makes many files makes a stamp last; those that other steps depend on are its byproducts.
+# Adds a target whose command writes OUTPUT. It runs again if an input is newer: a file, another target's output, or any file below a folder.
+# A command that writes many files writes a stamp last. Files that other steps depend on are byproducts.
 function(collektive_step TARGET)
   cmake_parse_arguments(PARSE_ARGV 1 STEP "TERMINAL" "OUTPUT;COMMENT" "COMMAND;DEPENDS;FOLDERS;BYPRODUCTS")
   set(depfile)
@@ -24,7 +24,7 @@ function(collektive_step TARGET)
   add_custom_target(${TARGET} DEPENDS "${STEP_OUTPUT}")
 endfunction()
 
-# collektive_python(VARIABLE SCRIPT): the words that run a script of scripts/, isolated from the caller's settings.
+# collektive_python(VARIABLE SCRIPT): sets a variable to the command that runs a script, isolated from the caller's settings.
 function(collektive_python VARIABLE SCRIPT)
   set(${VARIABLE} "${COLLEKTIVE_PYTHON}" -I "${PROJECT_SOURCE_DIR}/scripts/${SCRIPT}" PARENT_SCOPE)
 endfunction()

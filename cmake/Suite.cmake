@@ -6,9 +6,9 @@ set(COLLEKTIVE "${PROJECT_SOURCE_DIR}/collektive")
 # suite(NAME AREA LABELS quick|all|extra... [NEEDS build:TARGET|setup:TOOL...] [TIMEOUT SECONDS] [UNLOCKED] [NUNIT] [ENVIRONMENT NAME=VALUE...]
 #   COMMAND WORD... | SCRIPT FILE WORD... | PYTEST WORD...)
 #
-# `quick` and `all` are the runs that a suite is part of; one of `extra` runs only when its name is given. In words, RESULTS is the suite's folder
-# for results. A SCRIPT lies in scripts/tests and runs in the environment of the tests, like PYTEST. NUNIT: without the framework the suite is
-# skipped. UNLOCKED: the suite starts commands that lock the outputs themselves.
+# LABELS are the runs that include the suite; `extra` suites run only by name. RESULTS in a command is the suite's result folder. A SCRIPT is in
+# scripts/tests and runs in the test environment, like PYTEST. NUNIT suites are skipped without NUnit. UNLOCKED suites start commands that lock the
+# outputs themselves.
 function(suite NAME AREA)
   cmake_parse_arguments(PARSE_ARGV 2 S "UNLOCKED;NUNIT" "TIMEOUT" "LABELS;NEEDS;ENVIRONMENT;COMMAND;SCRIPT;PYTEST")
   if(S_SCRIPT)

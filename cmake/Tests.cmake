@@ -1,4 +1,4 @@
-# The suites. Each is a test of CTest and writes JUnit XML into build/results/NAME; `./collektive test` adds up the results.
+# The test suites. Each is a CTest test and writes JUnit XML to build/results/NAME, which `./collektive test` adds up.
 include(Suite)
 
 # Preloaded to let one call to the system fail.
@@ -13,11 +13,11 @@ if(COLLEKTIVE_NUNIT)
   list(APPEND csharp_needs build:csharp_tests)
   set(runner build:Collektive.TestRunner.exe build:nunit.framework.dll)
 endif()
-# A host jar of another version.
-set(misfit "${CMAKE_BINARY_DIR}/native-shim/test/misfit")
-collektive_step(misfit OUTPUT "${COLLEKTIVE_BUILD}/misfit.jar"
-  COMMAND "${COLLEKTIVE_JAVA_HOME}/bin/jar" --create --file "${COLLEKTIVE_BUILD}/misfit.jar" -C "${misfit}" .
-  DEPENDS shim_test_hosts "${misfit}/stamp")
+# A host jar of an incompatible version.
+set(incompatible "${CMAKE_BINARY_DIR}/native-shim/test/incompatible")
+collektive_step(incompatible_host OUTPUT "${COLLEKTIVE_BUILD}/incompatible-host.jar"
+  COMMAND "${COLLEKTIVE_JAVA_HOME}/bin/jar" --create --file "${COLLEKTIVE_BUILD}/incompatible-host.jar" -C "${incompatible}" .
+  DEPENDS shim_test_hosts "${incompatible}/stamp")
 assembly(TestSchemas.dll SOURCES "${GENERATED}/tests" OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll
   DEPENDS "${GENERATED}/tests.stamp")
 set(schema "${HEADLESS}/Tests/Schema")
@@ -29,18 +29,18 @@ suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:pro
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(maven scripts LABELS all NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED SCRIPT jvm.py RESULTS)
-# Most of these JVMs end before code of the second compiler would pay.
+# Most of these JVMs run too briefly for the second compiler.
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
   SCRIPT jvm.py RESULTS -DexcludedGroups=slow "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
-# Under a minute on two idle processors, with some hundred thousand tries of each race: the server compiler alone, one fork each. Threads of a
-# pool must not inherit the one processor that jcstress gives an actor.
+# Takes under a minute on two idle processors, with the server compiler only, one fork and about 100,000 attempts of each race. Pool threads must
+# not inherit the processor to which jcstress pins an actor.
 suite(stress stress LABELS all NEEDS build:jvm_modules
   SCRIPT stress.py RESULTS/stress.xml -f 1 -fsm 1 -iters 3 -time 200 -sc false -af NONE -jvmArgs -XX:-TieredCompilation)
 
 list(GET COLLEKTIVE_TEST_JDKS -1 newest)
 foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   cmake_path(GET jdk FILENAME name)
-  # Slow tests are part of a run of all suites on the newest JDK only.
+  # A run of all suites includes slow tests only on the newest JDK.
   set(labels all)
   set(slow extra)
   if(jdk STREQUAL newest)
@@ -56,7 +56,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
-# CoreCLR's hashes need OpenSSL 1.1, and limits of time are Mono's.
+# On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
 suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --only Slow)
@@ -70,7 +70,7 @@ suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules TIMEO
 suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
-suite(faults faults LABELS all NEEDS ${csharp_needs} build:misfit NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
+suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PYTEST "${PROJECT_SOURCE_DIR}/schema/test")

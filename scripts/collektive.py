@@ -1,4 +1,4 @@
-"""The command `./collektive`: declares the commands, and runs one of them. Each is a module of `commands`, with the same name."""
+"""The command `./collektive`. Each of its commands is a module of the same name in the package `commands`."""
 import argparse
 import codecs
 import errno
@@ -19,38 +19,38 @@ from build.console import Failure
 from build.places import ROOT
 
 COMMANDS = {
-    "setup": "install and fetch what the build needs",
-    "build": "build parts of this checkout",
-    "generate": "make the code of a user schema (FlatBuffers)",
-    "demo": "run the case study without Unity and write pictures, a replay page and tables",
+    "setup": "install build dependencies",
+    "build": "build targets of this checkout",
+    "generate": "generate C#, Java and Kotlin from a FlatBuffers schema",
+    "demo": "run the case study without Unity",
     "run": "run a scenario without Unity",
-    "repeat": "repeat a run from its manifest, and compare the results",
-    "sweep": "run a scenario with many values of its keys, into tables",
-    "plot": "make figures of a sweep",
-    "profile": "run a scenario and report where its time goes on the JVM",
-    "replay": "run the programs of a recorded run again, or others on its input",
-    "diff": "find where two recorded runs differ",
-    "test": "build and test everything",
-    "bench": "measure what rounds and ticks cost",
-    "package": "make the Unity package, a tarball",
-    "site": "make the documentation as a site",
-    "clean": "remove all build output and caches",
+    "repeat": "repeat a run from its manifest and compare the results",
+    "sweep": "run a scenario for many parameter values",
+    "plot": "plot the results of a sweep",
+    "profile": "run a scenario and profile the JVM",
+    "replay": "replay a recorded run with its programs or with others",
+    "diff": "compare two recorded runs",
+    "test": "build and run tests",
+    "bench": "run benchmarks",
+    "package": "build the Unity package",
+    "site": "build the documentation site",
+    "clean": "remove build outputs and caches",
 }
-EPILOGUE = """Every command first does what it needs: installs, fetches, builds. Caches are kept in build/.
+EPILOGUE = """Each command first installs, fetches and builds its dependencies. Outputs and caches are in build/.
 
-Exit code: 0 it is done; 1 it is not, and the last line says why; 2 unknown command; 130 Ctrl-C."""
-# Python, Mono and Node run with this stack.
+Exit code: 0 success; 1 failure, with the reason in the last line; 2 unknown command; 130 Ctrl-C."""
+# Python, Mono and Node need a stack of this size.
 STACK_KB = 1024
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors are one line, like those of the commands. A command may choose their code with the default `error_code`."""
+    """Reports errors in one line. A command can set their exit code with the default `error_code`."""
 
     def error(self, message: str) -> NoReturn:
         raise Failure(f"{self.prog.removeprefix('./collektive ')}: {message} (see {self.prog} --help)", self.get_default("error_code") or 1)
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
-        """Reports unknown arguments as those of the command that they belong to."""
+        """Reports unknown arguments with the name of their command."""
         arguments, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unknown argument {unknown[0]}")
@@ -58,7 +58,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def parser_for(name: str | None) -> Parser:
-    """Returns the parser of all commands, with the options of the named one: the modules of the others are not loaded."""
+    """Returns the parser of all commands, with the options of the named one. It does not load the modules of other commands."""
     parser = Parser(prog="./collektive", allow_abbrev=False, epilog=EPILOGUE, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(metavar="COMMAND", dest="command", title="commands")
     for command, summary in COMMANDS.items():
@@ -82,19 +82,19 @@ def main(words: list[str]) -> int:
         return 2
     try:
         arguments = parser_for(words[0]).parse_args(words)
-        from build.processes import attended
-        return attended(lambda: guarded(arguments))
+        from build.processes import run_in_group
+        return run_in_group(lambda: run_command(arguments))
     except Failure as failure:
         return report(failure)
     except OSError as error:
         return report(Failure(f"cannot start a process: {error.strerror}"))
 
 
-def guarded(arguments: argparse.Namespace) -> int:
-    """Runs a parsed command; a `Failure` or `OSError` becomes a message and an exit code, by default the command's `error_code`."""
+def run_command(arguments: argparse.Namespace) -> int:
+    """Runs a parsed command. Reports a `Failure` or `OSError` and returns its exit code, by default the command's `error_code`."""
     code = getattr(arguments, "error_code", 1)
     try:
-        check_surroundings()
+        check_environment()
         return int(arguments.run(arguments))
     except Failure as failure:
         return report(failure, code)
@@ -103,7 +103,7 @@ def guarded(arguments: argparse.Namespace) -> int:
     except OSError as error:
         advice = ""
         if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS) and ROOT in Path(str(error.filename)).parents:
-            advice = ": the command must be able to write to its checkout; use one that belongs to you"
+            advice = ": the command must be able to write to its checkout; use a checkout that you own"
         place = f"'{error.filename}': " if error.filename else ""
         return report(Failure(f"{place}{error.strerror or error}{advice}"), code)
 
@@ -116,7 +116,7 @@ def report(failure: Failure, otherwise: int = 1) -> int:
 
 
 def open_closed_descriptors() -> None:
-    """Fills closed standard descriptors, which else the next opened file would take. Messages without a place go to the results."""
+    """Opens closed standard descriptors, so that no other file gets their numbers. A closed standard error becomes standard output."""
     for descriptor in range(3):
         try:
             os.fstat(descriptor)
@@ -129,20 +129,20 @@ def open_closed_descriptors() -> None:
     sys.stderr = sys.stderr or open(2, "w", closefd=False)
 
 
-def check_surroundings() -> None:
-    """Makes the tools independent of the caller's shell: an encoding for all file names, and a stack that suffices."""
+def check_environment() -> None:
+    """Sets UTF-8 for file names, and checks the stack limit and the path of the checkout."""
     if codecs.lookup(locale.getpreferredencoding()).name != "utf-8" or os.environ.get("LC_ALL") in ("C", "POSIX"):
         os.environ["LC_ALL"] = "C.UTF-8"
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:
-        raise Failure(f"the stack of processes is limited to {stack // 1024} KB, and the tools need {STACK_KB}: ulimit -s 8192")
+        raise Failure(f"the stack limit is {stack // 1024} KB, and the tools need {STACK_KB} KB: run ulimit -s 8192")
     for separator in ":;":
         if separator in str(ROOT):
-            raise Failure(f"the path of this checkout, '{ROOT}', contains '{separator}', which separates paths for the tools: move or rename the folder")
+            raise Failure(f"the path of this checkout, '{ROOT}', contains '{separator}', which the tools use to separate paths: move or rename the folder")
 
 
 if __name__ == "__main__":
     open_closed_descriptors()
-    # A reader such as `head` may close the output before its end.
+    # A reader such as `head` may close the output early.
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(main(sys.argv[1:]))

@@ -14,7 +14,7 @@ from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
 
 
 class Parser(argparse.ArgumentParser):
-    """Tells errors as the other commands do."""
+    """Reports errors like the other commands."""
 
     def error(self, message: str) -> NoReturn:
         """Ends the program."""
@@ -76,24 +76,24 @@ def _sweep(options: argparse.Namespace) -> int:
 def _pool(options: argparse.Namespace, store: Store) -> Pool:
     if options.ray is None:
         return LocalPool(store, options.jobs, options.time_limit, options.trust_jvm)
-    # Ray is downloaded only for those who use it.
+    # Ray is downloaded only when it is used.
     from .cluster import RayPool
     return RayPool(store, options.ray, options.time_limit, options.trust_jvm)
 
 
 def _threads(experiment: experiments.Experiment) -> int:
-    """Returns the number of threads of the run that has the most."""
+    """Returns the largest number of threads of a run."""
     threads = Located(experiment.scenario).root.get("threads", 1)
     return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
 
 
 def _line(message: str) -> str:
-    """Returns a message as one line, whatever the names in it."""
+    """Returns a message as one line: escapes control characters in names."""
     return re.sub(r"[\x00-\x1f\x7f\u2028\u2029]", lambda found: repr(found[0])[1:-1], message)
 
 
 def _plot(options: argparse.Namespace) -> int:
-    # Matplotlib takes half a second that sweeps need not wait for.
+    # Importing Matplotlib takes half a second.
     from .figures import plot
     for path in plot(options.folder):
         print(path)

@@ -1,4 +1,4 @@
-"""What the runs of a sweep need, in one folder: copies of the scenario's inputs, what is compiled of them, and the player."""
+"""The bundle of a sweep: a folder with copies of the scenario's inputs, the compiled code and the player."""
 import hashlib
 import json
 import os
@@ -15,7 +15,7 @@ def write_scenario(scenario: str, folder: str) -> None:
     root: dict[str, Any] = Located(scenario).root
     with open(os.path.join(folder, "inputs.json"), encoding="utf-8") as file:
         root.update(json.load(file)["paths"])
-    # A sweep's runs make no pages.
+    # Runs of a sweep write no replay pages.
     outputs = root.setdefault("outputs", {})
     if isinstance(outputs, dict):
         outputs.update(metrics=True, replay=False, pictures=False)
@@ -24,7 +24,7 @@ def write_scenario(scenario: str, folder: str) -> None:
 
 
 def fingerprint(folder: str) -> str:
-    """SHA-256 of the names and contents of all files in a folder."""
+    """Returns the SHA-256 of the names and contents of all files in a folder."""
     total = hashlib.sha256()
     for where, folders, names in os.walk(folder):
         folders.sort()
@@ -37,8 +37,8 @@ def fingerprint(folder: str) -> str:
 
 def prepare(scenario: str, bundle: str, trust: bool) -> None:
     """
-    Makes the bundle, or checks that the scenario's inputs are those of the bundle that is there: runs of one sweep have one program.
-    `COLLEKTIVE` names the command of the checkout whose scripts/build/bundle.py builds.
+    Makes the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code.
+    `COLLEKTIVE` is the path of the command in the checkout that builds the bundle.
     """
     work = bundle + PART
     files.make_marked(work)
@@ -46,12 +46,12 @@ def prepare(scenario: str, bundle: str, trust: bool) -> None:
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
         options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else [])]
         if subprocess.run(["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
-            raise ExperimentError("the scenario could not be built; see above")
+            raise ExperimentError("the scenario could not be built; the messages are above")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
             has_hashes = os.path.exists(os.path.join(bundle, "inputs.json"))
             if not has_hashes or fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
-                raise ExperimentError(f"the scenario, its scripts, schema or programs are not those that the runs in '{os.path.dirname(bundle)}' were made of: "
+                raise ExperimentError(f"the scenario, scripts, schema or programs differ from those of the runs in '{os.path.dirname(bundle)}': "
                                       "name another folder with --out, or undo the change")
             return
         files.publish(bundle)

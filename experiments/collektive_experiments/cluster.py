@@ -1,4 +1,4 @@
-"""Runs of a sweep on a Ray cluster. Each worker of ours is an actor; the bundle and this package travel as Ray's runtime environment."""
+"""Runs a sweep on a Ray cluster. Each worker is an actor. Ray's runtime environment distributes the bundle and this package."""
 import io
 import logging
 import os
@@ -19,24 +19,24 @@ from .sweep import Ended, Task
 from .worker import Outcome, Worker, WorkerError
 
 MAX_LOSSES = 3
-"""How many workers a run may lose: then it is the run that ends them."""
+"""A run that has lost this many workers is counted as crashed."""
 WAIT_SECONDS = 0.5
 
 
 def connect(address: str, bundle: str) -> None:
-    """Joins the cluster; `auto` is the one that runs here, or else one that is started for the sweep."""
+    """Joins the cluster. `auto` joins the local cluster, or starts one for the sweep."""
     environment = {"working_dir": bundle, "py_modules": [os.path.dirname(os.path.abspath(__file__))]}
     try:
         ray.init(address=address, runtime_env=environment, log_to_driver=False, logging_level=logging.ERROR)
     except ConnectionError as error:
         if address != "auto":
-            raise ExperimentError(f"there is no Ray cluster at {address}: {error}") from error
+            raise ExperimentError(f"cannot connect to the Ray cluster at {address}: {error}") from error
         ray.init(runtime_env=environment, include_dashboard=False, log_to_driver=False, logging_level=logging.ERROR)
 
 
 @ray.remote(num_cpus=1, max_restarts=0)
 class _RemoteWorker:
-    """A worker on some node. Ray has put the bundle into its current folder."""
+    """A worker on a node of the cluster. Its current folder is the bundle."""
 
     def __init__(self, trust: bool):
         self._folder = tempfile.TemporaryDirectory(prefix="collektive-")
@@ -44,7 +44,7 @@ class _RemoteWorker:
         self._count = 0
 
     def run(self, settings: dict[str, Any], jvm: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
-        """How the run ended, its seconds, and its folder as a tar."""
+        """Returns the outcome, the duration in seconds, and the run's folder as a tar file."""
         self._count += 1
         out = os.path.join(self._folder.name, str(self._count))
         os.mkdir(out)
@@ -62,7 +62,7 @@ RemoteWorker: Any = _RemoteWorker
 
 
 class RayPool:
-    """Workers on all processors of a cluster. A run whose worker vanishes is given to another; only the result that arrives counts."""
+    """Workers on all processors of a cluster. If a worker is lost, another one repeats its run."""
 
     def __init__(self, store: Store, address: str, limit: float, trust: bool):
         connect(address, os.path.abspath(store.bundle))
@@ -73,13 +73,13 @@ class RayPool:
         self._losses: dict[str, int] = {}
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
-        """Begins with the runs, those with the same JVM after each other."""
+        """Starts the runs, grouped by JVM settings."""
         self._ended = ended
         self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
         self._thread.start()
 
     def stop(self) -> None:
-        """Ends the runs at hand, and leaves the cluster."""
+        """Cancels the current runs and leaves the cluster."""
         self._stopped = True
         if self._thread.is_alive():
             self._thread.join()
@@ -99,7 +99,7 @@ class RayPool:
                     worker, task = idle.pop(), self._tasks.popleft()
                     run, is_repeated = task
                     running[worker.run.remote(run.settings, run.jvm, self._limit, is_repeated)] = worker, task
-                # A worker that was asked for may wait for the processor of one that has nothing to do, when a node is lost.
+                # A worker that was requested may wait for the processor of an idle one when a node is lost.
                 while idle:
                     ray.kill(idle.pop())
                 done, _ = ray.wait(list(running), timeout=WAIT_SECONDS)
@@ -111,7 +111,7 @@ class RayPool:
             self._ended.put(error)
 
     def _take(self, reference: Any, task: Task) -> bool:
-        """Takes a result; returns whether its worker is still there."""
+        """Stores a result. Returns whether its worker is still running."""
         name = task[0].name
         try:
             outcome, seconds, packed = ray.get(reference)
@@ -120,7 +120,7 @@ class RayPool:
             if self._losses[name] < MAX_LOSSES:
                 self._tasks.appendleft(task)
                 return False
-            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers vanished during the run"), 0.0, b""
+            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers were lost during the run"), 0.0, b""
             self._finish(task[0], outcome, seconds, packed)
             return False
         except ray.exceptions.RayTaskError as error:

@@ -1,4 +1,4 @@
-"""Experiment files: a scenario, the keys that vary, and what is measured."""
+"""Reads experiment files: a scenario, the keys that vary, and the metrics."""
 import hashlib
 import itertools
 import json
@@ -14,9 +14,9 @@ KEYS = ("version", "scenario", "vary", "zip", "set", "measure")
 VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
-"""Readable characters of a folder's name; file systems allow names of 255 bytes."""
+"""Length of the readable part of a folder's name. File systems allow 255 bytes."""
 FIXED = ("version", "scene", "scripts", "schema", "programs", "runtime", "runtimeJars", "runtimePlugin")
-"""Keys that decide what is compiled, which is done once for all runs."""
+"""Keys that affect compilation, which happens once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
@@ -27,7 +27,7 @@ Values = dict[str, Any]
 class Run:
     """One run of an experiment."""
     name: str
-    """Of its folder: the values of the keys that vary, and a hash of all settings."""
+    """The name of its folder: the values of the keys that vary, and a hash of all settings."""
     values: Values = field(hash=False)
     """The values of the keys that vary."""
     settings: Values = field(hash=False)
@@ -35,24 +35,24 @@ class Run:
 
     @property
     def jvm(self) -> str:
-        """The settings of its JVM: a process starts one JVM."""
+        """The JVM settings as JSON. A process starts only one JVM, so runs share a process only if these are equal."""
         return json.dumps({key: value for key, value in self.settings.items() if key == "jvm" or key.startswith("jvm.")}, sort_keys=True)
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """An experiment file that was checked."""
+    """A validated experiment file."""
     path: str
     scenario: str
     """Path of the scenario file."""
     product: list[tuple[str, list[Any]]]
-    """Keys that vary with all values of the others."""
+    """Keys of `vary`, which are combined with all values of other keys."""
     together: list[tuple[str, list[Any]]]
-    """Keys that vary together."""
+    """Keys of `zip`, which vary together."""
     fixed: Values
     """Keys that are the same in all runs."""
     measure: dict[str, str]
-    """Units of the metrics in tables and figures, in order; none: all metrics of the scene."""
+    """The metrics in tables and figures, in order, with their units. Empty for all metrics of the scene."""
     located: Located = field(repr=False)
 
     @property
@@ -62,14 +62,14 @@ class Experiment:
 
     @property
     def count(self) -> int:
-        """How many runs there are."""
+        """The number of runs."""
         count = len(self.together[0][1]) if self.together else 1
         for _, values in self.product:
             count *= len(values)
         return count
 
     def runs(self) -> Iterator[Run]:
-        """All runs in the order of the file, the last key the fastest."""
+        """Yields all runs in the order of the file. The last key changes fastest."""
         rows = [dict(zip([key for key, _ in self.together], row)) for row in zip(*(values for _, values in self.together))] or [{}]
         for chosen in itertools.product(*(values for _, values in self.product)):
             for row in rows:
@@ -79,24 +79,24 @@ class Experiment:
 
 
 def name_of(values: Values, settings: Values) -> str:
-    """Returns the name of a run's folder: readable, and another one for each configuration."""
+    """Returns a readable and unique name for a run's folder."""
     prefix = ",".join(f"{key}={text(value)}" for key, value in values.items()) or "run"
     return re.sub(r"[^A-Za-z0-9._+,=-]", "_", prefix)[:MAX_PREFIX] + "-" + hashlib.sha256(identity(settings).encode()).hexdigest()[:12]
 
 
 def identity(value: Any) -> str:
-    """Returns a text that two values share only if runs cannot tell them apart."""
-    def plain(part: Any) -> Any:
+    """Returns a canonical text. Values that are equal for a run, such as 1 and 1.0, have the same text."""
+    def normalize(part: Any) -> Any:
         if isinstance(part, dict):
-            return {key: plain(item) for key, item in part.items()}
+            return {key: normalize(item) for key, item in part.items()}
         if isinstance(part, (list, tuple)):
-            return [plain(item) for item in part]
+            return [normalize(item) for item in part]
         return int(part) if isinstance(part, float) and part.is_integer() and str(part) != "-0.0" else part
-    return json.dumps(plain(value), sort_keys=True)
+    return json.dumps(normalize(value), sort_keys=True)
 
 
 def text(value: Any) -> str:
-    """Returns a value as names and legends show it."""
+    """Formats a value for names and legends."""
     if isinstance(value, list):
         return "_".join(map(text, value))
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
@@ -105,11 +105,11 @@ def text(value: Any) -> str:
 
 
 def read(path: str) -> Experiment:
-    """Reads an experiment file strictly. Raises `ExperimentError` with the line of what is wrong."""
+    """Reads an experiment file strictly. Raises `ExperimentError` with the line of the error."""
     located = Located(path)
     root = located.root
     if not isinstance(root, dict):
-        raise located.error("the file must hold one JSON object")
+        raise located.error("the file must contain one JSON object")
     for key in root:
         if key not in KEYS:
             raise located.error(f"unknown key '{key}'; known here: {', '.join(KEYS)}", key)
@@ -121,27 +121,27 @@ def read(path: str) -> Experiment:
         if key not in root:
             raise located.error(f"the key '{key}' is missing")
     if root["version"] != VERSION:
-        raise located.error(f"version {root['version']} is not known; this program reads version {VERSION}", "version")
+        raise located.error(f"version {root['version']} is not supported; use version {VERSION}", "version")
     scenario = os.path.join(os.path.dirname(path), root["scenario"])
     if not os.path.isfile(scenario):
-        raise located.error(f"'scenario' names no file: {scenario}", "scenario")
+        raise located.error(f"the scenario file '{scenario}' does not exist", "scenario")
     if not isinstance(Located(scenario).root, dict):
-        raise ExperimentError(f"{scenario}: the file must hold one JSON object")
-    experiment = Experiment(path, scenario, _varied(located, "vary"), _varied(located, "zip"), _fixed(located), _measure(located), located)
+        raise ExperimentError(f"{scenario}: the file must contain one JSON object")
+    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), _read_set(located), _read_measure(located), located)
     _check(experiment)
     return experiment
 
 
-def _varied(located: Located, part: str) -> list[tuple[str, list[Any]]]:
+def _read_vary(located: Located, part: str) -> list[tuple[str, list[Any]]]:
     varied = []
     for key, values in located.root.get(part, {}).items():
-        _refuse_fixed(located, part, key)
+        _reject_fixed_key(located, part, key)
         if isinstance(values, str):
             values = _range(located, part, key, values)
         if not isinstance(values, list):
             raise located.error(f"'{part}.{key}' is {json.dumps(values)}, it must be a list or a range, like \"1-20\"", part, key)
         if not values:
-            raise located.error(f"'{part}.{key}' is an empty list: there would be no run", part, key)
+            raise located.error(f"'{part}.{key}' is an empty list; add at least one value", part, key)
         for index, value in enumerate(values):
             numbers = isinstance(value, list) and value and all(isinstance(number, (int, float)) and not isinstance(number, bool) for number in value)
             if not numbers and not isinstance(value, (str, int, float, bool)):
@@ -154,35 +154,35 @@ def _varied(located: Located, part: str) -> list[tuple[str, list[Any]]]:
 def _range(located: Located, part: str, key: str, range_text: str) -> list[int]:
     match = RANGE.fullmatch(range_text)
     if not match:
-        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}, which is no range: write \"1-20\", or \"0-100:10\" for every tenth", part, key)
+        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}, which is not a range; write \"1-20\", or \"0-100:10\" for steps", part, key)
     first, last, step = int(match[1]), int(match[2]), int(match[3] or 1)
     if first > last or step == 0:
-        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}: there would be no run", part, key)
+        raise located.error(f"'{part}.{key}' is {json.dumps(range_text)}, which contains no values", part, key)
     if (last - first) // step >= MAX_RUNS:
-        raise located.error(f"'{part}.{key}' has {(last - first) // step + 1:,} values: a sweep has at most {MAX_RUNS:,} runs", part, key)
+        raise located.error(f"'{part}.{key}' has {(last - first) // step + 1:,} values; the maximum is {MAX_RUNS:,} runs", part, key)
     return list(range(first, last + 1, step))
 
 
-def _fixed(located: Located) -> Values:
+def _read_set(located: Located) -> Values:
     for key in located.root.get("set", {}):
-        _refuse_fixed(located, "set", key)
+        _reject_fixed_key(located, "set", key)
     return dict(located.root.get("set", {}))
 
 
-def _refuse_fixed(located: Located, part: str, key: str) -> None:
+def _reject_fixed_key(located: Located, part: str, key: str) -> None:
     if key.split(".")[0] in FIXED:
-        raise located.error(f"'{key}' is the same for all runs, which are compiled once: write it in the scenario", part, key)
+        raise located.error(f"'{key}' cannot vary, because the sweep compiles once: set it in the scenario", part, key)
     if key in NOT_FOR_RUNS or key == "outputs":
-        raise located.error(f"'{key}' is not for sweeps, whose runs write metrics and no pages", part, key)
+        raise located.error(f"'{key}' cannot be set in sweeps, whose runs write metrics only", part, key)
 
 
-def _measure(located: Located) -> dict[str, str]:
+def _read_measure(located: Located) -> dict[str, str]:
     measure = located.root.get("measure", {})
     if isinstance(measure, list) and measure and all(isinstance(name, str) for name in measure):
         return dict.fromkeys(measure, "")
     if isinstance(measure, dict) and all(isinstance(unit, str) for unit in measure.values()):
         return dict(measure)
-    raise located.error("'measure' must be a list of metrics' names, or an object with the unit of each", "measure")
+    raise located.error("'measure' must be a list of metrics, or an object with the unit of each metric", "measure")
 
 
 def _check(experiment: Experiment) -> None:
@@ -191,26 +191,26 @@ def _check(experiment: Experiment) -> None:
     for part in ("vary", "zip", "set"):
         for key in located.root.get(part, {}):
             if key in seen:
-                raise located.error(f"'{key}' is in '{seen[key]}', too", part, key)
+                raise located.error(f"'{key}' is also in '{seen[key]}'; remove one", part, key)
             seen[key] = part
     for key, values in experiment.together:
         first = experiment.together[0]
         if len(values) != len(first[1]):
-            raise located.error(f"'zip.{key}' has {len(values)} values and 'zip.{first[0]}' has {len(first[1])}: keys of 'zip' vary together", "zip", key)
+            raise located.error(f"'zip.{key}' has {len(values)} values and 'zip.{first[0]}' has {len(first[1])}: these must be equal", "zip", key)
     if experiment.count > MAX_RUNS:
-        raise located.error(f"these are {experiment.count:,} runs: a sweep has at most {MAX_RUNS:,}", "vary")
+        raise located.error(f"the experiment has {experiment.count:,} runs; the maximum is {MAX_RUNS:,}", "vary")
     for key, values in experiment.product:
-        _refuse_twins(located, "vary", [key], [(value,) for value in values])
+        _reject_duplicates(located, "vary", [key], [(value,) for value in values])
     if experiment.together:
-        _refuse_twins(located, "zip", [key for key, _ in experiment.together], list(zip(*(values for _, values in experiment.together))))
+        _reject_duplicates(located, "zip", [key for key, _ in experiment.together], list(zip(*(values for _, values in experiment.together))))
 
 
-def _refuse_twins(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
+def _reject_duplicates(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
     seen: set[str] = set()
     for index, row in enumerate(rows):
         if identity(row) in seen:
             twice = ", ".join(f"{key}={text(value)}" for key, value in zip(keys, row))
-            raise located.error(f"two runs would be the same: '{twice}' comes twice", part, keys[0], index)
+            raise located.error(f"duplicate runs: '{twice}' occurs twice", part, keys[0], index)
         seen.add(identity(row))
 
 

@@ -1,4 +1,4 @@
-"""Figures of a sweep: metrics over time and at the end, for papers (SVG, PDF) and for looking (one HTML page)."""
+"""Plots metrics of a sweep over time and at the end, as SVG and PDF files and one HTML page."""
 import hashlib
 import html
 import io
@@ -17,7 +17,7 @@ from . import files
 from .experiment import text
 from .results import Results, compare, interval, label, load
 
-# Okabe and Ito's colours, told apart by all common kinds of sight; the yellow is too pale for lines.
+# The colour-blind-safe palette of Okabe and Ito, without yellow, which is too pale for lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", "--", "-.", ":")
 COLUMNS = 4
@@ -29,8 +29,8 @@ MAX_PANELS = 24
 @matplotlib.rc_context(STYLE)
 def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
     """
-    Makes `figures/METRIC-time` and `figures/METRIC-end` as SVG and PDF, and `figures.html` with all of them and their captions, in the folder of a
-    sweep. Colours are the values of the first key that varies, panels the combinations of the others. Returns the paths.
+    Writes `figures/METRIC-time` and `figures/METRIC-end` as SVG and PDF, and `figures.html` with all figures and captions, to the folder of a
+    sweep. Colours show the values of the first key that varies, and panels the combinations of the other keys. Returns the paths.
     """
     results = load(folder)
     paths, sections = [], []
@@ -56,14 +56,14 @@ def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
 
 
 def _file_name(metric: str) -> str:
-    """Returns the name of a metric's files; a hash tells names apart that differ in characters that files cannot have."""
+    """Returns a file name for a metric. Adds a hash if the metric's name has characters that file names cannot have."""
     name = re.sub(r"[^A-Za-z0-9_.-]", "_", metric)[:100]
     return name if name == metric and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
 
 
 @matplotlib.rc_context(STYLE)
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
-    """The mean of a metric over simulated time with its 95 % bootstrap interval, and the caption."""
+    """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and its caption."""
     data = results.series
     figure, panels, colour, groups = _panels(results, data)
     counts = set()
@@ -84,7 +84,7 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
 
 @matplotlib.rc_context(STYLE)
 def at_end(results: Results, metric: str) -> tuple[Figure, str]:
-    """Box plots of a metric's values at the end of the runs, and the caption."""
+    """Draws box plots of a metric's values at the end of the runs. Returns the figure and its caption."""
     figure, panels, colour, groups = _panels(results, results.complete)
     counts, missing = set(), 0
     for axes, group in zip(panels, groups):
@@ -98,7 +98,7 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
         axes.set_xticks(range(len(parts)), [value for value, _ in parts], rotation=30, ha="right")
         axes.set_xlim(-0.6, len(parts) - 0.4)
     _finish(figure, panels, _axis(results, metric), colour, lines=False)
-    rest = f" {missing} runs have no value and are left out." if missing else ""
+    rest = f" {missing} runs without a value are omitted." if missing else ""
     when = "" if metric.startswith("converged.") else " at the end"
     return figure, (f"{_title(metric)}{when} of {_runs(counts)} per configuration: median, quartiles, whiskers to the last value within 1.5 "
                     f"interquartile ranges, and values beyond.{rest}")

@@ -1,12 +1,12 @@
-"""Writes, renames and deletions in a sweep's folder. Nothing is written through a symbolic link, and only marked folders are deleted."""
+"""Writes, renames and deletes files in a sweep's folder. Never follows symbolic links, and deletes only marked folders."""
 import os
 import shutil
 from typing import BinaryIO
 
 MARKER = ".collektive-sweep"
-"""A file in each folder that a sweep creates and may delete."""
+"""The file that marks a folder that a sweep created and may delete."""
 PART = ".part"
-"""End of the names of unfinished files and folders."""
+"""Suffix of unfinished files and folders."""
 
 
 def make(folder: str) -> None:
@@ -17,7 +17,7 @@ def make(folder: str) -> None:
 
 
 def make_marked(folder: str) -> None:
-    """Creates an empty folder that `remove` deletes. An unfinished one of the same name is deleted first."""
+    """Creates an empty folder with a marker, after deleting an unfinished one of the same name."""
     remove(folder)
     os.mkdir(folder)
     os.close(_open(os.path.join(folder, MARKER), os.O_WRONLY | os.O_CREAT | os.O_EXCL))
@@ -29,7 +29,7 @@ def is_marked(folder: str) -> bool:
 
 
 def remove(folder: str) -> None:
-    """Deletes a marked or empty folder, if it exists. The marker goes last: an interrupted deletion can be repeated."""
+    """Deletes a marked or empty folder, if it exists. Deletes the marker last, so that an interrupted deletion can be repeated."""
     if not os.path.lexists(folder):
         return
     if os.path.islink(folder) or not os.path.isdir(folder) or (os.listdir(folder) and not is_marked(folder)):
@@ -45,7 +45,7 @@ def remove(folder: str) -> None:
 
 
 def create(path: str) -> BinaryIO:
-    """Opens the unfinished file of a path, which `publish` completes."""
+    """Opens an unfinished file, which `publish` renames to `path`."""
     part = path + PART
     if os.path.lexists(part):
         os.unlink(part)
@@ -53,7 +53,7 @@ def create(path: str) -> BinaryIO:
 
 
 def publish(path: str) -> None:
-    """Gives an unfinished file or folder its name, and makes it survive a power failure. An existing folder of that name must have been removed."""
+    """Syncs an unfinished file or folder to the disk and renames it to `path`, which must not be an existing folder."""
     part = path + PART
     if os.path.isdir(part):
         for folder, _, names in os.walk(part):
@@ -68,14 +68,14 @@ def publish(path: str) -> None:
 
 
 def write(path: str, text: str) -> None:
-    """Writes a file that is complete or absent."""
+    """Writes a file atomically."""
     with create(path) as file:
         file.write(text.encode())
     publish(path)
 
 
 def open_log(path: str) -> BinaryIO:
-    """Opens a log to append to."""
+    """Opens a log file for appending."""
     return os.fdopen(_open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND), "ab")
 
 

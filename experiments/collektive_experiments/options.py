@@ -1,4 +1,4 @@
-"""The options of a sweep: ./collektive reads this module by itself, without the package's dependencies."""
+"""The options of ./collektive sweep. This module has no dependencies, because ./collektive loads it without the package."""
 import argparse
 import os
 
@@ -10,14 +10,14 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
                         help="simultaneous runs (default: the number of processors)")
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
-    parser.add_argument("--csv", action="store_true", help="write runs.csv and series.csv, too")
-    parser.add_argument("--dry-run", action="store_true", help="print the number of runs and about how long they take, from a trial of two of them")
+    parser.add_argument("--csv", action="store_true", help="also write runs.csv and series.csv")
+    parser.add_argument("--dry-run", action="store_true", help="print the number of runs and their estimated time, after two trial runs")
     parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
-    parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="seconds after which a run is ended (default: 3600)")
-    parser.add_argument("--trust-jvm", action="store_true", help="as for ./collektive run")
+    parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
+    parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto: the local one, started for the sweep if none runs")
-    where.add_argument("--slurm", action="store_true", help="run nothing, but write an array job for the runs that are not done, slurm.sh")
+    where.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto uses the local cluster, and starts one if none is running")
+    where.add_argument("--slurm", action="store_true", help="write an array job for the remaining runs, slurm.sh, instead of running them")
 
 
 def _positive(text: str) -> int:

@@ -1,4 +1,4 @@
-"""JSON as the player reads it, with the line of each value."""
+"""Parses JSON like the player, and records the line of each value."""
 import bisect
 import json
 import math
@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 Path = tuple[str | int, ...]
 
 MAX_DEPTH = 64
-"""Levels of objects and lists, as in the player."""
+"""Maximum nesting of objects and lists, as in the player."""
 MAX_DIGITS = 300
 SPACE = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.S)
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.S)
@@ -19,13 +19,13 @@ LITERALS = {"true": True, "false": False, "null": None}
 
 
 class ExperimentError(Exception):
-    """An error in the user's input; the message names the place."""
+    """An error in the user's input. The message contains file and line."""
 
 
 class Located:
     """
-    A JSON file and the lines of its values. As in the player, comments, trailing commas, single quotes, keys without quotes and a byte order mark
-    are accepted. A key given twice is an error.
+    A JSON file and the lines of its values. Accepts comments, trailing commas, single quotes, unquoted keys and a byte order mark, as the player
+    does. Duplicate keys are errors.
     """
 
     def __init__(self, path: str):
@@ -41,10 +41,10 @@ class Located:
         self._lines: dict[Path, int] = {}
         self.root, end = self._value(self._skip(0), ())
         if self._skip(end) < len(self.text):
-            self._fail(self._skip(end), "text after the value")
+            self._fail(self._skip(end), "unexpected text after the value")
 
     def error(self, message: str, *place: str | int) -> ExperimentError:
-        """Returns an error at the value of a place, or at the nearest one around it."""
+        """Returns an error with the line of a value, or of the nearest enclosing value."""
         while place and place not in self._lines:
             place = place[:-1]
         return ExperimentError(f"{self.path}:{self._lines.get(place, 1)}: {message}")
@@ -75,7 +75,7 @@ class Located:
             return self._number(number), number.end()
         name = NAME.match(self.text, at)
         if name is None or name[0] not in LITERALS:
-            self._fail(at, f"unexpected {start!r}" if start else "the file ends too early")
+            self._fail(at, f"unexpected {start!r}" if start else "unexpected end of file")
         return LITERALS[name[0]], name.end()
 
     def _container(self, at: int, place: Path) -> tuple[Any, int]:
@@ -89,10 +89,10 @@ class Located:
                 key_at = at
                 key, at = self._key(at)
                 if key in pairs:
-                    raise ExperimentError(f"{self.path}:{self._line(key_at)}: the key '{key}' is given twice")
+                    raise ExperimentError(f"{self.path}:{self._line(key_at)}: the key '{key}' is used twice")
                 at = self._skip(at)
                 if not self.text.startswith(":", at):
-                    self._fail(at, "':' expected")
+                    self._fail(at, "expected ':'")
                 pairs[key], at = self._value(self._skip(at + 1), (*place, key))
             else:
                 item, at = self._value(at, (*place, len(items)))
@@ -101,7 +101,7 @@ class Located:
             if self.text.startswith(",", at):
                 at = self._skip(at + 1)
             elif not self.text.startswith(end, at):
-                self._fail(at, f"',' or '{end}' expected")
+                self._fail(at, f"expected ',' or '{end}'")
         return pairs if is_object else items, at + 1
 
     def _key(self, at: int) -> tuple[str, int]:
@@ -109,13 +109,13 @@ class Located:
             return self._string(at)
         name = NAME.match(self.text, at)
         if name is None:
-            self._fail(at, "a key expected")
+            self._fail(at, "expected a key")
         return name[0], name.end()
 
     def _string(self, at: int) -> tuple[str, int]:
         match = (STRING if self.text[at] == '"' else QUOTED).match(self.text, at)
         if match is None:
-            self._fail(at, "a string without an end")
+            self._fail(at, "unterminated string")
         text = match[0]
         if text[0] == "'":
             text = '"' + re.sub(r"\\.|\"", lambda found: {"\\'": "'", '"': '\\"'}.get(found[0], found[0]), text[1:-1], flags=re.S) + '"'
@@ -123,14 +123,14 @@ class Located:
             value: str = json.loads(text, strict=False)
             value.encode()
         except UnicodeEncodeError:
-            self._fail(at, f"{match[0][:50]} has half of a surrogate pair")
+            self._fail(at, f"{match[0][:50]} contains an unpaired surrogate")
         except ValueError as error:
             self._fail(at, str(error))
         return value, match.end()
 
     def _number(self, match: re.Match[str]) -> int | float:
         if len(match[0]) > MAX_DIGITS:
-            self._fail(match.start(), f"a number of {len(match[0]):,} characters; at most {MAX_DIGITS} are read")
+            self._fail(match.start(), f"a number has {len(match[0]):,} characters; the maximum is {MAX_DIGITS}")
         if not math.isfinite(float(match[0])):
             self._fail(match.start(), f"{match[0][:50]} is too large")
         return float(match[0]) if match[1] or match[2] else int(match[0])

@@ -1,4 +1,4 @@
-"""Whether programs can leave something behind in the JVM that a later run sees."""
+"""Checks whether programs can leave state in the JVM that affects later runs."""
 import functools
 import struct
 import zipfile
@@ -20,11 +20,11 @@ ALLOWED = {
     "it/unibo/collektive/": None,
     "com/google/flatbuffers/": None,
 }
-"""Classes whose use leaves nothing behind, by package; None: all of a package and those below it. Programs' own classes are loaded for each session."""
+"""Classes that keep no state between sessions, by package. None stands for a package and its subpackages."""
 FORBIDDEN_PACKAGES = ("kotlin/concurrent/", "kotlin/io/", "kotlin/jvm/internal/unsafe/", "kotlin/system/",
                       "kotlin/coroutines/", "org/collektive/host/", "org/collektive/engine/")
 ALLOWED_OF_CLASS = {"getName", "getSimpleName", "hashCode", "equals", "desiredAssertionStatus", "isInstance", "cast"}
-# Sizes of the constants in a class file, by their tags; texts have a length of their own.
+# Sizes of constants in a class file, by tag. Texts have a variable size.
 SIZES = {3: 4, 4: 4, 5: 8, 6: 8, 7: 2, 8: 2, 9: 4, 10: 4, 11: 4, 12: 4, 15: 3, 16: 2, 17: 4, 18: 4, 19: 2, 20: 2}
 TEXT, CLASS, NAME_AND_TYPE = 1, 7, 12
 WIDE = (5, 6)
@@ -32,20 +32,20 @@ MEMBERS = (9, 10, 11)
 
 
 @functools.cache
-def leave_state(jar: str) -> bool:
+def can_leave_state(jar: str) -> bool:
     """
-    Returns whether the programs of a jar refer to anything that could outlive their session. Their own static fields do not: each session
-    loads their classes again. A jar that cannot be read counts as one that does.
+    Returns whether the programs of a jar refer to a class that may keep state after their session. Their own classes do not, because each session
+    loads them again. Returns true for an unreadable jar.
     """
     try:
         with zipfile.ZipFile(jar) as archive:
             classes = {name.removesuffix(".class"): archive.read(name) for name in archive.namelist() if name.endswith(".class")}
-        return any(_leaves_state(content, classes.keys()) for content in classes.values())
+        return any(_can_leave_state(content, classes.keys()) for content in classes.values())
     except (OSError, zipfile.BadZipFile, struct.error, KeyError, IndexError, UnicodeDecodeError):
         return True
 
 
-def _leaves_state(content: bytes, own: Set[str]) -> bool:
+def _can_leave_state(content: bytes, own: Set[str]) -> bool:
     constants = _constants(content)
 
     def text(index: int) -> str:
@@ -57,7 +57,7 @@ def _leaves_state(content: bytes, own: Set[str]) -> bool:
     for tag, value in constants.values():
         if tag == CLASS:
             name = text(struct.unpack(">H", value)[0])
-            # An array is a class whose name has the type of its elements.
+            # The name of an array class contains the type of its elements.
             name = name.lstrip("[").removeprefix("L").removesuffix(";") if name.startswith("[") else name
             if len(name) > 1 and name not in own and not _is_allowed(name):
                 return True

@@ -1,4 +1,4 @@
-"""The tables of a sweep, for notebooks and figures."""
+"""Loads and compares the tables of a sweep, for notebooks and figures."""
 import itertools
 import os
 from dataclasses import dataclass, replace
@@ -12,12 +12,12 @@ from .positions import ExperimentError
 from .store import Store
 
 RESAMPLES = 2000
-"""Bootstrap samples: an interval's ends then repeat to about a fortieth of its length."""
+"""Number of bootstrap samples. The ends of an interval are then accurate to about 1/40 of its length."""
 
 
 @dataclass(frozen=True)
 class Results:
-    """What `load` has read."""
+    """The tables of a sweep."""
     runs: pd.DataFrame
     """A row for each run: parameters, `seed`, `status`, `digest`, metrics at the end, times, versions."""
     series: pd.DataFrame
@@ -31,7 +31,7 @@ class Results:
 
     @property
     def configuration(self) -> list[str]:
-        """The keys that tell configurations apart: all but the seed. Runs that differ in nothing else are repetitions."""
+        """The keys that vary, except the seed. Runs with equal values of these keys are repetitions."""
         return [key for key in self.keys if key != "seed"]
 
     @property
@@ -48,10 +48,10 @@ class Results:
 
 def load(folder: str) -> Results:
     """Reads the tables of a sweep's folder."""
-    asked = Store(folder).asked()
+    settings = Store(folder).settings()
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
-    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, asked["keys"], {})
-    return replace(results, units=dict(zip(results.metrics, asked["measure"].values())))
+    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {})
+    return replace(results, units=dict(zip(results.metrics, settings["measure"].values())))
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:
@@ -64,8 +64,8 @@ def _read(folder: str, name: str) -> pd.DataFrame:
 
 def interval(values: np.ndarray, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:
     """
-    A percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The resampling starts from a fixed seed:
-    the same values give the same interval. Not a number for fewer than two values.
+    Returns the percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The seed of the resampling is fixed, so the
+    same values give the same interval. Returns NaN for fewer than two values.
     """
     if len(values) < 2:
         return float("nan"), float("nan")
@@ -79,8 +79,8 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
     Compares the end values of a metric, or any other number of the runs' table, between each two values of a key, for each combination of
     the other keys. A row has both means, `difference` of the means with the 95 % bootstrap interval `difference_low` to `difference_high`, and
-    Cliff's `delta` with its interval: the probability that a run of `b` has the greater value, less the probability that it has the smaller
-    one; -1 to 1, 0 for no effect. `p` is that of a permutation test of the difference. Runs without a value do not count: see `n_a` and `n_b`.
+    Cliff's `delta` with its interval: the probability that a run of `b` has the greater value, minus the probability that it has the smaller
+    one; from -1 to 1, 0 for no effect. `p` is the p-value of a permutation test of the difference. `n_a` and `n_b` count runs with a value.
     """
     rows = []
     others = [key for key in results.configuration if key != by]
@@ -111,5 +111,5 @@ def _effect(a: np.ndarray, b: np.ndarray) -> dict[str, float]:
 
 
 def label(values: tuple[Any, ...], keys: list[str]) -> str:
-    """A configuration in titles: the last part of each key and its value."""
+    """Formats a configuration for titles: the last part of each key, and its value."""
     return ", ".join(f"{key.split('.')[-1]} {text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(keys, values))

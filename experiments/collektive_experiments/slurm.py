@@ -1,4 +1,4 @@
-"""A sweep as an array job of Slurm: its tasks share the sweep's folder."""
+"""Runs a sweep as an array job of Slurm, whose tasks share the sweep's folder."""
 import fcntl
 import json
 import os
@@ -16,8 +16,8 @@ from .worker import Worker
 MAX_TASKS = 1000
 """Slurm's usual limit for the size of an array is 1001."""
 SCRIPT = """#!/usr/bin/env bash
-# Runs {count} runs of a sweep: sbatch {path}
-# Then ./collektive sweep EXPERIMENT --out {folder} --resume makes the tables, or runs what is missing.
+# Executes {count} runs of a sweep. Submit with: sbatch {path}
+# Afterwards, write the tables and complete missing runs with: ./collektive sweep EXPERIMENT --out {folder} --resume
 #SBATCH --job-name={name}
 #SBATCH --array=0-{last}
 #SBATCH --ntasks=1
@@ -30,7 +30,7 @@ exec {python} -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK_ID:?r
 
 
 def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust: bool) -> str:
-    """Writes `tasks.json` and `slurm.sh` into the sweep's folder; returns the path of the script."""
+    """Writes `tasks.json` and `slurm.sh` to the sweep's folder. Returns the path of the script."""
     folder = os.path.abspath(store.folder)
     size = -(-len(todo) // MAX_TASKS)
     chunks = [todo[start:start + size] for start in range(0, len(todo), size)]
@@ -48,7 +48,7 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
 
 
 def run_task(folder: str, index: int) -> int:
-    """Runs the runs of one task that are not complete; returns the exit code."""
+    """Executes the incomplete runs of one task. Returns the exit code."""
     log = os.path.join(folder, f"logs/task-{index}.txt")
     with Store(folder) as store, files.open_log(log) as own:
         store.lock(shared=True)

@@ -1,4 +1,4 @@
-"""The folder of a sweep: what was asked, the runs that ended, and the tables."""
+"""Reads and writes the folder of a sweep: settings, finished runs and tables."""
 import fcntl
 import hashlib
 import json
@@ -18,7 +18,7 @@ RESULTS = ("manifest.json", "metrics.csv")
 
 
 class Store:
-    """The folder of a sweep. A run's folder has its final name once the run has ended."""
+    """The folder of a sweep. A run's folder is renamed to its final name when the run has ended."""
 
     def __init__(self, folder: str):
         self.folder = folder
@@ -44,7 +44,7 @@ class Store:
             raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
 
     def open(self, experiment: Experiment, resume: bool) -> None:
-        """Creates the folder, or continues an earlier sweep. Raises `ExperimentError` if the folder is not a sweep's, or another sweep's, or in use."""
+        """Creates or reopens the folder. Raises `ExperimentError` if another sweep uses or has created it, or if it is not a sweep's folder."""
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)
@@ -55,42 +55,42 @@ class Store:
             for name in os.listdir(folder):
                 if name.endswith(PART) and files.is_marked(os.path.join(folder, name)):
                     files.remove(os.path.join(folder, name))
-        asked = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
+        settings = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
                  "measure": experiment.measure}
         if not os.listdir(self.runs):
-            # Nothing is lost of a sweep without results.
+            # The sweep has no results yet.
             files.remove(self.bundle)
         elif not resume:
             raise ExperimentError(f"'{self.folder}' has results of a sweep: continue it with --resume, or name another folder with --out")
         else:
-            self._require_same(asked)
-        files.write(os.path.join(self.folder, "sweep.json"), json.dumps(asked, indent=2) + "\n")
+            self._require_same(settings)
+        files.write(os.path.join(self.folder, "sweep.json"), json.dumps(settings, indent=2) + "\n")
 
-    def asked(self) -> dict[str, Any]:
-        """Returns what the sweep was asked."""
+    def settings(self) -> dict[str, Any]:
+        """Returns the settings of the sweep."""
         path = os.path.join(self.folder, "sweep.json")
         if not os.path.exists(path):
             raise ExperimentError(f"'{self.folder}' is not a folder of a sweep: it has no sweep.json")
-        asked = _object(path)
-        if asked is None or asked.get("version") != VERSION:
+        settings = _object(path)
+        if settings is None or settings.get("version") != VERSION:
             raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")
-        return asked
+        return settings
 
     def is_complete(self, run: Run) -> bool:
-        """Returns whether the run is complete. A damaged one is deleted, with a message."""
+        """Returns whether the run is complete. Deletes a damaged run with a message."""
         folder = os.path.join(self.runs, run.name)
         if not os.path.lexists(folder):
             return False
         record = self.record(run)
         damaged = ["run.json"] if record is None else [name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest]
         if record is None or damaged:
-            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged: the run is repeated", file=sys.stderr)
+            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged; repeating the run", file=sys.stderr)
             files.remove(folder)
             return False
         return bool(record["status"] == "complete")
 
     def record(self, run: Run) -> dict[str, Any] | None:
-        """Returns run.json of a run that has ended, or None."""
+        """Returns run.json of a finished run, or None."""
         record = _object(os.path.join(self.runs, run.name, "run.json"))
         if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
             return None
@@ -103,26 +103,26 @@ class Store:
         return part
 
     def finish(self, run: Run, outcome: Outcome, seconds: float) -> None:
-        """Gives the folder of a run that ended its name."""
+        """Writes run.json of a finished run and renames its folder."""
         folder = os.path.join(self.runs, run.name)
         part = folder + PART
         names = [entry.name for entry in os.scandir(part) if entry.is_file(follow_symlinks=False) and entry.name != MARKER]
         results = {name: _hash(os.path.join(part, name)) for name in sorted(names)}
         if outcome.status == "complete" and not set(RESULTS) <= results.keys():
-            outcome = Outcome("failed", f"the run wrote no {' or '.join(name for name in RESULTS if name not in results)}")
+            outcome = Outcome("failed", f"the run did not write {' and '.join(name for name in RESULTS if name not in results)}")
         record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}
         files.write(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
         files.remove(folder)
         files.publish(folder)
 
-    def _require_same(self, asked: dict[str, Any]) -> None:
+    def _require_same(self, settings: dict[str, Any]) -> None:
         former = _object(os.path.join(self.folder, "sweep.json"))
         if former is None:
-            print(f"collektive: '{os.path.join(self.folder, 'sweep.json')}' is damaged: it is written again from the experiment", file=sys.stderr)
+            print(f"collektive: '{os.path.join(self.folder, 'sweep.json')}' is damaged; writing it again from the experiment file", file=sys.stderr)
             return
         for key in ("version", "keys", "set"):
-            if former.get(key) != asked[key]:
-                raise ExperimentError(f"'{self.folder}' is of a sweep with {json.dumps(former.get(key))} as its {key}, not {json.dumps(asked[key])}: "
+            if former.get(key) != settings[key]:
+                raise ExperimentError(f"'{self.folder}' belongs to a sweep whose '{key}' is {json.dumps(former.get(key))}, not {json.dumps(settings[key])}: "
                                       "name another folder with --out")
 
 

@@ -1,4 +1,4 @@
-"""Runs an experiment: local workers, one progress line, tables at the end."""
+"""Runs an experiment with local workers, and writes the tables."""
 import math
 import os
 import queue
@@ -20,11 +20,11 @@ from .store import Store
 from .worker import Outcome, Worker, WorkerError
 
 LEAST_ROOM = 1 << 20
-"""Bytes that a disk must have left for the next run."""
+"""Bytes that must be free on the disk before each run."""
 
 REPEATED_SHARE = 0.02
 LEAST_REPEATED = 3
-"""A share of the runs, and at least so many, is repeated in processes of their own: results must not depend on earlier runs."""
+"""Share and minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
 
 MOST_EQUAL_FAILURES = 5
 """After so many first runs that failed with one message, the others would fail, too."""
@@ -35,17 +35,17 @@ Ended = tuple[Run, Outcome]
 
 
 class Pool(Protocol):
-    """Does runs; each that ends is put into a queue, with the results in its place in the store."""
+    """Executes runs. Stores the results of each finished run and adds it to a queue."""
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
-        """Begins with the runs, in order."""
+        """Starts the runs, in order."""
 
     def stop(self) -> None:
-        """Ends the runs at hand."""
+        """Cancels the current runs."""
 
 
 class LocalPool:
-    """Workers of this machine, each with a process of its own."""
+    """Workers on this machine, each with its own process."""
 
     def __init__(self, store: Store, jobs: int, limit: float, trust: bool):
         self._store = store
@@ -58,14 +58,14 @@ class LocalPool:
         self._stopped = False
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
-        """Begins with the runs, those with the same JVM after each other."""
+        """Starts the runs, grouped by JVM settings."""
         self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
         self._threads = [threading.Thread(target=self._work, args=(worker, ended)) for worker in self._workers]
         for thread in self._threads:
             thread.start()
 
     def stop(self) -> None:
-        """Ends the current runs, and the workers. Idle workers exit by themselves."""
+        """Cancels the current runs and stops the workers."""
         with self._lock:
             self._stopped = True
             for worker in self._running:
@@ -96,27 +96,27 @@ class LocalPool:
 
 
 def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
-    """Creates the folder with everything that runs need, checks the keys, and returns the runs that are not complete yet."""
+    """Creates the folder and the bundle, validates the keys, and returns the runs that are not complete."""
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
     _check_keys(experiment, store, trust)
     todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
-        print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are done already", file=sys.stderr)
+        print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)
     repeated = set(_spread(len(todo)))
     return [(run, index in repeated) for index, run in enumerate(todo)]
 
 
 def _spread(count: int) -> Iterable[int]:
-    """Returns the indices of the runs that are repeated. The last of each interval has the most runs before it."""
+    """Returns the indices of the runs that are repeated: the last one of each interval, which has the most runs before it."""
     size = min(count, max(LEAST_REPEATED, math.ceil(count * REPEATED_SHARE)))
     return ((index + 1) * count // size - 1 for index in range(size))
 
 
 def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool, keep_going: bool = False) -> int:
-    """Runs what is not done yet. If the first runs all fail in the same way, the others run only with `keep_going`.
+    """Executes the remaining runs and writes the tables. If the first runs all fail in the same way, the others run only with `keep_going`.
 
-    Returns the exit code: 0 when all runs are complete, 1 when some are not, 130 after Ctrl-C.
+    Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C.
     """
     code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MOST_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
@@ -127,7 +127,7 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 
 
 def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
-    """About how many seconds the sweep takes, from two runs of it: the first and the one in the middle, the latter twice in one process."""
+    """Estimates the seconds of the sweep from trial runs: the first one, and the middle one twice in one process."""
     runs = list(experiment.runs())
     with tempfile.TemporaryDirectory(prefix="collektive-") as folder, Store(os.path.join(folder, "out")) as store:
         begin(experiment, store, False, trust)
@@ -168,28 +168,28 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
             if outcome.status != "complete":
                 failed += 1
                 messages.add(outcome.message)
-                progress.say(f"{run.name}: {outcome.status}: {outcome.message}")
+                progress.print(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
             if failed >= most_equal and progress.done == 0 and len(messages) == 1:
                 raise ExperimentError(f"the sweep stops: its first {failed} runs all failed in the same way; correct the cause and continue with "
                                       "--resume, or run all with --keep-going")
             if outcome.status == "differs":
-                raise ExperimentError(f"the sweep stops: runs of '{run.name}' gave different results; the program or the scene reads something other than its "
+                raise ExperimentError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
                                       "inputs, such as a clock, a file or a random number without the scenario's seed")
     except (OSError, WorkerError) as error:
         progress.end()
-        raise ExperimentError(f"the sweep stops: {error}; complete runs are kept: continue with --resume") from error
+        raise ExperimentError(f"the sweep stopped: {error}; to continue, add --resume") from error
     finally:
         pool.stop()
         for number, handler in handlers.items():
             signal.signal(number, handler)
     progress.end()
     if interrupted:
-        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are done: continue with --resume", file=sys.stderr)
+        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are complete; to continue, add --resume", file=sys.stderr)
         return 128 + interrupted[0]
     if failed:
-        print(f"collektive: {failed} of {experiment.count} runs are not complete; --resume runs these again", file=sys.stderr)
+        print(f"collektive: {failed} of {experiment.count} runs are not complete; to repeat them, add --resume", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -199,7 +199,7 @@ def _require_room(store: Store) -> None:
 
 
 def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
-    """Asks the player about each value of each key, with the first values of the others."""
+    """Validates each value of each key with the player, combined with the first values of the other keys."""
     worker = Worker(store.bundle, os.path.join(store.logs, "check.txt"), trust)
     located = experiment.located
     try:
@@ -224,12 +224,12 @@ def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
 
 
 def _sample(values: list[object]) -> list[object]:
-    """Ranges are of one kind: their ends tell as much as all of them."""
+    """Returns the values to check. Long lists are ranges, whose last value is sufficient."""
     return values if len(values) <= 100 else [*values[:99], values[-1]]
 
 
 class Progress:
-    """One line on a terminal; elsewhere one every ten seconds."""
+    """Shows progress in one line of a terminal, or prints a line every ten seconds."""
 
     def __init__(self, total: int, done: int, jobs: int):
         self.done = done
@@ -246,7 +246,7 @@ class Progress:
         self.show()
 
     def show(self, at_once: bool = False) -> None:
-        """Shows the line if it is time to."""
+        """Updates the line, at most five times a second."""
         now = time.monotonic()
         if now < self._next and not at_once:
             return
@@ -258,8 +258,8 @@ class Progress:
         line = f"{ended}/{self._total} runs, {self._failed} failed, {min(self._jobs, left)} running{remaining}"
         print("\r" + line + "\033[K" if sys.stderr.isatty() else line, end="" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
 
-    def say(self, line: str) -> None:
-        """Prints a line of its own."""
+    def print(self, line: str) -> None:
+        """Prints a separate line."""
         print(("\r\033[K" if sys.stderr.isatty() else "") + line, file=sys.stderr, flush=True)
 
     def end(self) -> None:
@@ -270,7 +270,7 @@ class Progress:
 
 
 def duration(seconds: float) -> str:
-    """A time in words."""
+    """Formats a duration."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

@@ -1,4 +1,4 @@
-"""Tables of a sweep, as Parquet and CSV."""
+"""Writes the tables of a sweep as Parquet and CSV."""
 import csv
 import json
 import math
@@ -19,7 +19,7 @@ from .experiment import Experiment, Run, text
 from .store import Store
 
 BATCH = 2000
-"""Rows that are kept in memory."""
+"""Number of rows that are kept in memory."""
 COUNTS = ("links", "sent", "dropped", "delayed", "expired")
 TIMES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
 RUN_COLUMNS: list[tuple[str, pa.DataType]] = [
@@ -35,7 +35,7 @@ Record = dict[str, Any]
 
 
 class Table:
-    """A table that is written row by row; the file appears when it is complete."""
+    """A table that is written row by row and published when it is complete."""
 
     def __init__(self, path: str, schema: pa.Schema, with_csv: bool):
         self._schema = schema
@@ -76,7 +76,7 @@ class Table:
 
 
 def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
-    """Writes the tables of all runs of the experiment that have ended. Returns how many of its runs are a row of the written table."""
+    """Writes the tables of all finished runs. Returns the number of runs in the written table."""
     columns = _Columns(experiment, store)
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((f"converged.{name}", pa.float64()) for name in columns.converged), *RUN_TIMES,
@@ -103,19 +103,19 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
 
 
 def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> int:
-    """Returns how many runs have one row in the written table, and all their rows in the series."""
+    """Returns the number of runs that have one row in runs.parquet and all rows in series.parquet."""
     written = Counter(pq.read_table(os.path.join(store.folder, "runs.parquet"), columns=["run"])["run"].to_pylist())
     series = Counter(pq.read_table(os.path.join(store.folder, "series.parquet"), columns=["run"])["run"].to_pylist())
     return sum(written[run.name] == 1 and series[run.name] == rows.get(run.name, 0) for run in experiment.runs())
 
 
 class _Columns:
-    """The columns of the tables, as the runs have them, and their values."""
+    """The columns of the tables and their values."""
 
     def __init__(self, experiment: Experiment, store: Store):
         self._experiment = experiment
         self._store = store
-        self._odd: dict[str, set[str]] = {}
+        self._not_finite: dict[str, set[str]] = {}
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
         self.rows: dict[str, int] = {}
@@ -143,19 +143,19 @@ class _Columns:
         self.converged = list(converged)
 
     def records(self) -> Iterator[tuple[Run, Record]]:
-        """The runs that have ended, in the experiment's order, with their run.json."""
+        """Yields the finished runs in the experiment's order, with their run.json."""
         for run in self._experiment.runs():
             if record := self._store.record(run):
                 yield run, record
 
     def values(self, run: Run) -> dict[str, Any]:
-        """The run's parameters; the seed also when it does not vary."""
+        """Returns the run's parameters, always with the seed."""
         seed = self._manifest(run).get("scenario", {}).get("seed")
         found = {"seed": seed, **run.values}
         return {key: _value(found.get(key), kind) for key, kind in self.parameters}
 
     def results(self, run: Run, record: Record) -> dict[str, Any]:
-        """The rest of the run's row. A run that was not complete has no results: they would be of half a run."""
+        """Returns the rest of the run's row. Incomplete runs have no results."""
         row = {"status": record["status"], "message": record["message"] or None}
         if record["status"] != "complete":
             return row
@@ -167,7 +167,7 @@ class _Columns:
         return row
 
     def series(self, run: Run) -> Iterator[dict[str, Any]]:
-        """The rows of metrics.csv: the second, the scene's metrics, counts and times."""
+        """Yields the rows of metrics.csv: the second, metrics, counts and times."""
         table = self._table(run, "metrics.csv")
         names = next(table)[1:-len(COUNTS + TIMES)]
         self.rows[run.name] = 0
@@ -179,7 +179,7 @@ class _Columns:
                    **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
 
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
-        """The rows of nodes.csv."""
+        """Yields the rows of nodes.csv."""
         convert: dict[str, Callable[[str], Any]] = {
             name: (lambda cell: cell == "true") if kind == pa.bool_() else _finite if kind == pa.float64() else str for name, kind in self.nodes.items()}
         if not self._has_nodes(run):
@@ -190,21 +190,21 @@ class _Columns:
             yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names[2:], cells[2:]) if cell}}
 
     def warn(self) -> None:
-        """Reports metrics whose cells are empty since they are not finite."""
-        for name, runs in self._odd.items():
-            print(f"collektive: the metric '{name}' is NaN or infinite in {len(runs)} runs, such as '{min(runs)}': these cells are empty", file=sys.stderr)
+        """Warns about metrics that are NaN or infinite, whose cells are empty."""
+        for name, runs in self._not_finite.items():
+            print(f"collektive: the metric '{name}' is NaN or infinite in {len(runs)} runs, such as '{min(runs)}'; these cells are empty", file=sys.stderr)
 
     def _number(self, run: Run, name: str, value: Any) -> float | None:
-        """A metric. The player writes NaN and infinity as text."""
+        """Returns a metric, or None if it is not finite. The player writes NaN and infinity as text."""
         if value is None or value == "":
             return None
         number = _finite(str(value).replace("∞", "inf"))
         if number is None:
-            self._odd.setdefault(name, set()).add(run.name)
+            self._not_finite.setdefault(name, set()).add(run.name)
         return number
 
     def _add_node_columns(self, run: Run) -> None:
-        """A column's type is that of its first cell with a value; the player puts strings in quotes."""
+        """Sets the type of each column from its first cell with a value. The player quotes strings."""
         if not self._has_nodes(run) or (self.nodes and pa.null() not in self.nodes.values()):
             return
         table = self._table(run, "nodes.csv", raw=True)
@@ -229,7 +229,7 @@ class _Columns:
         return manifest
 
     def _table(self, run: Run, name: str, raw: bool = False) -> Iterator[list[str]]:
-        """The rows of a CSV file; raw cells keep their quotes."""
+        """Yields the rows of a CSV file. Raw cells keep their quotes."""
         with open(os.path.join(self._store.runs, run.name, name), newline="", encoding="utf-8") as file:
             if not raw:
                 yield from csv.reader(file)
@@ -262,7 +262,7 @@ def _type_of(values: list[Any]) -> pa.DataType:
 
 
 def _value(value: Any, kind: pa.DataType) -> Any:
-    """A parameter in its column."""
+    """Converts a parameter to the type of its column."""
     return None if value is None else text(value) if kind == pa.string() else float(value) if kind == pa.float64() else value
 
 

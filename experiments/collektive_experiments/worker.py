@@ -1,4 +1,4 @@
-"""Processes of the player, which run scenarios."""
+"""Runs scenarios in processes of the player."""
 import json
 import os
 import secrets
@@ -12,32 +12,32 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import files
-from .programs import leave_state
+from .programs import can_leave_state
 
 MAX_TAIL = 4000
 MAX_START_SECONDS = 120.0
-"""Until a process accepts runs."""
+"""Time limit until a process accepts runs."""
 MAX_EXIT_SECONDS = 2.0
 REPEATED = "repeated"
-"""Folder of a repetition, in that of the run until both are compared."""
+"""Folder of a repetition inside the run's folder, deleted after the comparison."""
 
 
 class WorkerError(Exception):
-    """A worker could not be started at all."""
+    """A worker could not be started."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended."""
+    """The outcome of a run."""
     status: str
-    """`complete`; `failed`: it ended with an error; `crashed`: its process died; `timeout`: it took too long; `differs`: a repetition gave another result."""
+    """`complete`, `failed` (with an error), `crashed` (the process ended), `timeout`, or `differs` (a repetition had another result)."""
     message: str = ""
 
 
 class _Process:
     """
-    A process of the player, with the JVM for its runs, unless it only checks keys. Requests and answers go through a socket that no child of the process
-    inherits; what the process prints goes to a log. It ends when the socket is closed.
+    A process of the player, with a JVM unless it only checks keys. Requests and responses use a socket that children of the process do not inherit.
+    Output goes to a log. The process ends when the socket is closed.
     """
 
     def __init__(self, bundle: str, log: str, trust: bool, jvm: str | None):
@@ -50,19 +50,19 @@ class _Process:
         library_path = os.environ.get("LD_LIBRARY_PATH")
         with open(os.path.join(bundle, "inputs.json"), encoding="utf-8") as file:
             inputs = json.dumps(json.load(file)["hashes"])
-        self._channel, theirs = socket.socketpair()
-        with theirs, files.open_log(log) as output:
+        self._channel, child_end = socket.socketpair()
+        with child_end, files.open_log(log) as output:
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
                  "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", os.path.join(bundle, "programs.jar"),
-                 "--host-jar", os.path.join(bundle, "jars/collektive-host.jar"), "--java-home", java_home(), "--channel", str(theirs.fileno()),
+                 "--host-jar", os.path.join(bundle, "jars/collektive-host.jar"), "--java-home", java_home(), "--channel", str(child_end.fileno()),
                  "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
-                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
                 env={**os.environ, "LD_LIBRARY_PATH": os.path.join(bundle, "native") + (":" + library_path if library_path else "")})
         self._ready = "" if jvm is None else self._send({"start": True, "set": json.loads(jvm)})
 
     def keeps_state(self) -> bool | Outcome:
-        """Waits until the process accepts runs; returns whether its scripts could leave something behind."""
+        """Waits until the process accepts runs. Returns whether its scripts may keep state between runs."""
         if self._keeps_state is None:
             answer = self._receive(self._ready, MAX_START_SECONDS)
             if isinstance(answer, Outcome):
@@ -70,19 +70,19 @@ class _Process:
             self._keeps_state = answer["keepsState"] is not None
         return self._keeps_state
 
-    def ask(self, request: dict[str, Any], limit: float) -> dict[str, Any] | Outcome:
-        """Returns the answer to a request, or how the process ended instead."""
+    def request(self, request: dict[str, Any], limit: float) -> dict[str, Any] | Outcome:
+        """Returns the response to a request, or the outcome if the process ended."""
         return self._receive(self._send(request), limit)
 
     def kill(self) -> None:
-        """Ends the process and its children; may be called from another thread."""
+        """Kills the process and its children. Any thread may call it."""
         try:
             os.killpg(self._process.pid, signal.SIGKILL)
         except ProcessLookupError:
             pass
 
     def end(self) -> None:
-        """Ends the process, and waits for that."""
+        """Ends the process and waits for its exit."""
         self._channel.close()
         self.kill()
         self._process.wait()
@@ -114,10 +114,10 @@ class _Process:
             except ConnectionError:
                 data = b""
             if not data:
-                return Outcome("crashed", self._death() + self._tail(start))
+                return Outcome("crashed", self._exit_outcome() + self._tail(start))
             self._pending += data
 
-    def _death(self) -> str:
+    def _exit_outcome(self) -> str:
         try:
             code = self._process.wait(MAX_EXIT_SECONDS)
         except subprocess.TimeoutExpired:
@@ -126,7 +126,7 @@ class _Process:
         return f"the process ended with signal {signal.Signals(-code).name}" if code < 0 else f"the process ended with code {code}"
 
     def _tail(self, start: int) -> str:
-        """Returns the last line that the process printed since then."""
+        """Returns the last line of the log after an offset."""
         with open(self._log, "rb") as file:
             file.seek(max(start, os.path.getsize(self._log) - MAX_TAIL))
             printed = file.read().decode(errors="replace").strip()
@@ -135,23 +135,23 @@ class _Process:
 
 class Worker:
     """
-    Runs the bundle's scenario, one run after the other. A process is used again only if neither scripts nor programs can leave something
-    behind; otherwise the process of the next run starts during a run. One thread uses a worker.
+    Runs the bundle's scenario repeatedly. A process is reused only if neither scripts nor programs can keep state; otherwise the process of the next
+    run starts during a run. Not thread-safe, except `kill`.
     """
 
     def __init__(self, bundle: str, log: str, trust: bool = False):
         self._bundle = bundle
         self._log = log
         self._trust = trust
-        self._programs_keep_state = leave_state(os.path.join(bundle, "programs.jar"))
+        self._programs_keep_state = can_leave_state(os.path.join(bundle, "programs.jar"))
         self._idle: _Process | None = None
         self._busy: _Process | None = None
         self._closed = False
 
     def run(self, settings: dict[str, Any], jvm: str, out: str, limit: float, is_repeated: bool) -> Outcome:
         """
-        Runs the scenario into a new folder; `limit` in seconds. A run that is repeated runs a second time in a process of its own, and the
-        results of both must be equal.
+        Runs the scenario with `out`, a new folder; `limit` is in seconds. With `is_repeated`, runs it again in a fresh process, and both results
+        must be equal.
         """
         outcome = self._run(settings, jvm, out, limit, fresh=False)
         if outcome.status != "complete" or not is_repeated:
@@ -166,22 +166,22 @@ class Worker:
         return Outcome("differs", problem) if problem else outcome
 
     def check(self, settings: dict[str, Any]) -> tuple[str | None, list[str]]:
-        """Returns what is wrong with a scenario's keys, or None; and the scene's metrics."""
+        """Returns the error in a scenario's keys, or None, and the scene's metrics."""
         process = self._idle = self._idle or self._start(None)
-        answer = process.ask({"check": True, "set": settings}, MAX_START_SECONDS)
+        answer = process.request({"check": True, "set": settings}, MAX_START_SECONDS)
         if isinstance(answer, Outcome):
             raise WorkerError(f"the player does not start: {answer.message}")
         return answer["problem"], answer["metrics"] or []
 
     def stop(self) -> None:
-        """Ends the processes, if there are any."""
+        """Ends all processes of the worker."""
         for process in (self._busy, self._idle):
             if process is not None:
                 process.end()
         self._busy = self._idle = None
 
     def kill(self) -> None:
-        """Ends the run at once, and starts no other; may be called from another thread."""
+        """Cancels the current run and prevents others. Any thread may call it."""
         self._closed = True
         process = self._busy
         if process is not None:
@@ -200,7 +200,7 @@ class Worker:
             if keeps_state or self._programs_keep_state:
                 self._idle = self._start(jvm)
             process.is_fresh = False
-            answer = process.ask({"out": os.path.abspath(out), "set": settings}, limit)
+            answer = process.request({"out": os.path.abspath(out), "set": settings}, limit)
             if isinstance(answer, Outcome):
                 return answer
             if answer["again"] and self._idle is None:
@@ -208,7 +208,7 @@ class Worker:
             if answer["code"] != 0:
                 return Outcome("failed", _last_error(os.path.join(out, "log.txt")))
             outcome = _manifest(out).get("outcome")
-            return Outcome("complete") if outcome == "complete" else Outcome("failed", f"its manifest is not complete: {outcome}")
+            return Outcome("complete") if outcome == "complete" else Outcome("failed", f"the manifest's outcome is '{outcome}', not 'complete'")
         finally:
             if self._busy is not None:
                 self._busy.end()
@@ -238,18 +238,18 @@ def _manifest(folder: str) -> dict[str, Any]:
 
 
 def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
-    """Returns how the results of a run and of its repetition differ, or nothing."""
+    """Returns how the results of a run and its repetition differ, or an empty text."""
     if first.get("digest") != second.get("digest"):
-        return f"its digest was {first.get('digest')}, and {second.get('digest')} when it was repeated in a process of its own"
+        return f"the digest was {first.get('digest')}, but {second.get('digest')} when repeated in a fresh process"
     for key in ("ticks", "nodes", "errors", "end", "converged"):
         if first.get(key) != second.get(key):
-            return (f"'{key}' was {json.dumps(first.get(key))}, and {json.dumps(second.get(key))} when it was repeated in a process of its own "
+            return (f"'{key}' was {json.dumps(first.get(key))}, but {json.dumps(second.get(key))} when repeated in a fresh process "
                     f"(digest {first.get('digest')} in both)")
     return ""
 
 
 def java_home() -> str:
-    """The JDK or JRE that runs simulations: COLLEKTIVE_JAVA_HOME, JAVA_HOME, or the newest of this machine."""
+    """Returns the JDK or JRE that runs simulations: COLLEKTIVE_JAVA_HOME, JAVA_HOME, or the newest one on this machine."""
     for name in ("COLLEKTIVE_JAVA_HOME", "JAVA_HOME"):
         if os.environ.get(name):
             return os.environ[name]

@@ -238,7 +238,7 @@ def try_case(case: Case, folder: Path) -> None:
     sweep()
     if chance.random() < 0.5:
         count = damage(chance, out)
-        require(sweep("--resume").count("is damaged: the run is repeated") == count, f"not {count} runs were damaged")
+        require(sweep("--resume").count("is damaged; repeating the run") == count, f"not {count} runs were damaged")
     if chance.random() < 0.4 and case.grow():
         fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
         sweep("--resume")

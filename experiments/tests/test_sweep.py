@@ -97,7 +97,7 @@ def test_a_sweep_that_is_done_does_nothing_again_and_takes_more_values(lamps: Pr
     assert "continue it with --resume" in refused.stderr
     resumed = lamps.sweep("--resume", "--csv", **EIGHT)
     assert resumed.returncode == 0, resumed.stderr
-    assert "8 of 8 runs are done already" in resumed.stderr
+    assert "8 of 8 runs are already complete" in resumed.stderr
     assert record.stat().st_mtime_ns == before
     other = lamps.sweep("--resume", **{**EIGHT, "set": {"seconds": 3}})
     assert "name another folder with --out" in other.stderr
@@ -185,7 +185,7 @@ def test_after_kill_9_of_the_driver_and_of_a_worker_it_goes_on_to_the_same_table
     await_no_worker(project)
     resumed = project.sweep("--resume", **MANY)
     assert resumed.returncode == 0, resumed.stderr
-    assert "of 30 runs are done already" in resumed.stderr
+    assert "of 30 runs are already complete" in resumed.stderr
     whole = project.sweep(out="whole", **MANY)
     assert whole.returncode == 0, whole.stderr
     assert project.digests() == project.digests("whole")
@@ -229,7 +229,7 @@ def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: P
     assert 0 < done < 40
     resumed = subprocess.run(project.command("sweep", experiment, "--out", str(keep), "--resume"), capture_output=True, text=True, timeout=120)
     assert resumed.returncode == 0, resumed.stderr
-    assert f"{done} of 40 runs are done already" in resumed.stderr
+    assert f"{done} of 40 runs are already complete" in resumed.stderr
     assert len(set(project.table()["run"])) == 40
 
 
@@ -297,6 +297,6 @@ def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
     # A task that never ran is made up for.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
-    assert "3 of 4 runs are done already" in resumed.stderr
+    assert "3 of 4 runs are already complete" in resumed.stderr
     digests = lamps.digests()
     assert lamps.digests("slurm") == {run: digest for run, digest in digests.items() if "lamps=5" in run}

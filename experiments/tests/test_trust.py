@@ -172,9 +172,9 @@ def test_damaged_results_are_repeated_by_resume(project: Project, damage: str) -
     (project.folder / "out/sweep.json").write_text("")
     result = project.sweep("--resume", **keys)
     assert result.returncode == 0, result.stderr
-    assert result.stderr.count("is damaged: the run is repeated") == 3
+    assert result.stderr.count("is damaged; repeating the run") == 3
     assert "sweep.json' is damaged: it is written again" in result.stderr
-    assert "1 of 4 runs are done already" in result.stderr
+    assert "1 of 4 runs are already complete" in result.stderr
     assert project.digests() == before
 
 

@@ -15,7 +15,7 @@
 
 const char *const host_classes = TEST_HOST_CLASSES;
 const char *const host_jar = TEST_HOST_JAR;
-const char *const misfit_classes = TEST_MISFIT_CLASSES;
+const char *const incompatible_classes = TEST_INCOMPATIBLE_CLASSES;
 clk_slot request;
 clk_memory request_memory = {.size = sizeof request_memory};
 clk_answer answer = {.size = sizeof answer};

@@ -26,7 +26,7 @@ const char *java_home(void);
 bool java_is_17(void);
 extern const char *const host_classes;
 extern const char *const host_jar; /* the same classes */
-extern const char *const misfit_classes;
+extern const char *const incompatible_classes;
 
 /* Makes a folder below the current one. Static storage, valid until the next call. */
 const char *scratch_folder(void);
@@ -70,7 +70,7 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(slot_arguments) X(slot_handles) X(slot_growth_keeps_the_tail) X(slots_are_reused) X(slots_agree_with_a_model) \
     X(home_missing) X(home_of_an_old_version) X(home_of_another_platform) X(home_is_a_file) X(home_without_libjvm) X(home_without_modules) \
     X(home_with_a_broken_libjvm) X(files_that_cannot_be_read) X(home_without_java_command) \
-    X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_misfit) \
+    X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_incompatible_host) \
     X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) \
     X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
     X(long_lines_of_the_jvm) X(refusals_are_cut_at_a_character) X(checks_take_turns_after_a_loss) \

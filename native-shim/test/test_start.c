@@ -195,10 +195,10 @@ void class_path_without_host(void) {
     check_lost();
 }
 
-void class_path_with_misfit(void) {
-    CHECK_CODE(CLK_HOST, "lacks a method", start_at(java_home(), misfit_classes, NULL, true, 60000));
+void class_path_with_incompatible_host(void) {
+    CHECK_CODE(CLK_HOST, "lacks a method", start_at(java_home(), incompatible_classes, NULL, true, 60000));
     check_lost();
-    check_threads_stand_still(); /* clk_jvm_stop halted the thread of the misfit */
+    check_threads_stand_still(); /* clk_jvm_stop halted the thread of the incompatible host */
 }
 
 /* ---- Options --------------------------------------------------------------------------------------------------------- */
@@ -482,7 +482,7 @@ void second_start(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m", "-Xss2m")));
     CHECK_CODE(CLK_JVM_RUNNING, "restart the process", start(OPTIONS("-Xmx65m", "-Xss2m")));
     CHECK_CODE(CLK_JVM_RUNNING, NULL, start(OPTIONS("-Xmx64m")));
-    CHECK_CODE(CLK_JVM_RUNNING, NULL, start_at(java_home(), misfit_classes, OPTIONS("-Xmx64m", "-Xss2m"), true, 60000));
+    CHECK_CODE(CLK_JVM_RUNNING, NULL, start_at(java_home(), incompatible_classes, OPTIONS("-Xmx64m", "-Xss2m"), true, 60000));
     CHECK(clk_jvm_state() == CLK_STATE_RUNNING);
 
     char expected[4096];

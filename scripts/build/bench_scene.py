@@ -1,4 +1,4 @@
-"""The case study at several sizes, each in a process of its own: what whole ticks cost."""
+"""Benchmark of whole ticks: the case study at several sizes, each in its own process."""
 import csv
 import json
 import math
@@ -18,15 +18,15 @@ from build.places import COLLEKTIVE, ROOT
 SAMPLE = ROOT / "unity/Samples~/GradientAscent"
 PHASES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
-# Of which so many nodes have the field of the sample as it is.
+# The number of nodes for which the sample's field is not scaled.
 NODES_OF_FIELD = 500
-# Simulated: until then the compilers work, and after that small swarms arrive and crowd.
+# Simulated seconds: measuring starts after the warm-up of the JIT compilers and ends before small swarms crowd at the source.
 SECONDS, SETTLED = 10, 6
 QUICK_SECONDS, QUICK_SETTLED = 4, 2
 
 
 def scenario(nodes: int, seconds: int) -> dict[str, Any]:
-    """The sample's scenario with so many nodes, as far apart as its 500, and with tables only."""
+    """Returns the sample's scenario with a number of nodes at the density of the sample, and with tables only."""
     whole: dict[str, Any] = json.loads((SAMPLE / "scenario.json").read_text())
     for key in ("scripts", "schema", "programs"):
         whole[key] = os.path.normpath(os.path.join(SAMPLE, whole[key]))
@@ -36,11 +36,11 @@ def scenario(nodes: int, seconds: int) -> dict[str, Any]:
 
 
 def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
-    """The row of one size: the mean tick of the settled seconds, and its phases."""
+    """Measures one size. Returns the mean tick after the warm-up, and its phases."""
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder, "scene.json"), Path(folder, "out")
-        what = scenario(nodes, seconds)
-        path.write_text(json.dumps(what))
+        settings = scenario(nodes, seconds)
+        path.write_text(json.dumps(settings))
         process = subprocess.Popen([COLLEKTIVE, "run", path, "--out", out], stdout=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -52,7 +52,7 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
     def mean(column: str) -> float:
         return sum(float(row[column]) for row in rows) / len(rows)
 
-    return {"nodes": nodes, "threads": what["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
+    return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
             **{phase: round(mean(phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1)}
 
 
@@ -61,7 +61,7 @@ def micros_per_node(row: dict[str, Any]) -> float:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """With what a node costs in a tick, and that relative to the first row."""
+    """Formats the rows, with the time of a tick per node, also relative to the first row."""
     columns = ["nodes", "ticks/s", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "RSS MB", "us a node", "growth"]
     cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
               f"{micros_per_node(row):.2f}", f"{micros_per_node(row) / micros_per_node(rows[0]):.2f}"] for row in rows]
@@ -83,7 +83,7 @@ def sizes_of(text: str) -> list[int]:
 def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
     graph.build("runtime")
-    # Before the runs: their memory is measured with that of all processes that they start.
+    # Compiles before the runs, whose memory includes the processes that they start.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]

@@ -1,4 +1,4 @@
-"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm]: copies what the runs of a sweep need to a folder. Sweeps call it.
+"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm]: copies the inputs of a sweep's runs to a folder. Sweeps call it.
 
 FOLDER/inputs has the files of the scenario's project; FOLDER/inputs.json has their paths in it, and their hashes, by the scenario's keys.
 """
@@ -15,7 +15,7 @@ from build import graph, player
 from build.console import Failure
 from build.inputs import Part
 from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, SHIM
-from collektive import guarded
+from collektive import run_command
 
 ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "Collektive.Bridge.pdb", "Collektive.Unity.dll", "Collektive.Unity.pdb",
               "UnityEngine.dll", "UnityEngine.pdb", "Newtonsoft.Json.dll", "libcollektive_physics.so", "Collektive.Player.exe", "Collektive.Player.pdb")
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _require_within(project: Path, schema: Part) -> None:
-    """Fails if a schema includes files from outside the project's folder, or from outside its own one if it lies elsewhere."""
+    """Raises `Failure` if a schema includes files from outside the project's folder (or its own folder, if the schema is elsewhere)."""
     folder = project if project in schema.path.parents else schema.folder
     for name in schema.files:
         if folder not in Path(os.path.normpath(schema.folder / name)).parents:
@@ -58,4 +58,4 @@ if __name__ == "__main__":
     parser.add_argument("--only-inputs", action="store_true")
     parser.add_argument("--trust-jvm", action="store_true")
     parser.set_defaults(run=run)
-    sys.exit(guarded(parser.parse_args()))
+    sys.exit(run_command(parser.parse_args()))

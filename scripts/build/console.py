@@ -1,4 +1,4 @@
-"""Messages to the user, and logs of long steps."""
+"""Progress messages, and logs of long steps."""
 import os
 import subprocess
 import sys
@@ -14,29 +14,29 @@ _step = ""
 
 
 class Failure(Exception):
-    """Ends the command with a message for the user and an exit code; without one, with the command's code for errors."""
+    """Ends the command with a message and an exit code. The default is the command's exit code for errors."""
 
     def __init__(self, message: str, code: int | None = None) -> None:
         super().__init__(message)
         self.code = code
 
 
-def say(text: str) -> None:
+def print_progress(text: str) -> None:
     """Prints progress, after the seconds since the start."""
     print(f"[{time.time() - STARTED:4.0f}s] {text}", file=sys.stderr, flush=True)
 
 
-def logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
-    """Runs a command with its output in a log file, which is shown if it fails. Successive commands of one name share a log.
+def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
+    """Runs a command with its output in a log file, and prints the log if the command fails. Successive commands of one name share a log.
 
-    Raises `Failure` if the command exits with another code than 0.
+    Raises `Failure` if the exit code is not 0.
     """
     global _step
     path = log or LOGS / f"{name}.log"
     path.parent.mkdir(parents=True, exist_ok=True)
     mode = "a" if name == _step else "w"
     if name != _step:
-        say(f"{name} ...")
+        print_progress(f"{name} ...")
     _step = name
     with path.open(mode, encoding="utf-8") as file:
         code = subprocess.run(command, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode

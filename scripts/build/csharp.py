@@ -1,7 +1,7 @@
 """Compiles C# with Roslyn on Mono.
 
 `csharp.py OUT SOURCE... -- OPTION...` compiles one assembly of netstandard2.1; sources are files and folders. The option `--symbols` stands for
-those that generated code needs.
+the options that generated code needs.
 `csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes the XML documentation alone.
 `csharp.py --roslyn` assembles the compiler in build/roslyn from the SDK that npm has fetched.
 """
@@ -20,7 +20,7 @@ ROSLYN = BUILD / "roslyn"
 FACADE = Path("/usr/lib/mono/4.8-api/Facades/netstandard.dll")
 OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-deterministic+", "-optimize+", "-debug:portable", "-warnaserror+", "-warn:4",
            "-nowarn:1701,1702", "-target:library")
-# References of all that is compiled against the package.
+# References of code that uses the package.
 PACKAGE = tuple(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity"))
 
 
@@ -28,7 +28,7 @@ SYMBOLS = ROOT / "unity/Runtime/Bridge/csc.rsp"
 
 
 def symbols() -> list[str]:
-    """Returns the options that generated code needs: what Unity compiles the bridge with."""
+    """Returns the compiler options of the bridge in Unity, which generated code needs."""
     return [*SYMBOLS.read_text().split(), "-unsafe+"]
 
 
@@ -56,10 +56,10 @@ def compile_assembly(out: Path, files: Sequence[Path], options: Sequence[str]) -
 
 
 def document(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
-    """Writes the XML documentation of an assembly. A public member without one is an error, but for generated code."""
+    """Writes the XML documentation of an assembly. A public member without documentation is an error, except in generated code."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        # Under its own name, which may see internal members of the other assembly.
+        # With its own name, so that it can see internal members of the other assembly.
         assembly = Path(folder, f"Collektive.{out.stem}.dll")
         result = subprocess.run(command(assembly, files, [*options, "-warnaserror-", f"-doc:{out}"]), capture_output=True, text=True)
     missing = [line for line in result.stderr.splitlines() if "CS1591" in line and "/generated/" not in line]
@@ -76,7 +76,7 @@ def assemble_roslyn() -> None:
     compiler = sdk / "Roslyn/bincore"
     for library in [compiler / "Microsoft.CodeAnalysis.dll", compiler / "Microsoft.CodeAnalysis.CSharp.dll", *compiler.glob("System.*.dll"),
                     *(sdk / "Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472").glob("System.*.dll"),
-                    # For netstandard2.0: on Mono and on CoreCLR.
+                    # The build for netstandard2.0 runs on Mono and CoreCLR.
                     *sdk.glob("DotnetTools/dotnet-user-secrets/*/tools/netcoreapp3.1/any/Newtonsoft.Json.dll")]:
         shutil.copy(library, ROSLYN)
     for library in (package / "packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1").glob("*.dll"):

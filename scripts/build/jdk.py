@@ -1,4 +1,4 @@
-"""Java Development Kits of this machine."""
+"""Finds the JDKs of this machine."""
 import os
 import re
 import subprocess
@@ -8,24 +8,24 @@ from pathlib import Path
 from build.console import Failure
 
 OLDEST = 17
-# Variables with options for every JVM, of which a wrong one ends it.
+# Environment variables with options for every JVM.
 OPTIONS = ("JAVA_TOOL_OPTIONS", "JDK_JAVA_OPTIONS", "_JAVA_OPTIONS")
 
 
 def is_jdk(home: Path) -> bool:
-    """Reports whether a folder is a JDK that can be started in a process."""
+    """Returns whether a folder is a JDK with a JVM library."""
     return (home / "lib/server/libjvm.so").exists() and os.access(home / "bin/javac", os.X_OK) and (home / "release").exists()
 
 
 def feature_version(home: Path) -> int:
-    """Returns a JDK's feature version, such as 25, or 0 if its release file does not state one."""
+    """Returns a JDK's feature version, such as 25, or 0 if its release file has none."""
     match = re.search(r'^JAVA_VERSION="(\d+)', (home / "release").read_text(), re.MULTILINE)
     return int(match[1]) if match else 0
 
 
 @cache
 def find_jdk() -> Path:
-    """Returns the JDK that runs simulations: the one that COLLEKTIVE_JAVA_HOME names, or the newest one."""
+    """Returns the JDK that runs simulations: COLLEKTIVE_JAVA_HOME, or else the newest one."""
     named = os.environ.get("COLLEKTIVE_JAVA_HOME")
     if named:
         home = Path(named)
@@ -39,7 +39,7 @@ def find_jdk() -> Path:
 
 
 def _usable(home: Path) -> Path:
-    """Returns a JDK. Raises `Failure` if it does not start with the options that the environment gives to all JVMs."""
+    """Returns the JDK. Raises `Failure` if it does not start with the options in the environment."""
     given = {name: os.environ[name] for name in OPTIONS if os.environ.get(name)}
     if given:
         result = subprocess.run([home / "bin/java", "-version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
@@ -50,7 +50,7 @@ def _usable(home: Path) -> Path:
 
 
 def test_jdks() -> list[Path]:
-    """Returns the JDKs that tests run on: those of this machine, and last the one that runs simulations."""
+    """Returns the JDKs that tests run on. The last one is `find_jdk()`."""
     return [home for home in _installed() if home != find_jdk()] + [find_jdk()]
 
 

@@ -1,9 +1,9 @@
-"""The lock on the build outputs of this checkout."""
+"""A lock on the build outputs of this checkout, shared by processes."""
 import fcntl
 import os
 from collections.abc import Callable
 
-from build.console import say
+from build.console import print_progress
 from build.places import BUILD, ROOT
 
 _descriptor: int | None = None
@@ -15,14 +15,14 @@ def shared() -> None:
 
 
 def exclusive() -> None:
-    """Locks the outputs for changes. Waits for other commands, and reports that."""
+    """Locks the outputs for changes. Prints a message while it waits for other commands."""
     _acquire(fcntl.LOCK_EX)
 
 
 def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
     """Calls `make` with the outputs locked for changes, unless it `is_done`, and locks them for use.
 
-    Of two commands that need the same, the second waits for `make` only, not for what the first one does afterwards.
+    If two commands need the same change, the second waits only for `make`, not for the rest of the first command.
     """
     shared()
     if is_done():
@@ -37,7 +37,7 @@ def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
             return
         exclusive()
         try:
-            # Fails in a checkout that belongs to somebody else, or is read-only.
+            # Fails in a checkout that is read-only or belongs to another user.
             BUILD.mkdir(exist_ok=True)
             os.utime(BUILD)
             make()
@@ -48,7 +48,7 @@ def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
 
 
 def release() -> None:
-    """Releases the lock: for commands that only start other commands, each of which locks by itself."""
+    """Releases the lock. For commands that only start other commands, which take the lock themselves."""
     global _descriptor
     if _descriptor is not None:
         os.close(_descriptor)
@@ -60,7 +60,7 @@ def _acquire(mode: int) -> None:
     if _descriptor is None:
         # The folder itself is locked: `clean` removes every file that could carry the lock.
         _descriptor = os.open(ROOT, os.O_RDONLY)
-        # A run outlives a command that is killed, and still uses the outputs.
+        # A run can outlive a killed command and still use the outputs.
         os.set_inheritable(_descriptor, True)
     _wait(_descriptor, mode)
 
@@ -69,5 +69,5 @@ def _wait(descriptor: int, mode: int) -> None:
     try:
         fcntl.flock(descriptor, mode | fcntl.LOCK_NB)
     except BlockingIOError:
-        say("waiting for another collektive command that uses build/ ...")
+        print_progress("waiting for another collektive command that uses build/ ...")
         fcntl.flock(descriptor, mode)

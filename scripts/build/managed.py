@@ -1,4 +1,4 @@
-""".NET programs of this checkout, with the shim in reach."""
+"""Command lines of .NET programs that load the shim of this checkout."""
 import os
 from collections.abc import Mapping
 from pathlib import Path

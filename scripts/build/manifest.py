@@ -29,7 +29,7 @@ def sources(root: Path) -> list[str]:
 
 
 def for_git(root: str | Path) -> str:
-    """The root's manifest as it must be for a package whose root is the folder unity."""
+    """Returns the manifest for a package whose root is the folder unity."""
     manifest = read(root)
     del manifest["files"]
     for sample in manifest["samples"]:
@@ -38,7 +38,7 @@ def for_git(root: str | Path) -> str:
 
 
 def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
-    """The manifest of the package that holds a platform's JVM."""
+    """Returns the manifest of the package with a platform's JVM."""
     core = read(root)
     return {
         "name": "org.collektive.unity.jvm." + platform,

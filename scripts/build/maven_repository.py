@@ -4,14 +4,14 @@ import os
 import re
 from pathlib import Path
 
-from build.console import say
+from build.console import print_progress
 
 
 def repair() -> bool:
     """Removes jars that differ from the checksum that Maven stored with their download, so that it fetches them again; returns whether there were any."""
     damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1"))]
     for jar in damaged:
-        say(f"removing {jar}, which is damaged; Maven fetches it again")
+        print_progress(f"removing {jar}, which is damaged; Maven fetches it again")
         jar.unlink()
     return bool(damaged)
 

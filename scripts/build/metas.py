@@ -10,12 +10,12 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-# In a package two kinds of files come from the build. The native libraries are for one platform each, by their folder; the managed one is for all.
+# Plugins in the package: a native library for each platform, in the platform's folder, and managed assemblies for all platforms.
 PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
           "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
           "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
 PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
-# By platform: the editor's processor and system, None where there is no editor; the player's platform and processor.
+# By platform: processor and system of the editor, or None without an editor; platform and processor of the player.
 NATIVE = {"win-x64": (("x86_64", "Windows"), "Win64", "x86_64"), "linux-x64": (("x86_64", "Linux"), "Linux64", "x86_64"),
           "linux-arm64": (None, "Linux64", "ARM64"), "mac-x64": (("x86_64", "OSX"), "OSXUniversal", "x86_64"),
           "mac-arm64": (("ARM64", "OSX"), "OSXUniversal", "ARM64")}
@@ -45,7 +45,7 @@ def is_asset(name: str) -> bool:
 
 
 def assets(root: str | Path) -> Iterator[str]:
-    """Paths, relative to root, of everything that Unity would import from the package."""
+    """Yields the paths, relative to root, of all assets in the package."""
     yield from PACKED_ROOT_FILES
     for top in IMPORTED:
         for folder, folders, files in os.walk(os.path.join(root, top)):
@@ -55,18 +55,18 @@ def assets(root: str | Path) -> Iterator[str]:
 
 
 def guid_for(asset: str, package: str = "org.collektive.unity") -> str:
-    """The GUID that a new asset gets."""
+    """Returns the GUID of a new asset."""
     return hashlib.md5((package + "/" + asset.replace(os.sep, "/")).encode()).hexdigest()
 
 
 def guid_in(meta: str) -> str | None:
-    """The GUID in the text of a meta; None when there is none."""
+    """Returns the GUID in the text of a meta, or None."""
     match = re.search(r"^guid: ([0-9a-f]{32})$", meta, re.M)
     return match[1] if match else None
 
 
 def native(platform: str) -> str:
-    """The importer of a platform's native library."""
+    """Returns the importer of a platform's native library."""
     editor, player, processor = NATIVE[platform]
     in_editor = "\n        DefaultValueInitialized: true"
     if editor:
@@ -87,21 +87,21 @@ def meta_of(root: str | Path, asset: str, package: str = "org.collektive.unity")
 
 
 def problems(root: str | Path) -> Iterator[str]:
-    """One line for each missing meta, meta without an asset, broken GUID, and GUID used twice."""
+    """Yields a line for each missing meta, meta without an asset, invalid GUID and duplicate GUID."""
     known: dict[str, str] = {}
-    wanted = set()
+    expected = set()
     for asset in assets(root):
         meta = os.path.join(root, asset + ".meta")
-        wanted.add(os.path.abspath(meta))
+        expected.add(os.path.abspath(meta))
         if not os.path.exists(meta):
-            yield f"{asset}: no .meta (run scripts/build/metas.py)"
+            yield f"{asset}: the .meta file is missing; run scripts/build/metas.py"
             continue
         with open(meta) as file:
             guid = guid_in(file.read())
         if guid is None:
-            yield f"{asset}.meta: no GUID"
+            yield f"{asset}.meta: the GUID is missing or invalid"
         elif guid in known:
-            yield f"{asset}.meta: GUID of {known[guid]} used again"
+            yield f"{asset}.meta: duplicate GUID, also used by {known[guid]}"
         else:
             known[guid] = asset
     for top in IMPORTED:
@@ -109,12 +109,12 @@ def problems(root: str | Path) -> Iterator[str]:
             folders[:] = [name for name in folders if is_asset(name)]
             for name in files:
                 path = os.path.abspath(os.path.join(folder, name))
-                if name.endswith(".meta") and path not in wanted:
-                    yield f"{os.path.relpath(path, root)}: belongs to no asset"
+                if name.endswith(".meta") and path not in expected:
+                    yield f"{os.path.relpath(path, root)}: its asset does not exist; delete the file"
 
 
 def write_missing(root: str | Path) -> None:
-    """Makes the metas that assets below a root lack."""
+    """Writes the missing metas of assets below a root."""
     for asset in assets(root):
         meta = Path(root, asset + ".meta")
         if not meta.exists():

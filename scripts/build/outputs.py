@@ -1,4 +1,4 @@
-"""The folder that a run writes to: prepared before the run, summarized after it."""
+"""The output folder of a run."""
 import contextlib
 import fcntl
 import json
@@ -23,10 +23,10 @@ EARLIER = "earlier.part"
 
 
 @contextlib.contextmanager
-def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
-    """Makes the folder of a run, locks it until this process and its children end, and empties it of results.
+def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
+    """Creates the folder of a run, locks it until this process and its children end, and removes earlier results.
 
-    Results of an earlier run are refused, or removed with `overwrite`. They come back if the run writes no manifest, because of a wrong seed, say.
+    Earlier results are an error without `overwrite`. They are restored if the run writes no manifest, for example because of an invalid seed.
     Raises `Failure` if the folder cannot be used.
     """
     try:
@@ -40,7 +40,7 @@ def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
     except BlockingIOError as error:
         raise Failure(f"another run writes to '{folder}': name another folder with --out") from error
     try:
-        # A command that was killed could not.
+        # A killed command did not restore them.
         _end(folder)
         earlier = _existing(folder, RESULTS)
         if earlier and not overwrite:
@@ -62,14 +62,14 @@ def prepared(folder: Path, overwrite: bool) -> Iterator[None]:
 
 
 def _end(folder: Path) -> None:
-    """Removes the earlier results if a run has begun since, or else brings them back."""
+    """Deletes the earlier results if a new run has begun, and restores them otherwise."""
     earlier = folder / EARLIER
     if not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():
         for name in _existing(folder, UNFINISHED):
             (folder / name).unlink()
-        # The manifest last: with it, a run has begun.
+        # The manifest last, because it marks a run that has begun.
         for name in reversed(_existing(earlier, RESULTS)):
             (earlier / name).rename(folder / name)
     shutil.rmtree(earlier)
@@ -80,7 +80,7 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
 
 
 def require(folder: Path, outcome: str, code: int) -> None:
-    """Raises `Failure` unless a player that ended with the code 0 left a manifest with the outcome, or one that failed says why."""
+    """Raises `Failure` if the manifest contradicts the player's exit code: no manifest, another outcome, or an outcome that was never written."""
     try:
         found = json.loads((folder / "manifest.json").read_text())["outcome"]
     except (OSError, ValueError, KeyError) as error:
@@ -88,16 +88,16 @@ def require(folder: Path, outcome: str, code: int) -> None:
             return
         raise Failure(f"the run wrote no usable manifest to '{folder}': {error}") from error
     if found == RUNNING and code not in SIGNALLED:
-        raise Failure(f"the player ended with code {code} before its run did. Usual causes: endless recursion in a script, a script that ends the process, "
-                      "a crash of the JVM", max(code, 1))
+        raise Failure(f"the player exited with code {code} during the run. Usual causes: infinite recursion in a script, a script that ends the process, "
+                      "a JVM crash", max(code, 1))
     if found != outcome and code == 0:
         raise Failure(f"the run is not complete: {found}")
 
 
 def complete(folder: Path) -> None:
-    """Declares a run complete whose pictures were missing, after these are on disk."""
+    """Marks a run as complete, after its pictures are on disk."""
     manifest, part = folder / "manifest.json", folder / "manifest.json.part"
-    # A replacement in the text: other writers of JSON write other digits.
+    # Replaces text, because parsing and writing JSON could change the digits of numbers.
     part.write_text(manifest.read_text().replace(json.dumps(WITHOUT_PICTURES), json.dumps(COMPLETE), 1))
     for path in (*(folder / name for name in PICTURES), part):
         _sync(path)
@@ -114,7 +114,7 @@ def _sync(path: Path) -> None:
 
 
 def summary(folder: Path) -> list[str]:
-    """Describes what a complete run has written to its folder: how it began and ended, its times, its files."""
+    """Returns a summary of a complete run: metrics at start and end, times and files."""
     ran = json.loads((folder / "manifest.json").read_text())
     runtime = ran["scenario"]["runtime"]
     return [

@@ -1,17 +1,17 @@
-"""The Unity packages: staged in a folder and packed by npm. Those of all platforms are what is published."""
+"""Stages the Unity packages in a folder and packs them with npm."""
 import shutil
 import subprocess
 from pathlib import Path
 
 from build import graph, jre, manifest, metas, places, platforms
-from build.console import logged, say
+from build.console import print_progress, run_logged
 from build.places import BUILD, ROOT
 
 GENERATED = BUILD / "generated"
 
 
 def build_parts(all_platforms: bool) -> None:
-    """Builds all that is packed."""
+    """Builds the contents of the packages."""
     graph.build("runtime", "jvm_modules", "sample_code")
     if all_platforms:
         platforms.build_platforms()
@@ -21,19 +21,19 @@ def build_parts(all_platforms: bool) -> None:
 
 def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False) -> Path:
     """Packs the package into a folder and returns the archive; `work` is an empty folder."""
-    say("stage-package ...")
+    print_progress("stage-package ...")
     content = work / "content"
     _stage(content, all_platforms)
     if with_jre:
         # npm drops links, so the licences that jlink links to are copied.
-        shutil.copytree(jre.linked(), content / "unity/Jvm~/linux-x64")
+        shutil.copytree(jre.link_jre(), content / "unity/Jvm~/linux-x64")
     return _pack(content, out, "-jre" if with_jre else "")
 
 
 def jvm(work: Path, out: Path, platform: str) -> Path:
-    """Packs the package with a platform's JVM and nothing else into a folder and returns the archive."""
+    """Packs the package with a platform's JVM into a folder and returns the archive."""
     content = work / platform
-    shutil.copytree(jre.reduced(platform), content / "Jvm~" / platform)
+    shutil.copytree(jre.reduce_jre(platform), content / "Jvm~" / platform)
     manifest.write_jvm(ROOT, platform, content)
     return _pack(content, out, "")
 
@@ -50,7 +50,7 @@ def _pack(content: Path, out: Path, suffix: str) -> Path:
 
 
 def _stage(content: Path, all_platforms: bool) -> None:
-    """Puts the package's content into a folder: the allow-list of package.json, and what was built, for all platforms or this one."""
+    """Copies the package's content to a folder: the allow-list of package.json and the build outputs, for all platforms or this one."""
     for source in manifest.sources(ROOT):
         _copy(ROOT / source, content / source)
     unity = content / "unity"
@@ -75,7 +75,7 @@ def _stage(content: Path, all_platforms: bool) -> None:
     for sample in (unity / "Samples~").iterdir():
         if sample.is_dir():
             _copy(GENERATED / "samples" / sample.name, sample / "Generated")
-            # A sample's Kotlin lies in the reactor, where it is compiled and tested.
+            # The samples' Kotlin is in jvm-host/programs, where it is compiled and tested.
             for program in (places.JVM / "programs/src/main/kotlin" / sample.name.lower()).glob("*.kt"):
                 _copy(program, sample / "Programs" / program.name)
     metas.write_missing(content)
@@ -91,4 +91,4 @@ def _copy(source: Path, target: Path) -> None:
 
 def _strip(source: Path, target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    logged("strip", ["strip", "--strip-unneeded", "-o", target, source])
+    run_logged("strip", ["strip", "--strip-unneeded", "-o", target, source])

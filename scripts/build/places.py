@@ -17,7 +17,7 @@ TEST_PYTHON = BUILD / "python/bin/python"
 EXPERIMENTS_PYTHON = BUILD / "experiments/bin/python"
 NODE_MODULES = BUILD / "npm/node_modules"
 JVM = ROOT / "jvm-host"
-# Packaged together: programs link to the library, and to the adapter on Collektive's own runtime. The host loads both.
+# Programs link to the library, or to the adapter on Collektive's own runtime. The host loads both.
 HOST_JAR = JVM / "host/target/collektive-host.jar"
 LIBRARY_JAR = JVM / "host/target/collektive-library.jar"
 ADAPTER_JAR = JVM / "host/target/collektive-adapter.jar"
@@ -26,7 +26,7 @@ TOOLS_JAR = JVM / "tools/target/collektive-tools.jar"
 SAMPLES_JAR = JVM / "programs/target/collektive-programs.jar"
 BENCH_JAR = JVM / "bench/target/collektive-bench.jar"
 GENERATOR_JAR = JVM / "generator/target/collektive-generator.jar"
-# The links of the built-in runtime's library, compiled with the programs when they run on another runtime.
+# Sources of org.collektive.links, compiled with programs for another runtime.
 LINKS = JVM / "stdlib/src/main/kotlin/org/collektive/links"
 PLAYER = CSHARP / "Collektive.Player.exe"
 

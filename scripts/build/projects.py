@@ -1,4 +1,4 @@
-"""Compiles users' projects: their schema, their Kotlin and their C#, each in a folder of build/ that is named after all that it depends on."""
+"""Compiles the schema, Kotlin and C# of users' projects into folders of build/ that are named by a hash of their inputs."""
 import hashlib
 import os
 import re
@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import csharp, fetch, inputs
-from build.console import Failure, say
+from build.console import Failure, print_progress
 from build.inputs import Part
 from build.jdk import feature_version, find_jdk
 from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, LOGS, compiler_plugin
@@ -23,7 +23,7 @@ PLUGIN_SERVICE = "META-INF/services/org.jetbrains.kotlin.compiler.plugin.Compile
 
 
 class CompileError(Failure):
-    """A project's sources do not compile; the compiler's messages were printed."""
+    """A project's sources do not compile. The compiler's messages were printed."""
 
 
 def generator(schema: Path, *outputs: str | Path) -> list[str | Path]:
@@ -35,7 +35,7 @@ def generator(schema: Path, *outputs: str | Path) -> list[str | Path]:
 def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
     """Returns a hash over parts of a project, and over all that compiles them.
 
-    Files count by their names in the project, not by its location: copies of a project share what is compiled.
+    Paths are relative to the project, so copies of a project share outputs.
     """
     digest = hashlib.sha256("\0".join(part.digest for part in parts).encode())
     for tool in [Path(__file__), FLATC, GENERATOR_JAR, *sorted(inputs.CORE.glob("*.fbs")), *tools]:
@@ -43,8 +43,8 @@ def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
     return digest.hexdigest()[:32]
 
 
-def own_program(jar: Path) -> None:
-    """Notes a jar that the user runs. `./collektive replay` runs those again without a question."""
+def record_own_program(jar: Path) -> None:
+    """Records the hash of a jar that the user runs. `./collektive replay` runs these jars without --trust."""
     note = OWN_PROGRAMS / hashlib.sha256(jar.read_bytes()).hexdigest()
     if not note.exists():
         OWN_PROGRAMS.mkdir(parents=True, exist_ok=True)
@@ -61,7 +61,7 @@ def program_names(programs: Part) -> set[str] | None:
 
 
 def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin: Part | None = None) -> Path:
-    """Returns the jar of a folder of Kotlin, compiled if it changed; a jar is returned as it is.
+    """Returns the jar of a folder of Kotlin, compiled if it changed, or the given jar.
 
     Programs are compiled for the built-in runtime, or for the one whose jars are `jars`, with its compiler plugin.
     """
@@ -86,7 +86,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
         quoted = [re.sub(r'(["\\])', r"\\\1", str(file)) for file in programs.files.values()]
         sources.write_text("".join(f'"{file}"\n' for file in quoted), encoding="utf-8", errors="surrogateescape")
         compile_jvm(run, library, generated, classes, [*options, f"@{sources}"])
-        # The host refuses programs of another runtime by this.
+        # The host reads this to reject programs of another runtime.
         (work / "mark").write_text(f"Collektive-Runtime: {mark}\n")
         run([find_jdk() / "bin/jar", "--create", "--file", work / "programs.jar", "--manifest", work / "mark", "-C", classes, "."])
 
@@ -103,7 +103,7 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
         generated = work / "generated"
         run(generator(schema.copy(work / "schema"), "--csharp", generated))
         folder = scripts.path
-        # The compiler takes quotes in paths away.
+        # The compiler removes quotes from paths.
         if '"' in str(folder):
             folder = work / "scripts"
             folder.symlink_to(scripts.path.resolve())
@@ -118,38 +118,38 @@ def compile_jvm(run: Callable[[Sequence[str | Path]], None], library: str, gener
     jdk = find_jdk()
     classes.mkdir(parents=True, exist_ok=True)
     run([jdk / "bin/javac", "--release", "17", "-nowarn", "-proc:none", "-cp", HOST_JAR, "-d", classes, *sorted(generated.rglob("*.java"))])
-    # Newer JVMs warn of what the compiler uses.
+    # The compiler uses features that newer JVMs warn about.
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if feature_version(jdk) >= 24 else []
     try:
         run([jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", *quiet, "-cp", BUILD / "kotlinc/*", "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
              "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", f"{HOST_JAR}:{library}:{classes}", "-d", classes, generated, *arguments])
     except subprocess.CalledProcessError as error:
-        # The compiler's code for an exception of its own, which is a plugin's more often.
+        # The code of an internal error, whose usual cause is a plugin.
         if error.returncode == 2:
             version = fetch.pom_value("kotlin.version")
-            raise Failure(f"the Kotlin compiler {version} crashed, see above: the compiler plugin may be made for another version of it") from error
+            raise Failure(f"the Kotlin compiler {version} crashed; its messages are above. The compiler plugin may need another version") from error
         raise
     shutil.copytree(generated / "META-INF", classes / "META-INF", dirs_exist_ok=True)
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:
-    """Returns a file that `make` makes of parts of a project, a schema first, in an empty folder.
+    """Returns a file that `make` builds from parts of a project, the first of which is a schema, in an empty folder.
 
-    The folder is named after all inputs, so what is there is right: two commands may make it at once, and the first is kept.
+    The folder is named by a hash of all inputs, so an existing folder is valid. If two commands build it at once, the first one is kept.
     """
     if not folder.is_dir():
         work = folder.with_name(f"{folder.name}.{os.getpid()}")
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
         log = work / f"{name}.log"
-        say(f"{name} ...")
+        print_progress(f"{name} ...")
         try:
             with log.open("wb") as output:
                 make(work, lambda command: _run(command, output.fileno()))
             for part in parts:
                 part.require_unchanged()
         except (subprocess.CalledProcessError, Failure) as error:
-            # The generator reads a copy of the schema, without links, which it does not support.
+            # The generator, which does not support links, read a copy of the schema.
             messages = log.read_text(encoding="utf-8", errors="replace").replace(f"{work}/schema", str(parts[0].root))
             print(messages, end="", file=sys.stderr)
             kept = LOGS / log.name
@@ -182,7 +182,7 @@ def _runtime_hash(jars: Part) -> str:
 
 
 def _require_plugin(jar: Path) -> None:
-    """Fails unless a jar is a plugin of the Kotlin compiler, since the compiler ignores what is not one."""
+    """Raises `Failure` if a jar is not a plugin of the Kotlin compiler, which would ignore it."""
     with zipfile.ZipFile(jar) as archive:
         if PLUGIN_SERVICE not in archive.namelist():
-            raise Failure(f"{jar} is not a plugin of the Kotlin compiler: name Collektive's compiler-plugin as 'runtimePlugin'")
+            raise Failure(f"{jar} is not a plugin of the Kotlin compiler: set 'runtimePlugin' to Collektive's compiler plugin")

@@ -1,11 +1,11 @@
-"""Recorded runs: the reader of records on a plain JVM, without Unity."""
+"""Reads recorded runs with a JVM, without Unity."""
 from pathlib import Path
 
 from build import processes
 from build.jdk import find_jdk
 from build.places import HOST_JAR, TOOLS_JAR
 
-# The exit code for a record or a jar that cannot be used.
+# Exit code for an unusable record or jar.
 UNUSABLE = 2
 
 

@@ -1,4 +1,4 @@
-"""What accompanies the packages of a release.
+"""Writes the files that accompany the packages of a release.
 
 `release.py notes X.Y.Z` prints the changelog's section of a version.
 `release.py openupm REPOSITORY_URL` prints the metadata for the registry OpenUPM, which builds packages from tags of a repository.
@@ -14,7 +14,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import fetch, manifest
-from build.console import Failure, logged
+from build.console import Failure, run_logged
 from build.jdk import find_jdk
 from build.places import BUILD, JVM, ROOT
 
@@ -47,15 +47,15 @@ def openupm(url: str) -> Json:
         "licenseSpdxId": package["license"],
         "topics": ["ai", "physics"],
         "hunter": url.rstrip("/").split("/")[-2],
-        # Tags of commits with the package's content: the repository has no built parts.
+        # Tags of commits that contain the built package.
         "gitTagPrefix": "upm/",
         "minVersion": package["version"],
         "readme": "upm:README.md",
     }
 
 
-def fetched(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
-    """Returns the components of the package that are not dependencies of the JVM side's modules."""
+def fetched_components(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
+    """Returns the components of the package that Maven does not know."""
     return [
         {"type": "library", "name": "flatbuffers", "version": flatbuffers, "licenses": APACHE, "purl": f"pkg:cargo/flatc-fork@{crate}",
          "description": "Runtimes for C# and Java, and the compiler flatc"},
@@ -64,8 +64,8 @@ def fetched(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
     ]
 
 
-def complete(bill: Json, package: Json, more: list[Json]) -> Json:
-    """Returns the bill of the package: our own modules are parts of it, not components of others."""
+def complete_bill(bill: Json, package: Json, more: list[Json]) -> Json:
+    """Returns the bill of materials of the package, without our own modules."""
     bill["metadata"]["component"] = {"type": "library", "bom-ref": package["name"], "name": package["name"], "version": package["version"],
                                      "licenses": APACHE, "description": package["description"]}
     bill["components"] = [component for component in bill["components"] if component.get("group") != "org.collektive"] + more
@@ -74,22 +74,22 @@ def complete(bill: Json, package: Json, more: list[Json]) -> Json:
     return bill
 
 
-def materials(folder: Path) -> None:
-    """Writes the bill of materials: Maven's of the JVM side, with what Maven does not know."""
+def write_bill_of_materials(folder: Path) -> None:
+    """Writes the bill of materials: Maven's for the JVM side, and the other components."""
     fetch.fetch("flatbuffers")
     with tempfile.TemporaryDirectory() as work:
-        logged("bill-of-materials", ["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "-pl", SHIPPED, "-am", f"{CYCLONEDX}:makeAggregateBom",
+        run_logged("bill-of-materials", ["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "-pl", SHIPPED, "-am", f"{CYCLONEDX}:makeAggregateBom",
                                      "-DincludeTestScope=false", "-DincludeProvidedScope=false", "-DoutputFormat=json", f"-DoutputDirectory={work}",
                                      "-DoutputName=maven"])
         bill = json.loads(Path(work, "maven.json").read_text())
     flatbuffers = json.loads((BUILD / "flatbuffers/package.json").read_text())["version"]
-    crate = _found(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
-    jdk = _found(r'(?m)^JAVA_VERSION="([^"]+)"', find_jdk() / "release")
-    bill = complete(bill, manifest.read(ROOT), fetched(flatbuffers, crate, jdk))
+    crate = _match(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
+    jdk = _match(r'(?m)^JAVA_VERSION="([^"]+)"', find_jdk() / "release")
+    bill = complete_bill(bill, manifest.read(ROOT), fetched_components(flatbuffers, crate, jdk))
     (folder / "bom.json").write_text(json.dumps(bill, indent=2) + "\n")
 
 
-def _found(pattern: str, file: Path) -> str:
+def _match(pattern: str, file: Path) -> str:
     match = re.search(pattern, file.read_text())
     if match is None:
         raise Failure(f"{file} does not match {pattern}")
@@ -104,7 +104,7 @@ def main(words: list[str]) -> None:
             # YAML contains JSON's scalars.
             print("\n".join(f"{key}: {json.dumps(value)}" for key, value in openupm(url).items()))
         case ["materials", folder]:
-            materials(Path(folder))
+            write_bill_of_materials(Path(folder))
         case _:
             raise Failure(f"release.py: unknown arguments\n{__doc__}")
 

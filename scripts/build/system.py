@@ -1,4 +1,4 @@
-"""System packages: the tools that the build needs, and their installation on Debian and Ubuntu."""
+"""Finds the system packages that the build needs, and installs them on Debian and Ubuntu."""
 import os
 import re
 import shutil
@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from build import jdk
-from build.console import Failure, logged, say
+from build.console import Failure, print_progress, run_logged
 from build.places import BUILD
 
 OLDEST_PYTHON = (3, 11)
 
 
 class Tool(NamedTuple):
-    """A command of which one of several names must be new enough, and the Debian packages that provide it."""
+    """A required command, with alternative names, its oldest version, and the Debian packages that provide it."""
 
     commands: tuple[str, ...]
     oldest: str
@@ -41,12 +41,12 @@ TOOLS = (
 MONO_POSIX = Path("/usr/lib/mono/4.5/Mono.Posix.dll")
 # Libraries without a command, and their Debian packages.
 FILES = {MONO_POSIX: "libmono-posix4.0-cil"}
-# Needed by the C# tests only; Debian 13 has no package of it.
+# Only the C# tests need it. Debian 13 has no package of it.
 NUNIT = Path("/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll")
 
 
 class Missing(NamedTuple):
-    """A missing or outdated tool: the Debian package that provides it, and what is wrong."""
+    """A missing or outdated tool: its Debian package and the reason."""
 
     package: str
     reason: str
@@ -55,20 +55,19 @@ class Missing(NamedTuple):
 def setup_system() -> None:
     """Installs missing system packages if this is root on Debian or Ubuntu.
 
-    Raises `Failure` with the list of what is missing otherwise. Versions are checked again only if a tool was replaced, because that
-    takes two seconds.
+    Otherwise raises `Failure` with a list of the missing packages. Checks versions, which takes two seconds, only if a tool changed.
     """
     stamp = BUILD / "stamp/system"
     if stamp.exists() and stamp.read_text() == _state():
         return
     missing = find_missing()
-    if missing and may_install():
-        logged("package-lists", ["apt-get", "update"])
-        # Before the update, apt on a fresh system does not know which package is new enough.
+    if missing and can_install():
+        run_logged("package-lists", ["apt-get", "update"])
+        # Finds packages again, because apt knows versions only after the update.
         install([package for package, _ in find_missing()], "system-packages")
         missing = find_missing()
         if missing:
-            raise Failure("still missing although the packages are installed:\n" + _reasons(missing))
+            raise Failure("these tools are still missing or too old after installing their packages:\n" + _reasons(missing))
     elif missing:
         packages = " ".join(dict.fromkeys(package for package, _ in missing))
         raise Failure(f"these tools are missing or too old:\n{_reasons(missing)}\n"
@@ -82,7 +81,7 @@ def find_missing() -> list[Missing]:
     missing = []
     for tool in TOOLS:
         if find_tool(tool.commands[0]) is None:
-            missing.append(Missing(_package_for(tool), f"{_found(tool.commands[0])}; {tool.oldest} or newer is needed"))
+            missing.append(Missing(_package_for(tool), f"{_describe(tool.commands[0])}; {tool.oldest} or newer is needed"))
     # Debian's python3 cannot create virtual environments without this package.
     if subprocess.run(["python3", "-I", "-c", "import ensurepip"], capture_output=True).returncode != 0:
         missing.append(Missing("python3-venv", "python3 has no module ensurepip"))
@@ -90,7 +89,7 @@ def find_missing() -> list[Missing]:
 
 
 def find_tool(name: str) -> str | None:
-    """Returns the path of the first command of a tool that is new enough."""
+    """Returns the path of a tool's first command that is new enough, or None."""
     tool = next(tool for tool in TOOLS if tool.commands[0] == name)
     for command in tool.commands:
         path = shutil.which(command)
@@ -100,55 +99,55 @@ def find_tool(name: str) -> str | None:
 
 
 def version_of(command: str) -> str:
-    """Returns the version that a command prints, or nothing."""
+    """Returns the version that a command prints, or an empty text."""
     match = re.search(r"\d+(\.\d+)*", re.sub(r"\x1b\[[0-9;]*m", "", _version_output(command).stdout))
     return match[0] if match else ""
 
 
 def _version_output(command: str) -> subprocess.CompletedProcess[str]:
-    # A JVM that rejects the user's options is not an outdated one.
+    # A JVM that rejects these options would appear outdated.
     environment = {name: value for name, value in os.environ.items() if name not in jdk.OPTIONS}
     return subprocess.run([command, "--version"], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
 
 
-def _found(name: str) -> str:
-    """Describes a command that cannot be used."""
+def _describe(name: str) -> str:
+    """Returns why a command cannot be used."""
     command = shutil.which(name)
     if not command:
         return f"{name} is missing"
     version = version_of(command)
     if version:
         return f"{command} has version {version}"
-    # Such as rustup's without a default toolchain.
+    # For example, rustup without a default toolchain.
     errors = _version_output(command).stderr.strip()
     return f"{command} --version fails" + (f": {errors.splitlines()[0]}" if errors else "")
 
 
-def may_install() -> bool:
-    """Reports whether this process can install Debian packages."""
+def can_install() -> bool:
+    """Returns whether this process can install Debian packages."""
     return os.geteuid() == 0 and shutil.which("apt-get") is not None
 
 
 def install(packages: list[str], log: str) -> None:
     """Installs Debian packages."""
-    logged(log, ["apt-get", "install", "-y", "--no-install-recommends", *packages], env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
+    run_logged(log, ["apt-get", "install", "-y", "--no-install-recommends", *packages], env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"})
 
 
 def setup_nunit() -> None:
-    """Installs the framework of the C# tests where the system has a package of it."""
+    """Installs NUnit, if the system has a package of it."""
     if NUNIT.exists():
         return
-    if not may_install():
+    if not can_install():
         raise Failure(f"{NUNIT} is missing. Install it; on Debian 12 or Ubuntu as root: apt-get install libnunit-cil-dev")
-    logged("package-lists", ["apt-get", "update"])
-    if candidate("libnunit-cil-dev"):
+    run_logged("package-lists", ["apt-get", "update"])
+    if candidate_version("libnunit-cil-dev"):
         install(["libnunit-cil-dev"], "nunit")
     else:
-        say("this system has no package of NUnit 2.6: the C# tests are left out")
+        print_progress("skipping the C# tests: this system has no package of NUnit 2.6")
 
 
-def candidate(package: str) -> str:
-    """Returns the version of a package that apt would install, or nothing."""
+def candidate_version(package: str) -> str:
+    """Returns the version of a package that apt would install, or an empty text."""
     if not shutil.which("apt-cache"):
         return ""
     output = subprocess.run(["apt-cache", "policy", package], capture_output=True, text=True).stdout
@@ -157,9 +156,9 @@ def candidate(package: str) -> str:
 
 
 def _package_for(tool: Tool) -> str:
-    """Returns the first package of a tool that apt has in a version that is new enough, or the first one."""
+    """Returns the first package of a tool that apt has in a sufficient version, or else the first one."""
     for package in tool.packages:
-        version = re.sub(r"^\d+:", "", candidate(package))
+        version = re.sub(r"^\d+:", "", candidate_version(package))
         if version and _at_least(tool.oldest, version):
             return package
     return tool.packages[0]
@@ -179,7 +178,7 @@ def _reasons(missing: list[Missing]) -> str:
 
 
 def _state() -> str:
-    """Describes the tools as they are now, without starting them."""
+    """Returns a text that changes when a tool changes, without starting tools."""
     lines = [repr((TOOLS, FILES)), sys.version]
     for path in [shutil.which(command) for tool in TOOLS for command in tool.commands] + [str(file) for file in FILES]:
         try:

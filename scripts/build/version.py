@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from build.places import ROOT
 
 NUMBER = r"(\d+\.\d+\.\d+)"
-# Files, and what stands around the version in them.
+# Files that contain the version, and its context.
 NAMED = {
     "package.json": rf'"version": "{NUMBER}"',
     "unity/package.json": rf'"version": "{NUMBER}"',
@@ -68,4 +68,4 @@ if __name__ == "__main__":
     elif re.fullmatch(NUMBER, sys.argv[1]):
         write(sys.argv[1])
     else:
-        sys.exit(f"version.py: '{sys.argv[1]}' is not a version: three numbers are needed, like 1.2.3")
+        sys.exit(f"version.py: '{sys.argv[1]}' is not a version: use three numbers, such as 1.2.3")

@@ -1,4 +1,4 @@
-"""Prints every text of the sources that users can read: errors, warnings, log lines, tooltips, menu entries and help.
+"""Prints the texts in the sources that users can see: errors, warnings, log lines, tooltips, menu entries and help.
 
 `build/python/bin/python scripts/checks/messages.py [PATTERN]...` prints those of the files that match, for example 'unity/*.cs'.
 """
@@ -14,12 +14,12 @@ from pygments import lexers, token
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("*.cs", "*.kt", "*.kts", "*.c", "*.h", "*.py", "*.js", "*.mjs", "*.cmake", "*.java")
 TESTS = ("*/tests/*", "*/Tests/*", "*/test/*", "*/TestFramework/*", "*/TestRunner/*", "*/testkit/*", "*/Fuzz/*")
-# Between two parts of one text.
+# Separates two parts of one text.
 GLUE = re.compile(r"[\s+\\$@f]*")
 
 
 def texts(path: Path) -> Iterator[tuple[int, bool, str]]:
-    """Yields the line, whether it is a comment, and the words of each comment and text of a source file."""
+    """Yields the line, whether it is a comment, and the content of each comment and text of a source file."""
     line, begin, depth = 1, 1, 0
     kind: str | None = None
     text = ""
@@ -48,7 +48,7 @@ def is_message(text: str) -> bool:
 
 
 def sources(patterns: list[str]) -> list[str]:
-    """Returns the tracked source files that match a pattern, tests left out."""
+    """Returns the tracked source files that match a pattern, without tests."""
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", *SOURCES], capture_output=True, text=True, check=True).stdout.split("\0")
     return [path for path in listed if path and not any(fnmatch.fnmatch(f"/{path}", test) for test in TESTS)
             and (not patterns or any(fnmatch.fnmatch(path, pattern) for pattern in patterns))]

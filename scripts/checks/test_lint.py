@@ -11,18 +11,18 @@ import pytest
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
 
-# Made by generators, whose lines are their own.
+# Generated files.
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
-# Programs as users write them, in their styles.
-GIVEN = ("jvm-host/*/src/test/resources/*",)
+# Test programs in different styles.
+TEST_PROGRAMS = ("jvm-host/*/src/test/resources/*",)
 HABITS = [entry.split(" => ") for entry in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not entry.startswith("#")]
 
 
 def sources(*patterns: str) -> list[str]:
-    """Files of the repository, new ones included, whose paths match one of the patterns."""
+    """Returns the files of the repository, including new ones, whose paths match a pattern."""
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True)
     paths = [path for path in listed.stdout.split("\0") if path and os.path.isfile(os.path.join(ROOT, path))]
-    found = sorted(path for path in paths if _matches(path, patterns) and not _matches(path, GIVEN) and not GENERATED.search(path))
+    found = sorted(path for path in paths if _matches(path, patterns) and not _matches(path, TEST_PROGRAMS) and not GENERATED.search(path))
     if not found:
         pytest.skip(f"no file matches {' '.join(patterns)}")
     return found
@@ -32,7 +32,7 @@ def _matches(path: str, patterns: tuple[str, ...]) -> bool:
     return any(fnmatch.fnmatch(path, pattern) for pattern in patterns)
 
 
-def clean(*command: str, tools: str = "npm") -> None:
+def assert_clean(*command: str, tools: str = "npm") -> None:
     result = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                             env={**os.environ, "COLLEKTIVE_NODE_MODULES": os.path.join(BUILD, tools, "node_modules"), "NO_COLOR": "1"})
     if result.returncode != 0:
@@ -40,42 +40,42 @@ def clean(*command: str, tools: str = "npm") -> None:
 
 
 def test_shell_is_clean_under_shellcheck() -> None:
-    clean(os.path.join(BUILD, "python/bin/shellcheck"), "collektive", ".ci/run", "tools/coreclr/coreclr")
+    assert_clean(os.path.join(BUILD, "python/bin/shellcheck"), "collektive", ".ci/run", "tools/coreclr/coreclr")
 
 
 def test_python_is_clean_under_ruff() -> None:
-    clean(sys.executable, "-m", "ruff", "check", "--no-cache", *sources("*.py"))
+    assert_clean(sys.executable, "-m", "ruff", "check", "--no-cache", *sources("*.py"))
 
 
 def test_python_is_typed() -> None:
-    clean(sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "--cache-dir", os.path.join(BUILD, "mypy"))
+    assert_clean(sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "--cache-dir", os.path.join(BUILD, "mypy"))
 
 
 def test_javascript_is_clean_under_eslint() -> None:
-    clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay", "scripts")
+    assert_clean("node", os.path.join(BUILD, "npm/node_modules/eslint/bin/eslint.js"), "--max-warnings", "0", "unity/Headless~/Replay", "scripts")
 
 
 def test_c_and_cpp_are_formatted_by_clang_format() -> None:
-    clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror",
-          *sources("native-shim/*.c", "native-shim/*.h", "unity/*.cpp", "unity/*.hpp", "unity/*.h"))
+    assert_clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror",
+                 *sources("native-shim/*.c", "native-shim/*.h", "unity/*.cpp", "unity/*.hpp", "unity/*.h"))
 
 
 def test_kotlin_is_clean_under_ktlint() -> None:
-    clean(str(find_jdk() / "bin/java"), "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
+    assert_clean(str(find_jdk() / "bin/java"), "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
           *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "experiments/*.kt", "*.kts"))
 
 
 def test_workflows_are_clean_under_actionlint() -> None:
     linter = os.path.join(BUILD, "go/actionlint")
     if not os.path.exists(linter):
-        pytest.skip("there is no Go to build actionlint with")
-    clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
+        pytest.skip("building actionlint needs Go")
+    assert_clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
 
 
 def test_texts_are_as_editorconfig_describes() -> None:
     # ktlint checks Kotlin, and allows long literals and names of tests.
     texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
-    clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
+    assert_clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
 
 
 def pages() -> list[str]:
@@ -83,7 +83,7 @@ def pages() -> list[str]:
 
 
 def test_pages_have_no_errors_of_grammar() -> None:
-    clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
+    assert_clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
 
 
 def habits(place: str, prose: str, line: int = 1) -> list[str]:

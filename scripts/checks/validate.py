@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the package's assets: `validate.py ROOT FIELDS` prints one line for each thing that is wrong and exits 1.
+"""Checks the package's assets: `validate.py ROOT FIELDS` prints a line for each error and exits with 1.
 
-FIELDS is what Collektive.SerializedFields.exe printed of the package's assemblies. With --update the new GUIDs are added to
+FIELDS is the output of Collektive.SerializedFields.exe for the package's assemblies. --update adds new GUIDs to
 scripts/checks/validator/guids.txt.
 """
 import os
@@ -19,7 +19,7 @@ from build import metas  # noqa: E402
 
 
 def problems(root: str | Path, classes: Mapping[str, ScriptClass], ledger: str = guids.LEDGER) -> Iterator[str]:
-    """All that is wrong with the package that lies at root."""
+    """Yields the errors of the package at root."""
     yield from metas.problems(root)
     assets = Assets(root)
     yield from guids.problems(assets, classes, ledger)

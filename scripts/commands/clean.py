@@ -1,4 +1,4 @@
-"""Removes build/ and the modules' target/ folders. Results in out/ stay."""
+"""Removes build/ and the target/ folders of the JVM modules. Keeps results in out/."""
 import argparse
 import shutil
 

@@ -1,4 +1,4 @@
-"""Runs the case study, environment-aware gradient ascent: 500 bodies climb towards a source around obstacles for 60 simulated seconds. Writes
+"""Runs the case study, environment-aware gradient ascent: 500 bodies move around obstacles to a source in 60 simulated seconds. Writes
 manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures to --out."""
 import argparse
 
@@ -10,7 +10,7 @@ SCENARIO = ROOT / "unity/Samples~/GradientAscent/scenario.json"
 
 def _whole_number(text: str) -> int:
     if not text.isascii() or not text.isdigit():
-        raise argparse.ArgumentTypeError("needs a whole number")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number")
     return int(text)
 
 
@@ -18,8 +18,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--nodes", type=_whole_number, metavar="N", help="number of bodies (default: 500)")
     parser.add_argument("--seconds", metavar="S", help="simulated seconds (default: 60)")
     parser.add_argument("--seed", default="1", metavar="K", help="seed (default: 1)")
-    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/demo-seedK, where it replaces those of an earlier demo)")
-    parser.add_argument("--overwrite", action="store_true", help="remove the results of an earlier run in that folder first")
+    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/demo-seedK, replacing an earlier demo)")
+    parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
 
 
 def run(arguments: argparse.Namespace) -> int:

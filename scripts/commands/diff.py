@@ -1,6 +1,7 @@
-"""Names the first tick, node and field in which two recorded runs differ: the input first, then the results. No code of the records runs.
+"""Compares two recorded runs. Prints the first tick, node and field that differ, first in the input, then in the results. Does not run the
+recorded programs.
 
-Exit code: 0 nothing differs; 1 something does; 2 a record cannot be used, or not to its end."""
+Exit code: 0 the runs are equal; 1 they differ; 2 a record is unusable or truncated."""
 import argparse
 
 from build import graph, records

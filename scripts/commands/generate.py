@@ -1,22 +1,22 @@
-"""Makes the code of a user schema: C# into --csharp, and Java and Kotlin into --jvm (default: not made; `./collektive run` makes it for
-programs by itself). Schemas may include "types.fbs" (Vector3 and friends)."""
+"""Generates C# from a FlatBuffers schema into --csharp, and Java and Kotlin into --jvm. `./collektive run` generates code by itself. Schemas may
+include "types.fbs" for types such as Vector3."""
 import argparse
 from pathlib import Path
 
 from build import graph, processes, projects
-from build.console import Failure, say
+from build.console import Failure, print_progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("schema", type=Path, metavar="SCHEMA.fbs")
-    parser.add_argument("--csharp", type=Path, metavar="DIR", help="folder for C# (default, without --jvm: Generated beside the schema)")
+    parser.add_argument("--csharp", type=Path, metavar="DIR", help="folder for C# (default without --jvm: Generated beside the schema)")
     parser.add_argument("--jvm", type=Path, metavar="DIR", help="folder for Java and Kotlin")
 
 
 def run(arguments: argparse.Namespace) -> int:
     schema: Path = arguments.schema
     if not schema.is_file():
-        raise Failure(f"generate: there is no file '{schema}'")
+        raise Failure(f"generate: '{schema}' does not exist")
     outputs = {"--csharp": arguments.csharp, "--jvm": arguments.jvm}
     if not any(outputs.values()):
         outputs["--csharp"] = schema.parent / "Generated"
@@ -24,5 +24,5 @@ def run(arguments: argparse.Namespace) -> int:
     graph.build("jvm")
     code = processes.call(projects.generator(schema, *(word for pair in chosen.items() for word in pair)))
     if code == 0:
-        say("generated " + " and ".join(f"{'C#' if option == '--csharp' else 'Java and Kotlin'} into {folder}" for option, folder in chosen.items()))
+        print_progress("generated " + " and ".join(f"{'C#' if option == '--csharp' else 'Java and Kotlin'} into {folder}" for option, folder in chosen.items()))
     return code

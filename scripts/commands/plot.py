@@ -1,5 +1,5 @@
-"""Makes figures of a sweep's tables, in its folder: for each metric its mean and 95 % interval over time for each configuration, and box plots of
-its values at the end, as SVG and PDF in figures/, and all of them in figures.html."""
+"""Plots the metrics of a sweep: the mean and 95 % confidence interval over time for each configuration, and box plots of the final values. Writes
+SVG and PDF files to figures/ in the sweep's folder, and figures.html with all figures."""
 import argparse
 
 from build import experiments

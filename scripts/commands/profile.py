@@ -1,6 +1,5 @@
-"""Runs a scenario as `./collektive run` does, with a flight recording of the JVM, and prints what it contains: times of ticks, for each program
-its rounds and the methods where their time goes, allocation, and pauses. The recording is profile.jfr in --out; JDK Mission Control and the
-JDK's jfr command open it."""
+"""Runs a scenario like `./collektive run`, makes a flight recording of the JVM and prints a report: tick times, hot methods of each program,
+allocation and pauses. The recording is profile.jfr in --out. Open it in JDK Mission Control or with the jfr command."""
 import argparse
 import os
 from pathlib import Path
@@ -13,7 +12,7 @@ from commands import run as run_command
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", metavar="SCENARIO.json")
-    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME-profile, where it replaces the earlier ones)")
+    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME-profile, replacing earlier results)")
     run_command.add_run_arguments(parser)
 
 

@@ -1,11 +1,11 @@
-"""Runs the programs of a recorded run on its input, without Unity, and compares the digest of every tick with the record's. With --programs, runs
-these jars instead of the recorded ones and reports where their answers differ from the record's. A record is what "outputs": { "record": true }
-of a scenario writes, or "Record" in the Simulation Manager's settings.
+"""Replays a recorded run without Unity and compares the digest of each tick with the record. With --programs, runs other programs on the recorded
+input and reports where the answers differ. To record a run, set "outputs": { "record": true } in the scenario, or Record in the Simulation
+Manager.
 
---runtime runs the record on the other runtime, collektive with the jars in --runtime-jars. Each runtime has its own compiler, so the programs
-must be others too: a jar, or a folder of Kotlin with its schema, which is compiled here, for collektive with --runtime-plugin.
+With --runtime, replays on the other runtime. Programs must be compiled for that runtime: pass a jar, or a folder of Kotlin and its --schema. For
+collektive, also pass --runtime-jars, and --runtime-plugin to compile a folder.
 
-Exit code: 0 all digests equal the record; 1 a digest differs; 2 the record or a jar cannot be used, or not to its end."""
+Exit code: 0 all digests are equal; 1 a digest differs; 2 the record or a jar is unusable or truncated."""
 import argparse
 import os
 from pathlib import Path
@@ -18,20 +18,20 @@ from build.places import SAMPLES_JAR
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("record", metavar="FILE")
     parser.add_argument("--trust", action="store_true",
-                        help="run programs that ./collektive run has not run here, such as those in somebody else's record: they have your rights")
-    parser.add_argument("--programs", type=Path, action="append", default=[], metavar="JAR|DIR", help="programs instead of the recorded ones")
+                        help="run programs that ./collektive run has not run before, such as those in a record from someone else; they run with your rights")
+    parser.add_argument("--programs", type=Path, action="append", default=[], metavar="JAR|DIR", help="run these programs instead of the recorded ones")
     parser.add_argument("--schema", type=Path, metavar="SCHEMA.fbs", help="schema of a folder of programs")
     parser.add_argument("--runtime", metavar="NAME", help="builtIn or collektive (default: the record's)")
     parser.add_argument("--runtime-jars", metavar="DIR", help="folder with Collektive's jars")
     parser.add_argument("--runtime-plugin", type=Path, metavar="JAR", help="Collektive's compiler plugin")
-    parser.add_argument("--out", metavar="RECORD", help="record the replay, so that ./collektive diff compares the two")
+    parser.add_argument("--out", metavar="RECORD", help="record the replay, for ./collektive diff")
     parser.set_defaults(error_code=records.UNUSABLE)
 
 
 def run(arguments: argparse.Namespace) -> int:
     graph.build("jvm", "jvm_modules")
-    # Those of the samples may have run in Unity.
-    projects.own_program(SAMPLES_JAR)
+    # The samples' programs may have run in Unity.
+    projects.record_own_program(SAMPLES_JAR)
     jars = arguments.runtime_jars and os.path.realpath(arguments.runtime_jars)
     words: list[str | Path] = ["--trust"] if arguments.trust else []
     for programs in arguments.programs:
@@ -50,6 +50,6 @@ def _compiled(programs: Path, jars: str | None, arguments: argparse.Namespace) -
     if arguments.runtime == "collektive" and jars is not None:
         plugin: Path | None = arguments.runtime_plugin
         if plugin is None or not plugin.is_file():
-            raise Failure("replay: programs for collektive are compiled with its plugin: name it with --runtime-plugin")
+            raise Failure("replay: compiling programs for collektive needs its compiler plugin: name the plugin with --runtime-plugin")
         parts += [inputs.jars(Path(jars)), inputs.jar(plugin)]
     return projects.programs_jar(*parts)

@@ -1,19 +1,19 @@
-"""Installs missing system packages (as root on Debian or Ubuntu, else lists them), and fetches and builds the tools: flatc with the FlatBuffers
-runtimes, PhysX for runs without Unity, the C# compiler."""
+"""Installs the build dependencies: system packages (as root on Debian or Ubuntu; otherwise lists the missing ones), flatc and the FlatBuffers
+runtimes, PhysX for runs without Unity, and the C# compiler."""
 import argparse
 
 from build import fetch, graph, lock, system
-from build.console import say
+from build.console import print_progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch these tools of the build instead: " + ", ".join([*fetch.FETCHERS, "nunit"]))
+    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch only these tools: " + ", ".join([*fetch.FETCHERS, "nunit"]))
 
 
 def run(arguments: argparse.Namespace) -> int:
     if not arguments.tools:
         graph.build("tools")
-        say("tools are ready")
+        print_progress("tools are ready")
         return 0
     system.setup_system()
     lock.shared()

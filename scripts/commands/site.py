@@ -1,5 +1,5 @@
-"""Makes the documentation as a site in --out; open its index.html. The pages are those of Documentation~ and docs/ and a reference made from the
-code. The site opens from the disk, searches without a server and loads nothing from elsewhere. A broken link is an error."""
+"""Builds the documentation site in --out from Documentation~, docs/ and a reference generated from the code. Open index.html in a browser; the
+site needs neither a server nor the internet. Broken links are errors."""
 import argparse
 import os
 import shutil
@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from build import fetch, graph
-from build.console import Failure, logged
+from build.console import Failure, run_logged
 from build.places import BUILD, ROOT
 from build.site import pages
 
@@ -18,20 +18,20 @@ MARKER = ".collektive-site"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "out/site", metavar="DIR",
-                        help="folder for the site (default: out/site), where it replaces the earlier one")
+                        help="folder for the site (default: out/site), replacing an earlier site")
 
 
 def run(arguments: argparse.Namespace) -> int:
     out: Path = arguments.out
     if os.path.lexists(out) and (out.is_symlink() or not (out / MARKER).is_file()):
-        raise Failure(f"site: '{out}' exists and was not made by this command: name another folder with --out, or remove it")
+        raise Failure(f"site: '{out}' exists and is not a site built by this command: name another folder with --out, or remove it")
     graph.build("documentation")
     fetch.fetch("site-tools")
-    # In its own folder first, so that several commands can make it at once.
+    # In its own folder first, so that several commands can build at once.
     with tempfile.TemporaryDirectory() as name:
         work = Path(name)
         pages.write(work, TOOLS / "node_modules")
-        logged("site", [TOOLS / "bin/python", "-I", "-m", "mkdocs", "build", "--strict", "--config-file", "site.yml", "--site-dir", "site"], cwd=work,
+        run_logged("site", [TOOLS / "bin/python", "-I", "-m", "mkdocs", "build", "--strict", "--config-file", "site.yml", "--site-dir", "site"], cwd=work,
                env={**os.environ, "NO_MKDOCS_2_WARNING": "true"})
         (work / "site" / MARKER).touch()
         shutil.rmtree(out, ignore_errors=True)

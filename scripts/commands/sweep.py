@@ -1,8 +1,8 @@
-"""Runs a scenario once for each combination of the values that an experiment file gives to its keys: {"version": 1, "scenario": "scenario.json",
-"vary": {"fields.nodes": [100, 200], "seed": "1-20"}}. Documentation~/experiments.md describes the file. Writes to --out a folder for each run,
+"""Runs a scenario for each combination of values in an experiment file: {"version": 1, "scenario": "scenario.json", "vary":
+{"fields.nodes": [100, 200], "seed": "1-20"}}. Documentation~/experiments.md describes the file. Writes a folder for each run to --out,
 runs.parquet (a row for each run) and series.parquet (a row for each run and simulated second).
 
-Exit code: 0 all runs are complete; 1 some are not, or the file is wrong; 130 Ctrl-C."""
+Exit code: 0 all runs are complete; 1 some are not, or the experiment file is invalid; 130 Ctrl-C."""
 import argparse
 
 from build import experiments
@@ -13,5 +13,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    # Ray is three times as large as all the rest.
+    # Ray is three times as large as all other packages together.
     return experiments.run(*(["ray"] if arguments.ray is not None else []))

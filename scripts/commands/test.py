@@ -1,17 +1,15 @@
-"""Builds and tests everything, or the suites named. A suite is named by its name, or with others of its area: lint, scripts, jvm, stress, shim,
-platforms, csharp, assets, faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. cmake/Tests.cmake declares
-them. Suites that take long for little more run only when they are named: platforms-all, ray (a cluster), shim-slow-on-JDK, csharp-slow-on-JDK.
+"""Builds everything and runs all test suites, or the named ones. Areas of suites: lint, scripts, jvm, stress, shim, platforms, csharp, assets,
+faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. These suites run only if named: platforms-all,
+ray (a cluster), shim-slow-on-JDK, csharp-slow-on-JDK. cmake/Tests.cmake declares the suites.
 
-gradle needs a Gradle on the PATH, or named by COLLEKTIVE_GRADLE, and is skipped without one. platforms builds the native library for Linux and macOS
-on ARM64, platforms-all for Windows, Linux and macOS, and tests it under qemu and Wine where these can be installed. csharp runs on Mono and, without
-the tests that need Mono, on CoreCLR.
+gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the native library for Linux and macOS on ARM64,
+and platforms-all also for Windows, under qemu and Wine if these can be installed. csharp runs on Mono and on CoreCLR.
 
-`test bare [ROOT]...` runs the demo and the quick tests of the last commit in fresh roots of debian-12, debian-13 and ubuntu-24.04 (or those named),
-as root; one whose packages cannot be fetched is skipped.
+`test bare [ROOT]...` tests the last commit as root in fresh installations of debian-12, debian-13 and ubuntu-24.04, or the named ones. A system
+whose packages cannot be fetched is skipped.
 
-The last line is "N passed, N failed" over all that ran; the exit code is 1 when a test failed. Results are read from the JUnit XML files of the
-suites, kept in build/results. A changed public API of the JVM side fails the suite jvm, which then shows the difference from
-jvm-host/*/api/*.api and the command that accepts it."""
+The last line is "N passed, N failed". The exit code is 1 if a test failed. JUnit XML files are in build/results. If the public API of the JVM side
+changed, the suite jvm prints the difference and the command that accepts it."""
 import argparse
 import json
 import re
@@ -24,14 +22,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from build import fetch, graph, lock, processes, system
-from build.console import Failure, say
+from build.console import Failure, print_progress
 from build.places import BUILD, GRAPH, RESULTS, ROOT, TEST_PYTHON
 
 RUNS = frozenset({"quick", "all", "extra"})
 
 
 class LongRun(NamedTuple):
-    """An option that runs one script of scripts/tests with its whole output."""
+    """An option that runs one script of scripts/tests and shows its output."""
 
     file: str
     targets: tuple[str, ...]
@@ -40,20 +38,20 @@ class LongRun(NamedTuple):
 
 
 LONG_RUNS = {
-    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "misfit"), ("--all",), "each fault of scripts/tests/faults/faults.json (or those "
-                      "with WORDS in their name) on every runtime and JVM: a table"),
-    "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "200 runs that end in each way: the scene is left, quit, Ctrl-C, "
+    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "incompatible_host"), ("--all",), "inject each fault of scripts/tests/faults/faults.json "
+                      "(or those whose name contains WORDS) on every runtime and JVM"),
+    "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "end 200 runs in different ways: scene change, quit, Ctrl-C, "
                      "unhandled exceptions"),
-    "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page", "failing"), ("200", "20", "50", "5", "500", "--seed"), "780 runs that are killed, get "
-                     "signals, full and read-only disks, a jumping clock, little memory, or in which one call to the system fails: no folder that only "
-                     "looks complete, no process left, no lost earlier result; a table of the trials and their outcomes"),
-    "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "a scene whose nodes come, fail and go: memory, threads and descriptors must be flat "
-                    "from the second minute on; a table"),
-    "stress": LongRun("stress.py", ("jvm_modules",), (str(RESULTS / "stress-at-length/stress.xml"), "-m", "default", "-af", "NONE"), "the JVM side's "
-                      "races between threads, with every compiler and mix of compilers: takes long"),
-    "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe", "failing"), ("--each",), "inputs of any bytes against each fuzzer, "
-                    "or those named, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under "
-                    "sanitizers), experiments; what it learns stays in build/fuzz"),
+    "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page", "failing"), ("200", "20", "50", "5", "500", "--seed"), "disturb 780 runs: kill, "
+                     "signals, full and read-only disks, clock changes, little memory, one failing system call; checks that no run is falsely "
+                     "complete, no process is left and no earlier result is lost"),
+    "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "run a scene that adds and removes nodes; memory, threads and descriptors must not grow "
+                    "after the first minute"),
+    "stress": LongRun("stress.py", ("jvm_modules",), (str(RESULTS / "stress-full/stress.xml"), "-m", "default", "-af", "NONE"), "test races "
+                      "between JVM threads with all combinations of JIT compilers (takes long)"),
+    "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe", "failing"), ("--each",), "run each fuzzer, or the named "
+                    "ones, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under sanitizers), "
+                    "experiments; keeps its corpus in build/fuzz"),
 }
 
 
@@ -68,10 +66,10 @@ class Suite(NamedTuple):
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("suites", nargs="*", metavar="SUITE")
     only = parser.add_mutually_exclusive_group()
-    only.add_argument("--quick", action="store_const", const=["quick"], dest="run_of", help="the verdict that matters in about six minutes on two idle "
-                      "cores: most suites on one JDK without their slow tests, and a short acceptance")
-    only.add_argument("--sanitize", action="store_const", const=["sanitized"], dest="run_of", help="the shim's tests under AddressSanitizer and "
-                      "UndefinedBehaviorSanitizer")
+    only.add_argument("--quick", action="store_const", const=["quick"], dest="run_of", help="run most suites on one JDK without slow tests, in about six "
+                      "minutes on two idle cores")
+    only.add_argument("--sanitize", action="store_const", const=["sanitized"], dest="run_of", help="run the tests of the native library under "
+                      "AddressSanitizer and UndefinedBehaviorSanitizer")
     only.add_argument("--faults", nargs="*", metavar="WORDS", help=LONG_RUNS["faults"].help)
     only.add_argument("--chaos", nargs="?", const="1", metavar="SEED", help=LONG_RUNS["chaos"].help)
     only.add_argument("--soak", type=_minutes, metavar="MINUTES", help=LONG_RUNS["soak"].help)
@@ -82,7 +80,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _minutes(text: str) -> str:
     if not re.fullmatch(r"\d*\.?\d+", text):
-        raise argparse.ArgumentTypeError("needs a number of minutes")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number of minutes")
     return text
 
 
@@ -109,31 +107,31 @@ def run_long(long_run: LongRun, values: Sequence[str]) -> int:
 
 
 def bare(roots: Sequence[str]) -> int:
-    """Tests the last commit in fresh roots of distributions."""
+    """Tests the last commit in fresh installations of distributions."""
     setup_environment()
     from tests import bare as fresh
     from tests import results
     unknown = [name for name in roots if name not in fresh.ROOTS]
     if unknown:
-        raise Failure(f"test bare: unknown root '{unknown[0]}'; known: {' '.join(fresh.ROOTS)}")
+        raise Failure(f"test bare: unknown system '{unknown[0]}'; known: {' '.join(fresh.ROOTS)}")
     failure, skipped = fresh.test(roots or list(fresh.ROOTS), RESULTS / "bare")
     cases = results.read(RESULTS / "bare", failure) if skipped < len(roots or fresh.ROOTS) else []
     return results.verdict({"bare": cases}, RESULTS, skipped)
 
 
 def prepare() -> None:
-    """Installs what suites need of the system, and lets CMake read their declarations."""
+    """Installs system packages that suites need, and configures the build graph, which declares the suites."""
     system.setup_system()
     try:
         system.setup_nunit()
     except Failure as failure:
-        say(f"the C# tests are left out: {failure}")
+        print_progress(f"skipping the C# tests: {failure}")
     setup_environment()
     graph.build("build.ninja")
 
 
 def setup_environment() -> None:
-    """Makes the packages of the tests' Python usable in this process, which reads results."""
+    """Adds the packages of the test environment to this process, which reads results."""
     lock.shared()
     fetch.fetch("python")
     for folder in (BUILD / "python/lib").glob("python*/site-packages"):
@@ -144,8 +142,8 @@ def test(words: Sequence[str]) -> int:
     """Runs suites and adds up their results."""
     prepare()
     from tests import results
-    suites = choose(declared(), words)
-    # Each suite locks the outputs by itself, and its fixtures build them.
+    suites = select_suites(read_suites(), words)
+    # Each suite locks the outputs itself, and its fixtures build them.
     lock.release()
     for suite in suites:
         shutil.rmtree(RESULTS / suite.name, ignore_errors=True)
@@ -153,7 +151,7 @@ def test(words: Sequence[str]) -> int:
     return results.verdict({suite.name: results.read(RESULTS / suite.name, failures.get(suite.name, "did not run")) for suite in suites}, RESULTS)
 
 
-def declared() -> list[Suite]:
+def read_suites() -> list[Suite]:
     """Returns the suites of the build graph."""
     output = subprocess.run(["ctest", "--test-dir", GRAPH, "--show-only=json-v1"], stdout=subprocess.PIPE, check=True).stdout
     suites = []
@@ -165,36 +163,36 @@ def declared() -> list[Suite]:
     return suites
 
 
-def choose(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
+def select_suites(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
     """Returns the suites of these names, areas or runs, in their order."""
     names = {suite.name for suite in suites}
     chosen: set[Suite] = set()
     for word in words:
         labelled = [suite for suite in suites if word in suite.labels]
-        # An area stands for its part of a run of all suites, so that it has the same verdict in both.
+        # An area selects the suites that a run of all suites has of it, so that both give the same result.
         whole = [suite for suite in labelled if word == "quick" or "all" in suite.labels]
         found = [suite for suite in suites if suite.name == word] or whole or labelled
         if not found:
             areas = dict.fromkeys(area for suite in suites for area in suite.labels - RUNS)
-            raise Failure(f"test: unknown suite '{word}'; known: {' '.join(areas)}, and in parts: {' '.join(sorted(names - areas.keys()))}")
+            raise Failure(f"test: unknown suite '{word}'; known: areas {' '.join(areas)}; suites {' '.join(sorted(names - areas.keys()))}")
         chosen |= set(found)
     disabled = [suite.name for suite in suites if suite in chosen and suite.is_disabled]
     if disabled:
         text = f"{', '.join(disabled)}: this system has no package of NUnit 2.6"
         if len(disabled) == len(chosen):
             raise Failure(f"test: {text}")
-        say(f"skipped {text}")
+        print_progress(f"skipped {text}")
     return [suite for suite in suites if suite in chosen and not suite.is_disabled]
 
 
 def run_suites(names: Sequence[str]) -> dict[str, str]:
-    """Runs suites with CTest; returns the failure that CTest reports of each test, empty for none."""
+    """Runs suites with CTest. Returns the failure that CTest reports for each suite, or an empty text."""
     report = RESULTS / "ctest.xml"
     report.unlink(missing_ok=True)
     pattern = "|".join(re.sub(r"[.+]", r"\\\g<0>", name) for name in names)
     command: list[str | Path] = ["ctest", "--test-dir", GRAPH, "--output-on-failure", "--output-junit", report, "-R", f"^({pattern})$"]
     processes.call(command, stdout=sys.stderr.fileno())
     if not report.exists():
-        raise Failure("test: CTest ended early")
+        raise Failure("test: CTest ended before it wrote its results; the messages are above")
     from tests import junit
     return {case.name.split(".")[-1]: case.failure for case in junit.read(str(report))}

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from build import system
-from build.console import Failure, say
+from build.console import Failure, print_progress
 from build.places import BUILD, LOGS, ROOT
 from tests import bare_demo
 
@@ -55,7 +55,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
     if not _is_possible():
         return "", len(names)
     if subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], stdout=subprocess.PIPE, check=True).stdout:
-        say("the last commit is tested; the changes since then are not in it")
+        print_progress("the last commit is tested; the changes since then are not in it")
     work = Path(tempfile.mkdtemp(prefix="bare.", dir=BUILD))
     failures, skipped = [], 0
     try:
@@ -64,7 +64,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
                 if code := _test_root(name, work, results):
                     failures.append(f"{name} ended with code {code}")
             except CannotMakeError as error:
-                say(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
+                print_progress(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
                 skipped += 1
             finally:
                 _remove(work / name)
@@ -75,17 +75,17 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
 
 def _is_possible() -> bool:
     """Reports whether roots can be made here, and prints why not."""
-    if not system.may_install():
-        say("skipped: fresh roots need root and apt-get")
+    if not system.can_install():
+        print_progress("skipped: fresh roots need root and apt-get")
         return False
     if subprocess.run(_namespace("true"), stderr=subprocess.DEVNULL).returncode != 0:
-        say("skipped: this machine allows no mount namespace")
+        print_progress("skipped: this machine allows no mount namespace")
         return False
     if not shutil.which("debootstrap"):
         try:
             system.install(["debootstrap", "debian-archive-keyring"], "debootstrap")
         except Failure:
-            say("skipped: debootstrap cannot be installed")
+            print_progress("skipped: debootstrap cannot be installed")
             return False
     return True
 
@@ -107,7 +107,7 @@ def _log(name: str) -> Path:
 def _test_root(name: str, work: Path, results: Path) -> int:
     """Makes a root, and runs the demo and the tests in it; returns the exit code of the last that failed."""
     began, root = time.monotonic(), work / name
-    say(f"{name}: making the root")
+    print_progress(f"{name}: making the root")
     _log(name).unlink(missing_ok=True)
     _make(name, work, root)
     clone = root / "root/collektive"
@@ -119,7 +119,7 @@ def _test_root(name: str, work: Path, results: Path) -> int:
     if code != 0:
         print("".join(_log(name).read_text(errors="replace").splitlines(keepends=True)[-60:]), file=sys.stderr)
     size = subprocess.run(["du", "-smx", root], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
-    say(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
+    print_progress(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
     return code
 
 
@@ -198,7 +198,7 @@ def _client_variables() -> dict[str, str]:
 
 def _run(name: str, root: Path, *command: str) -> int:
     """Runs a command in the clone inside the root; its output goes to the log, and its steps are shown."""
-    say(f"{name}: {' '.join(command)}")
+    print_progress(f"{name}: {' '.join(command)}")
     variables = [f"{key}={value}" for key, value in _client_variables().items()]
     inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]
     process = subprocess.Popen(_namespace("bash", "-c", ENTER, "bare", root, *variables, *inside), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

@@ -15,7 +15,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import experiments, fetch, graph, jdk, lock, managed, processes
-from build.console import Failure, say
+from build.console import Failure, print_progress
 from build.places import BUILD, CSHARP, EXPERIMENTS_PYTHON, FLATC, JVM, LOGS, ROOT, TEST_PYTHON
 
 FUZZ = BUILD / "fuzz"
@@ -110,7 +110,7 @@ def run(name: str, seconds: int, seed: int) -> bool:
     findings, log = FUZZ / name / "findings", LOGS / f"fuzz-{name}.log"
     findings.mkdir(parents=True, exist_ok=True)
     (FUZZ / name / "corpus").mkdir(exist_ok=True)
-    say(f"fuzz {name} for {seconds // 60} min, seed {seed} ...")
+    print_progress(f"fuzz {name} for {seconds // 60} min, seed {seed} ...")
     module = JVM / {"record": "tools"}.get(name, "host")
     with log.open("wb") as file:
         code = subprocess.run(FUZZERS[name](seconds, seed), cwd=module, env=environment(name, seconds, seed), stdout=file, stderr=file).returncode
@@ -119,7 +119,7 @@ def run(name: str, seconds: int, seed: int) -> bool:
         # Its output names the seed, which joins the corpus in native-shim/test/fuzz.c.
         (findings / f"seed-{seed}.log").write_text(text)
     done = re.search(r"(?m)^Done \d+ runs.*", text)
-    say(f"fuzz {name}: {done[0] if done else 'ended early'}, {len(list(findings.iterdir()))} findings in {findings}")
+    print_progress(f"fuzz {name}: {done[0] if done else 'ended early'}, {len(list(findings.iterdir()))} findings in {findings}")
     return code == 0
 
 

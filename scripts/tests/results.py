@@ -3,7 +3,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from build.console import say
+from build.console import print_progress
 from tests import junit
 
 
@@ -40,7 +40,7 @@ def verdict(suites: Mapping[str, Sequence[junit.Case]], folder: Path, skipped: i
                 print(f"FAILED {name}: {case.name}: {case.failure.splitlines()[0][:200]}", file=sys.stderr)
         sys.stderr.write(notes(folder / name))
         failed = sum(bool(case.failure) for case in cases)
-        say(f"test {name}: {len(cases) - failed} passed, {failed} failed")
+        print_progress(f"test {name}: {len(cases) - failed} passed, {failed} failed")
     every = [case for cases in suites.values() for case in cases]
     failed = sum(bool(case.failure) for case in every)
     print(f"{len(every) - failed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))

@@ -17,7 +17,7 @@ def main(words: list[str]) -> int:
     Path(words[0]).mkdir(parents=True, exist_ok=True)
     if "--lock" in options:
         lock.shared()
-    return processes.attended(lambda: processes.call(command))
+    return processes.run_in_group(lambda: processes.call(command))
 
 
 if __name__ == "__main__":

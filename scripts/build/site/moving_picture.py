@@ -1,4 +1,4 @@
-"""moving_picture.py REPLAY.html FILE.webp: makes the moving picture of the README from the replay page of a demo.
+"""moving_picture.py REPLAY.html FILE.webp: makes the animation in the README from the replay page of a demo.
 
 Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. Twelve pictures a second, and the last one for two seconds.
 """
@@ -17,7 +17,7 @@ MILLIS, LAST_MILLIS = 83, 2000
 
 
 def main(page: str, target: str) -> None:
-    """Takes the frames in a browser and joins them."""
+    """Captures the frames in a browser and joins them."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["node", HERE / "moving_picture.mjs", page, folder, str(FRAMES)], check=True,
                        env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(HERE.parents[2] / "build/npm/node_modules")})

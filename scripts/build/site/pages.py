@@ -1,4 +1,4 @@
-"""The sources of the site: the pages of Documentation~ and docs/, the changelog and its neighbours, and reference pages that are made from the code."""
+"""Collects the pages of the site: Documentation~, docs/, the root pages, and reference pages generated from the code."""
 import os
 import re
 import shutil
@@ -9,8 +9,7 @@ from build.console import Failure
 from build.places import ROOT
 from build.site import reference
 
-# Titles of sections, and pages in their order: Documentation~ lies at the top of the site, docs/ in `repository`. Pages that are named nowhere, as
-# new ones may be, come last in How-to.
+# Sections and their pages, in order. Documentation~ is at the top of the site, docs/ in `repository`. Other pages come last in How-to.
 SECTIONS = {
     "Start": ["getting-started", "without-unity"],
     "Concepts": ["aggregate-computing", "unity-for-researchers", "way-of-a-tick", "schedules-and-network", "reproducibility"],
@@ -23,13 +22,13 @@ SECTIONS = {
     "Project": ["repository/changelog", "repository/contributing", "repository/security", "repository/third-party"],
 }
 LATE = "How-to"
-# Libraries of the pages: what draws diagrams, and what lets the search run in pages from the disk.
+# Libraries that draw diagrams, and that make the search work without a server.
 LIBRARIES = {"mermaid.js": "@mermaid-js/tiny/dist/mermaid.tiny.js", "iframe-worker.js": "iframe-worker/shim/index.js"}
-# Files at the root of the repository that are pages, too.
+# Pages at the root of the repository.
 ROOT_PAGES = {"CHANGELOG.md": "repository/changelog.md", "CONTRIBUTING.md": "repository/contributing.md", "SECURITY.md": "repository/security.md",
               "THIRD-PARTY.md": "repository/third-party.md"}
 STYLE = """
-/* Wide tables and code scroll in themselves. */
+/* Wide tables and code scroll. */
 .md-typeset td code, .md-typeset th code { word-break: normal; overflow-wrap: break-word; }
 .md-typeset :is(p, li, h1, h2, h3) { overflow-wrap: anywhere; }
 .md-grid { max-width: 72rem; }
@@ -37,7 +36,7 @@ STYLE = """
 
 
 def places() -> dict[str, str]:
-    """Where each file of the repository that is part of the site lies in the site."""
+    """Returns the place in the site of each file of the repository that is part of it."""
     found = {path: place for path, place in ROOT_PAGES.items() if os.path.exists(os.path.join(ROOT, path))}
     for folder, place in [("Documentation~", ""), ("docs", "repository/")]:
         for name in sorted(os.listdir(os.path.join(ROOT, folder))):
@@ -45,8 +44,8 @@ def places() -> dict[str, str]:
     return found
 
 
-def linked(text: str, path: str, site: Mapping[str, str]) -> str:
-    """A page's text with its links as they are in the site."""
+def rewrite_links(text: str, path: str, site: Mapping[str, str]) -> str:
+    """Returns a page's text with links that work in the site."""
     def of(target: str) -> str:
         return os.path.relpath(site[target], os.path.dirname(site[path]) or ".")
 
@@ -54,11 +53,11 @@ def linked(text: str, path: str, site: Mapping[str, str]) -> str:
         link, anchor = match[1], match[2] or ""
         target = os.path.normpath(os.path.join(os.path.dirname(path), link))
         if target not in site:
-            raise Failure(f"{path}: the link to {link} leads to no page of the site")
+            raise Failure(f"{path}: the link to {link} is broken: the site has no such page")
         return f"]({of(target)}{anchor})"
 
     text = re.sub(r"\]\((?!https?:|#)([^)#]+)(#[^)]*)?\)", relative, text)
-    # Pages of the package name those of the repository, which it does not contain.
+    # Pages of the package name pages of the repository without a link, because the package does not contain them.
     return re.sub(r"`((?:docs|Documentation~)/[\w-]+\.md)`(\s+(?:in|of)\s+the\s+repository)?",
                   lambda match: f"[{match[1]}]({of(match[1])})" if match[1] in site else match[0], text)
 
@@ -68,15 +67,15 @@ def title(text: str) -> str:
 
 
 def write(folder: Path, modules: Path) -> None:
-    """Writes the sources to a folder, with the configuration site.yml of MkDocs; `modules` has the libraries that pages load.
+    """Writes the pages and the MkDocs configuration site.yml to a folder. `modules` contains the libraries that pages load.
 
-    Raises `Failure` if a link leads to a file that is not a page of the site.
+    Raises `Failure` if a link is broken.
     """
     site = places()
     pages: dict[str, str] = {}
     for path, place in site.items():
         if path.endswith(".md"):
-            pages[place.removesuffix(".md")] = linked((ROOT / path).read_text(), path, site)
+            pages[place.removesuffix(".md")] = rewrite_links((ROOT / path).read_text(), path, site)
         else:
             target = folder / "pages" / place
             target.parent.mkdir(parents=True, exist_ok=True)

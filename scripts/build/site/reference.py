@@ -1,4 +1,4 @@
-"""Pages of the site that are made from the code: the command line, errors, JVM settings, the APIs of C#, Kotlin and C."""
+"""Reference pages generated from the code: the command line, errors, settings, and the APIs of C#, Kotlin and C."""
 import re
 from collections.abc import Callable, Iterator, Mapping
 from xml.etree import ElementTree
@@ -13,7 +13,7 @@ Documented = Mapping[str | None, ElementTree.Element]
 
 
 def command_line() -> str:
-    page = "# Command line\n\nThe help texts of `./collektive`, which runs on Linux from a clone of the repository.\n"
+    page = "# Command line\n\nHelp texts of `./collektive`, which runs on Linux from a clone of the repository.\n"
     page += f"\n```text\n{help_of()}```\n"
     for command in commands():
         page += f"\n## {command}\n\n```text\n{help_of(command).strip()}\n```\n"
@@ -21,7 +21,7 @@ def command_line() -> str:
 
 
 def jvm_settings() -> str:
-    """From the descriptions that inspectors and scenario files share."""
+    """Returns the page of JVM settings."""
     source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Bridge/Jvm/JvmSetting.cs"))
     rows = re.findall(r'new JvmSetting\(\s*nameof\(JvmSettings\.(\w+)\), "([^"]+)",\s*"([^"]+)"(.*?)(?=new JvmSetting|\};)', source, re.S)
     page = ("# JVM settings\n\nFields of a JVM Settings asset in the inspector, and keys of `jvm` in a scenario file. They take effect when the JVM starts. "
@@ -34,12 +34,12 @@ def jvm_settings() -> str:
 
 
 def simulation_settings() -> str:
-    """From the fields that the inspector shows; Scenario.cs names those that are no keys of a scenario."""
+    """Returns the page of simulation settings. Scenario.cs names the settings that are not keys of a scenario."""
     source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
     scenario = text("unity/Headless~/Player/Scenario.cs")
     apart = re.findall(r"nameof\(SimulationSettings\.(\w+)\)", scenario[scenario.index("Shared ="):scenario.index("private readonly JObject root")])
-    page = ("# Simulation settings\n\nFields of the Simulation Manager in the inspector. Most are keys of a scenario file, too; the others have "
-            "[keys of their own](../headless.md) there.\n\n| Field | Type | Default | Key of a scenario | Meaning |\n|---|---|---|---|---|\n")
+    page = ("# Simulation settings\n\nFields of the Simulation Manager in the inspector. Most are also keys of a scenario file. For the others, "
+            "see [Runs without Unity](../headless.md).\n\n| Field | Type | Default | Key of a scenario | Meaning |\n|---|---|---|---|---|\n")
     for tooltip, kind, name, default in re.findall(r'\[Tooltip\("([^"]+)"\)\].*?public ([\w<>]+) (\w+)(?: = ([^;]+))?;', source, re.S):
         key = "" if name in apart else "yes"
         default = re.sub(r"new .*|^f$", "", default.removesuffix("f")) if default else "0" if kind == "float" else ""
@@ -48,33 +48,33 @@ def simulation_settings() -> str:
 
 
 def eval_shift(number: str) -> int:
-    """The value of `8` and of `1 << 20`."""
+    """Evaluates a number such as `8` or `1 << 20`."""
     base, _, shift = number.partition("<<")
     return int(base) << int(shift or 0)
 
 
 def c_header() -> str:
-    return ("# C header\n\n`native-shim/include/collektive_shim.h`: the native library's whole interface. The package's C# calls it; it is of use to who "
-            f"embeds the JVM side elsewhere.\n\n```c\n{text('native-shim/include/collektive_shim.h')}```\n")
+    return ("# C header\n\n`native-shim/include/collektive_shim.h`: the interface of the native library. Use it to embed "
+            f"the JVM side in another application.\n\n```c\n{text('native-shim/include/collektive_shim.h')}```\n")
 
 
 def csharp(assembly: str) -> Callable[[], str]:
     def make() -> str:
         documented = {member.get("name"): member for member in ElementTree.parse(DOCUMENTATION / f"{assembly.split('.')[1]}.xml").iter("member")}
-        page = f"# C# API: {assembly}\n\nAll public and protected members. Components are found below Collektive in the Add Component menu.\n"
+        page = f"# C# API: {assembly}\n\nAll public and protected members. Components are in the menu Add Component > Collektive.\n"
         type_name = header = ""
         for line in text(f"unity/Tests/PublicApi/{assembly}.txt").splitlines():
             name, _, kind = line.partition(" : ")
             if re.search(r"\b(class|struct|interface|enum|delegate)\b", kind.split(",")[0]):
-                doc = described(documented, "T:" + identifier(name))
-                page += f"\n## {simple(name).replace('<', '&lt;')}\n\n`{simple(kind)}`\n\n{doc}\n"
+                doc = description(documented, "T:" + identifier(name))
+                page += f"\n## {without_namespaces(name).replace('<', '&lt;')}\n\n`{without_namespaces(kind)}`\n\n{doc}\n"
                 type_name, header = name, "\n| Member | |\n|---|---|\n"
                 continue
             member = name.removeprefix(type_name + ".")
-            doc = described(documented, *candidates(type_name, member, documented))
+            doc = description(documented, *candidates(type_name, member, documented))
             if member == "new()" and not doc:
                 continue  # the compiler's
-            shown = simple(member + (" : " + kind if kind else ""))
+            shown = without_namespaces(member + (" : " + kind if kind else ""))
             page += f"{header}| `{shown}` | {doc} |\n"
             header = ""
         return page
@@ -82,22 +82,22 @@ def csharp(assembly: str) -> Callable[[], str]:
 
 
 def identifier(name: str) -> str:
-    """A type's name as documentation files write it: List<T> is List`1."""
+    """Returns a type's name as in XML documentation files: List`1 for List<T>."""
     return re.sub(r"<([^<>]*)>", lambda match: "`" + str(match[1].count(",") + 1), name)
 
 
 def candidates(type_name: str, member: str, documented: Documented) -> list[str]:
-    """Keys that a member's documentation may have: that of the overload with the same parameter types comes first."""
+    """Returns possible keys of a member's documentation. The overload with the same parameter types comes first."""
     base = member.split("(")[0].split("<")[0]
     base = "#ctor" if base == "new" else base
     prefix = identifier(type_name) + "." + base
     keys = [key for key in documented if key and re.sub(r"``\d+$", "", key[2:].split("(")[0]) == prefix]
-    wanted = words(member)
-    return sorted(keys, key=lambda key: words(key) != wanted)
+    expected = parameter_types(member)
+    return sorted(keys, key=lambda key: parameter_types(key) != expected)
 
 
-def words(signature: str) -> list[str]:
-    """Last words of the parameters' types."""
+def parameter_types(signature: str) -> list[str]:
+    """Returns the types of a signature's parameters, without namespaces."""
     inner = signature.partition("(")[2].partition(")")[0]
     found = []
     for parameter in inner.split(","):
@@ -106,26 +106,26 @@ def words(signature: str) -> list[str]:
     return found
 
 
-def described(documented: Documented, *keys: str) -> str:
+def description(documented: Documented, *keys: str) -> str:
     for key in keys:
         if key in documented:
-            return " ".join(filter(None, (plain(documented[key].find(part), label) for part, label in
+            return " ".join(filter(None, (plain_text(documented[key].find(part), label) for part, label in
                                           [("summary", ""), ("returns", "Returns: "), ("remarks", "")]))
-                            ) + "".join(f" `{item.get('name')}`: {plain(item, '')}" for item in documented[key].iter("param"))
+                            ) + "".join(f" `{item.get('name')}`: {plain_text(item, '')}" for item in documented[key].iter("param"))
     return ""
 
 
-def plain(element: ElementTree.Element | None, label: str) -> str:
+def plain_text(element: ElementTree.Element | None, label: str) -> str:
     if element is None:
         return ""
     parts = [element.text or ""]
     for child in element:
         reference = child.get("cref") or child.get("name") or child.get("langword") or child.text or ""
-        parts += [f"`{short(re.sub('^.:', '', reference).split('(')[0])}`", child.tail or ""]
+        parts += [f"`{last_part(re.sub('^.:', '', reference).split('(')[0])}`", child.tail or ""]
     return label + " ".join("".join(parts).split()).replace("|", "\\|")
 
 
-def short(name: str) -> str:
+def last_part(name: str) -> str:
     name = re.sub(r"``?\d+", "", name)
     return re.sub(r"\b(?:[A-Za-z_]\w*\.)+(?=[A-Z_a-z]\w*$|\w+<)", "", name)
 
@@ -134,8 +134,8 @@ ALIASES = {"Void": "void", "Boolean": "bool", "Single": "float", "Double": "doub
            "String": "string", "Object": "object", "Byte": "byte"}
 
 
-def simple(signature: str) -> str:
-    """A signature without namespaces, with C#'s own names of types."""
+def without_namespaces(signature: str) -> str:
+    """Returns a signature without namespaces, with C#'s keywords for types."""
     signature = re.sub(r"\b(?:System|Collektive|UnityEngine|org)\.(?:\w+\.)*(?=\w)", "", signature)
     return re.sub(r"\b(" + "|".join(ALIASES) + r")\b", lambda match: ALIASES[match[1]], signature).replace("|", "\\|")
 
@@ -144,7 +144,7 @@ PUBLIC = re.compile(r"^(\s*)(?:@\w+(?:\([^)]*\))?\s+)*public\s+(?!(?:final |open
 
 
 def kotlin(module: str, about: str, packages: str = "") -> Callable[[], str]:
-    """A page of a module's public declarations, from its sources: in explicit API mode they say `public`."""
+    """Returns a function that makes the page of a module's public declarations."""
     def make() -> str:
         page = f"# Kotlin API: {module}\n\n{about}\n"
         for path in sorted((JVM / module / "src/main/kotlin" / packages).rglob("*.kt")):
@@ -160,7 +160,7 @@ def kotlin(module: str, about: str, packages: str = "") -> Callable[[], str]:
 
 
 def declarations(lines: list[str]) -> Iterator[tuple[str, str]]:
-    """Signatures of public declarations, with their documentation as Markdown."""
+    """Yields the signatures of public declarations and their documentation as Markdown."""
     doc: list[str] = []
     at = 0
     while at < len(lines):
@@ -180,14 +180,14 @@ def declarations(lines: list[str]) -> Iterator[tuple[str, str]]:
                 at += 1
             # Without the body.
             signature[-1] = re.sub(r"(\)(?:: [\w<>?, .*()-]+)?) (?:=(?!=)|\{).*$", r"\1", signature[-1])
-            yield re.sub(r"\s*[{=:]?\s*$", "", "\n".join(signature)), described_kotlin(doc)
+            yield re.sub(r"\s*[{=:]?\s*$", "", "\n".join(signature)), kdoc_as_markdown(doc)
         if lines[at].strip() and not lines[at].lstrip().startswith(("@", "//", "context(")):
             doc = []
         at += 1
 
 
-def described_kotlin(lines: list[str]) -> str:
-    """KDoc as Markdown: tags become a list, references become code."""
+def kdoc_as_markdown(lines: list[str]) -> str:
+    """Converts KDoc to Markdown: tags become a list, references become code."""
     plain_lines = [re.sub(r"^\s*/?\*{1,2}/? ?", "", line).removesuffix("*/").rstrip() for line in lines]
     body: list[str] = []
     fenced = False
@@ -209,8 +209,8 @@ PAGES: dict[str, Callable[[], str]] = {
     "errors": errors,
     "csharp-unity": csharp("Collektive.Unity"),
     "csharp-bridge": csharp("Collektive.Bridge"),
-    "kotlin-api": kotlin("api", "What a program sees beside the DSL: its annotation, its device, its parameters.", "org/collektive/api"),
-    "kotlin-dsl": kotlin("dsl", "Collektive's DSL: the primitives and fields, and what hosts of programs use."),
+    "kotlin-api": kotlin("api", "The annotation, device and parameters of programs.", "org/collektive/api"),
+    "kotlin-dsl": kotlin("dsl", "Collektive's DSL: primitives, fields, and the API for hosts of programs."),
     "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library and the properties of links, without the lifted operators of Kotlin's library."),
     "kotlin-testing": kotlin("testing", "For tests of programs: `Tools~/collektive-testing.jar`."),
     "c-header": c_header,

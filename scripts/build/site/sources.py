@@ -1,11 +1,11 @@
-"""What pages of the site are made from: files of the repository, and the help texts of the command."""
+"""Reads files of the repository and help texts of commands, for reference pages."""
 import os
 import re
 import subprocess
 
 from build.places import COLLEKTIVE, ROOT
 
-# Columns of help texts, whatever the terminal is like.
+# Width of help texts, independent of the terminal.
 WIDTH = "120"
 
 

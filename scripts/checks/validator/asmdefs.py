@@ -1,4 +1,4 @@
-"""Assembly definitions: names, references, platforms, and that every C# file of the package belongs to one."""
+"""Checks the names, references and platforms of assembly definitions, and that every C# file belongs to one."""
 import json
 import os
 from collections.abc import Iterator
@@ -6,10 +6,10 @@ from typing import Any
 
 from validator.assets import Assets
 
-# Assemblies and plugins that Unity's own packages bring.
+# Assemblies and plugins of Unity's packages.
 UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 UNITY_PLUGINS = {"nunit.framework.dll"}
-# What the build puts into the package.
+# Plugins that the build adds to the package.
 BUILT_PLUGINS = {"Collektive.FlatBuffers.dll"}
 # Path and content by assembly.
 Definitions = dict[str, tuple[str, dict[str, Any]]]
@@ -26,17 +26,17 @@ def problems(assets: Assets) -> Iterator[str]:
             continue
         name = definition.get("name", "")
         if name != os.path.basename(path)[:-len(".asmdef")]:
-            yield f"{path}: its name is '{name}': file and assembly must have one name"
+            yield f"{path}: its name is '{name}', which must be the name of the file"
         if name in definitions:
-            yield f"{path}: the name '{name}' is also that of {definitions[name][0]}"
+            yield f"{path}: {definitions[name][0]} has the same name '{name}'"
         definitions[name] = (path, definition)
     for _, (path, definition) in sorted(definitions.items()):
-        yield from of_one(path, definition, definitions)
+        yield from check_definition(path, definition, definitions)
     yield from cycles(definitions)
     yield from unassigned(assets, definitions)
 
 
-def of_one(path: str, definition: dict[str, Any], definitions: Definitions) -> Iterator[str]:
+def check_definition(path: str, definition: dict[str, Any], definitions: Definitions) -> Iterator[str]:
     for reference in definition.get("references", []):
         if reference not in definitions and reference not in UNITY_ASSEMBLIES:
             yield f"{path}: refers to the assembly '{reference}', which is not in the package"
@@ -49,15 +49,15 @@ def of_one(path: str, definition: dict[str, Any], definitions: Definitions) -> I
     folders = path.split("/")
     is_test = "Tests" in folders
     if platforms - PLATFORMS or (is_test and not platforms):
-        yield f"{path}: its platforms are {sorted(platforms)}: they must be some of {sorted(PLATFORMS)}"
+        yield f"{path}: its platforms are {sorted(platforms)}: allowed are {sorted(PLATFORMS)}"
     if platforms not in (set(), {"Editor"}) and not is_test:
-        yield f"{path}: its platforms are {sorted(platforms)}: users' code must compile for all, so that a player without the JVM says so"
+        yield f"{path}: its platforms are {sorted(platforms)}: runtime code must compile for all platforms, so that unsupported players report an error"
     if ("Editor" in folders) != (platforms == {"Editor"}):
-        yield f"{path}: code for the editor lies below a folder Editor and has only the platform Editor"
+        yield f"{path}: editor code must be in a folder Editor and have only the platform Editor"
     if is_test != ("UNITY_INCLUDE_TESTS" in definition.get("defineConstraints", [])):
-        yield f"{path}: tests lie below a folder Tests and have the constraint UNITY_INCLUDE_TESTS"
+        yield f"{path}: tests must be in a folder Tests and have the constraint UNITY_INCLUDE_TESTS"
     if is_test and "nunit.framework.dll" not in definition.get("precompiledReferences", []):
-        yield f"{path}: tests refer to nunit.framework.dll"
+        yield f"{path}: tests must reference nunit.framework.dll"
 
 
 def cycles(definitions: Definitions) -> Iterator[str]:
@@ -67,7 +67,7 @@ def cycles(definitions: Definitions) -> Iterator[str]:
         while open_names:
             reference = open_names.pop()
             if reference == name:
-                yield f"{definitions[name][0]}: refers to itself through others"
+                yield f"{definitions[name][0]}: is part of a reference cycle"
                 break
             if reference in definitions and reference not in seen:
                 seen.add(reference)
@@ -75,7 +75,7 @@ def cycles(definitions: Definitions) -> Iterator[str]:
 
 
 def unassigned(assets: Assets, definitions: Definitions) -> Iterator[str]:
-    """C# that Unity would compile into the users' own assembly."""
+    """Yields C# files without an assembly definition, which Unity would compile into the user's assembly."""
     folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):
         if not any(path.startswith(folder) for folder in folders):

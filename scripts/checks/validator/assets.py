@@ -1,15 +1,15 @@
-"""The package's assets by path and by GUID."""
+"""Reads the package's assets by path and by GUID."""
 import os
 from pathlib import Path
 
 from build import metas
 
-# GUIDs of what Unity itself brings: its built-in meshes, materials and shaders.
+# GUIDs of Unity's built-in meshes, materials and shaders.
 BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f000000000000000"}
 
 
 class Assets:
-    """All assets below a root, from their metas."""
+    """The assets below a root."""
 
     def __init__(self, root: str | Path) -> None:
         self.root = root
@@ -29,7 +29,7 @@ class Assets:
 
 
 def guid_of(meta: str) -> str | None:
-    """The GUID in a meta file; None when there is none."""
+    """Returns the GUID in a meta file, or None."""
     if not os.path.exists(meta):
         return None
     with open(meta) as file:

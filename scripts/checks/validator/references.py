@@ -1,4 +1,4 @@
-"""Prefabs, scenes and materials: their objects, their references, and their scripts' fields against the C#."""
+"""Checks objects and references of prefabs, scenes and materials, and fields of scripts against the C#."""
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -11,7 +11,7 @@ from validator.unity_yaml import Document
 
 Files = dict[str, list[Document]]
 
-# Unity's class numbers, of what the package's files hold.
+# Unity's class numbers of the objects in the package.
 CLASSES = {
     1: "GameObject", 4: "Transform", 20: "Camera", 21: "Material", 23: "MeshRenderer", 29: "OcclusionCullingSettings", 33: "MeshFilter",
     54: "Rigidbody", 65: "BoxCollider", 81: "AudioListener", 104: "RenderSettings", 108: "Light", 114: "MonoBehaviour", 135: "SphereCollider",
@@ -20,10 +20,10 @@ CLASSES = {
 YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
 # The file id of an imported asset's main object, and the kind of asset that goes with it.
 IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
-# What a PrefabInstance refers to in place of one of the prefab's objects.
+# The file id by which a PrefabInstance refers to the whole prefab.
 WHOLE_PREFAB = "100100000"
 # Fields that Unity itself writes for every MonoBehaviour.
-OF_EVERY_SCRIPT = {
+COMMON_FIELDS = {
     "m_ObjectHideFlags", "m_CorrespondingSourceObject", "m_PrefabInstance", "m_PrefabAsset", "m_GameObject", "m_Enabled", "m_EditorHideFlags",
     "m_Script", "m_Name", "m_EditorClassIdentifier",
 }
@@ -59,27 +59,27 @@ class OneFile:
             if CLASSES.get(document.class_id) != document.type_name:
                 yield f"{document.line}: class {document.class_id} is not known as {document.type_name}"
             for where, reference in references(document.fields):
-                problem = self.of_reference(reference)
+                problem = self.check_reference(reference)
                 if problem:
                     yield f"{document.line}: {document.type_name}.{where}: {problem}"
             if document.type_name == "GameObject":
-                yield from self.of_game_object(document)
+                yield from self.check_game_object(document)
             if document.type_name == "Transform" and not document.stripped:
-                yield from self.of_transform(document)
+                yield from self.check_transform(document)
             if document.type_name == "MonoBehaviour" and not document.stripped:
-                yield from self.of_script(document)
+                yield from self.check_script(document)
             if document.type_name == "PrefabInstance":
-                yield from self.of_instance(document)
+                yield from self.check_instance(document)
         if self.path.endswith(".unity"):
-            yield from self.of_scene()
+            yield from self.check_scene()
 
-    def of_reference(self, reference: dict[str, str]) -> str | None:
-        """What is wrong with a reference; None when it is right."""
+    def check_reference(self, reference: dict[str, str]) -> str | None:
+        """Returns the error of a reference, or None."""
         file_id, guid = reference["fileID"], reference.get("guid")
         if file_id == "0":
             return None
         if guid is None:
-            return None if file_id in self.by_id else f"there is no object {file_id} in this file"
+            return None if file_id in self.by_id else f"object {file_id} does not exist in this file"
         if guid in BUILT_IN:
             return None
         target = self.assets.guids.get(guid)
@@ -89,73 +89,73 @@ class OneFile:
         if imported:
             return None if (file_id, reference.get("type")) == imported else f"{target} is referred to by fileID {imported[0]} and type {imported[1]}"
         if target not in self.files:
-            return f"{target} is no asset that can be referred to"
+            return f"{target} cannot be referenced"
         if target.endswith(".prefab") and file_id == WHOLE_PREFAB:
             return None
         if file_id not in {str(document.file_id) for document in self.files[target]}:
-            return f"there is no object {file_id} in {target}"
+            return f"object {file_id} does not exist in {target}"
         return None
 
-    def of_game_object(self, document: Document) -> Iterator[str]:
+    def check_game_object(self, document: Document) -> Iterator[str]:
         for entry in document.fields["m_Component"]:
             component = self.by_id.get(entry["component"]["fileID"])
             if component and component.fields["m_GameObject"]["fileID"] != str(document.file_id):
-                yield f"{component.line}: {component.type_name} says that it is on another GameObject than {document.fields['m_Name']}"
+                yield f"{component.line}: {component.type_name} belongs to another GameObject than {document.fields['m_Name']}"
         listed = {entry["component"]["fileID"] for entry in document.fields["m_Component"]}
         for other in self.documents:
             owner = other.fields.get("m_GameObject", {}).get("fileID")
             if owner == str(document.file_id) and str(other.file_id) not in listed:
                 yield f"{other.line}: {other.type_name} is not among the components of {document.fields['m_Name']}"
 
-    def of_transform(self, document: Document) -> Iterator[str]:
+    def check_transform(self, document: Document) -> Iterator[str]:
         for child in document.fields["m_Children"]:
             other = self.by_id.get(child["fileID"])
             if other and not other.stripped and other.fields["m_Father"]["fileID"] != str(document.file_id):
-                yield f"{other.line}: Transform has another parent than {document.file_id}"
+                yield f"{other.line}: the parent of this Transform must be {document.file_id}"
         parent = self.by_id.get(document.fields["m_Father"]["fileID"])
         if parent and not parent.stripped and {"fileID": str(document.file_id)} not in parent.fields["m_Children"]:
             yield f"{document.line}: Transform is not among the children of its parent"
 
-    def of_scene(self) -> Iterator[str]:
+    def check_scene(self) -> Iterator[str]:
         roots = [document for document in self.documents if document.type_name == "SceneRoots"]
         if len(roots) != 1:
             yield "1: a scene has one SceneRoots"
             return
         listed = {reference["fileID"] for reference in roots[0].fields["m_Roots"]}
-        wanted = {str(document.file_id) for document in self.documents if is_root(document)}
-        for file_id in sorted(wanted ^ listed):
-            yield f"{roots[0].line}: SceneRoots: object {file_id} is {'not listed' if file_id in wanted else 'no root'}"
+        roots_found = {str(document.file_id) for document in self.documents if is_root(document)}
+        for file_id in sorted(roots_found ^ listed):
+            yield f"{roots[0].line}: SceneRoots: object {file_id} is {'not listed' if file_id in roots_found else 'not a root'}"
 
-    def of_script(self, document: Document) -> Iterator[str]:
+    def check_script(self, document: Document) -> Iterator[str]:
         script = self.script_of(document)
         if script is None:
-            # The reference itself is reported already.
+            # check_reference has reported this.
             return
         known = self.class_of(script)
         if known is None:
-            yield f"{document.line}: {script} holds no component or asset class of its own name"
+            yield f"{document.line}: {script} contains no component or asset class with the name of the file"
             return
         for path, value in flattened(document.fields):
-            if path.split(".")[0] not in OF_EVERY_SCRIPT:
-                yield from self.of_field(document.line, known, path, value)
+            if path.split(".")[0] not in COMMON_FIELDS:
+                yield from self.check_field(document.line, known, path, value)
 
-    def of_field(self, line: int, known: ScriptClass, path: str, value: Any) -> Iterator[str]:
+    def check_field(self, line: int, known: ScriptClass, path: str, value: Any) -> Iterator[str]:
         kind = known.fields.get(path)
         if kind is None:
             yield f"{line}: {known.name} has no serialised field {path}"
         elif not fits(kind, value):
             yield f"{line}: {known.name}.{path} is a {kind}, not {value!r}"
 
-    def of_instance(self, document: Document) -> Iterator[str]:
+    def check_instance(self, document: Document) -> Iterator[str]:
         source = self.assets.guids.get(document.fields["m_SourcePrefab"].get("guid"))
         targets = {str(target.file_id): target for target in self.files.get(source or "", [])}
         for change in document.fields["m_Modification"]["m_Modifications"]:
             target = targets.get(change["target"]["fileID"])
             if target is None:
-                # The reference itself is reported already.
+                # check_reference has reported this.
                 continue
             path = re.sub(r"\.Array\.(size|data\[\d+\])", "", change["propertyPath"])
-            if target.type_name == "MonoBehaviour" and path.split(".")[0] not in OF_EVERY_SCRIPT:
+            if target.type_name == "MonoBehaviour" and path.split(".")[0] not in COMMON_FIELDS:
                 script = self.script_of(target)
                 known = script and self.class_of(script)
                 if known and path not in known.fields:
@@ -165,7 +165,7 @@ class OneFile:
         return self.assets.guids.get(document.fields["m_Script"].get("guid"))
 
     def class_of(self, script: str) -> ScriptClass | None:
-        """The class that Unity finds in a script file: the one of the file's name."""
+        """Returns the class with the name of the script file, which Unity uses."""
         name = os.path.basename(script)[:-len(".cs")]
         namespace = re.search(r"^namespace ([\w.]+)", self.assets.read(script), re.M)
         return self.classes.get(f"{namespace[1]}.{name}" if namespace else name)
@@ -178,7 +178,7 @@ def is_root(document: Document) -> bool:
 
 
 def references(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, str]]]:
-    """All references in a value, with their places."""
+    """Yields the references in a value and their paths."""
     if isinstance(value, dict):
         if "fileID" in value:
             yield where, value
@@ -191,7 +191,7 @@ def references(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, str
 
 
 def flattened(fields: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Paths and values of a script's fields; elements of a list have the path of the list."""
+    """Yields paths and values of a script's fields. Elements of a list have the path of the list."""
     for key, value in fields.items():
         path = prefix + key
         yield path, value
@@ -204,7 +204,7 @@ def flattened(fields: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, A
 
 
 def is_vector(value: dict[str, Any]) -> bool:
-    """Vectors, colours and masks are Unity's own; their parts are not looked at."""
+    """Returns whether a value is a vector, colour or mask, whose parts are not checked."""
     return set(value) <= set("xyzwrgba") or "m_Bits" in value
 
 

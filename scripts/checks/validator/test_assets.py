@@ -1,4 +1,4 @@
-"""The package's assets are right, and the validator finds each kind of fault."""
+"""Validates the package's assets, and tests that the validator finds each kind of error."""
 import functools
 import os
 import re
@@ -21,18 +21,18 @@ ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
 
 @functools.cache
 def classes() -> dict[str, serialized_fields.ScriptClass]:
-    """What Unity would serialise of each component."""
+    """Returns the fields of each component that Unity serialises."""
     command = managed.command("mono-sgen", CSHARP / "Collektive.SerializedFields.exe", CSHARP / "Collektive.Unity.dll", CSHARP / "Collektive.Samples.dll")
     output = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True, check=True).stdout
     return serialized_fields.parse(output)
 
 
-class TheAssets(unittest.TestCase):
-    def test_are_right(self) -> None:
+class AssetsTest(unittest.TestCase):
+    def test_assets_are_valid(self) -> None:
         self.assertEqual(list(validate.problems(ROOT, classes())), [])
 
 
-class TheValidator(unittest.TestCase):
+class ValidatorTest(unittest.TestCase):
     """Each test breaks one thing in a copy of the package."""
 
     def setUp(self) -> None:
@@ -59,30 +59,30 @@ class TheValidator(unittest.TestCase):
     def guid_of(self, path: str) -> str:
         return str(assets.guid_of(os.path.join(self.root, path + ".meta")))
 
-    def found(self, *words: str) -> None:
-        """Expects a problem with all the words."""
+    def assert_problem(self, *words: str) -> None:
+        """Asserts that one problem contains all words."""
         problems = list(validate.problems(self.root, classes(), self.ledger))
-        self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "nothing was found")
+        self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "no problem was found")
 
     def test_finds_a_missing_meta(self) -> None:
         os.remove(os.path.join(self.root, ASMDEF + ".meta"))
-        self.found(ASMDEF, "no .meta")
+        self.assert_problem(ASMDEF, ".meta file is missing")
 
     def test_finds_a_meta_without_an_asset(self) -> None:
         os.remove(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs"))
-        self.found("TickTimes.cs.meta", "belongs to no asset")
+        self.assert_problem("TickTimes.cs.meta", "its asset does not exist")
 
     def test_finds_a_guid_used_twice(self) -> None:
         self.change(PREFAB + ".meta", "guid: .*", f"guid: {self.guid_of(ASMDEF)}")
-        self.found("used again")
+        self.assert_problem("duplicate GUID")
 
     def test_finds_a_changed_guid(self) -> None:
         self.change(PREFAB + ".meta", "guid: .*", "guid: " + 32 * "a")
-        self.found(PREFAB, "is gone")
+        self.assert_problem(PREFAB, "is missing")
 
     def test_finds_an_asset_whose_guid_is_not_listed(self) -> None:
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
-        self.found(NODE, "--update")
+        self.assert_problem(NODE, "--update")
 
     def test_an_update_lists_what_is_new_and_forgets_nothing(self) -> None:
         os.remove(os.path.join(self.root, PREFAB))
@@ -91,102 +91,102 @@ class TheValidator(unittest.TestCase):
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
         guids.update(assets.Assets(self.root), classes(), self.ledger)
         self.assertEqual(guids.read(self.ledger), before)
-        self.found(PREFAB, "its GUID", "is gone")
+        self.assert_problem(PREFAB, "its GUID", "is missing")
 
     def test_finds_a_script_reference_to_nothing(self) -> None:
         self.change(PREFAB, r"guid: [0-9a-f]{32}", "guid: " + 32 * "b")
-        self.found(PREFAB, "MonoBehaviour.m_Script", 32 * "b")
+        self.assert_problem(PREFAB, "MonoBehaviour.m_Script", 32 * "b")
 
     def test_finds_a_script_reference_to_something_else(self) -> None:
         guid = self.guid_of("unity/Runtime/Unity/Simulation/TickTimes.cs")
         self.change(PREFAB, r"guid: [0-9a-f]{32}", f"guid: {guid}")
-        self.found(PREFAB, "TickTimes.cs", "no component")
+        self.assert_problem(PREFAB, "TickTimes.cs", "contains no component")
 
     def test_finds_a_field_that_the_script_does_not_have(self) -> None:
         self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  speed: 3\n")
-        self.found(PREFAB, "SimulationManager", "speed")
+        self.assert_problem(PREFAB, "SimulationManager", "speed")
 
     def test_finds_a_nested_field_that_the_script_does_not_have(self) -> None:
         self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  settings:\n    tempo: 3\n")
-        self.found(PREFAB, "settings.tempo")
+        self.assert_problem(PREFAB, "settings.tempo")
 
     def test_finds_a_field_of_another_kind(self) -> None:
         self.change(PREFAB, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  paused: []\n")
-        self.found(PREFAB, "SimulationManager.paused", "number")
+        self.assert_problem(PREFAB, "SimulationManager.paused", "number")
 
     def test_finds_a_changed_setting_that_the_script_does_not_have(self) -> None:
         self.change(SCENE, "propertyPath: settings.program", "propertyPath: settings.programme")
-        self.found(SCENE, "settings.programme")
+        self.assert_problem(SCENE, "settings.programme")
 
     def test_finds_a_reference_to_no_object_of_the_file(self) -> None:
         self.change(SCENE, r"m_GameObject: \{fileID: \d+\}", "m_GameObject: {fileID: 12}")
-        self.found(SCENE, "there is no object 12")
+        self.assert_problem(SCENE, "object 12 does not exist")
 
     def test_finds_a_reference_to_no_object_of_another_file(self) -> None:
         self.change(SCENE, r"target: \{fileID: \d+", "target: {fileID: 12")
-        self.found(SCENE, "there is no object 12", PREFAB)
+        self.assert_problem(SCENE, "object 12 does not exist", PREFAB)
 
     def test_finds_a_component_that_its_object_does_not_list(self) -> None:
         self.change(NODE, r"  - component: \{fileID: \d+\}\n", "")
-        self.found(NODE, "not among the components")
+        self.assert_problem(NODE, "not among the components")
 
     def test_finds_a_root_that_the_scene_does_not_list(self) -> None:
         self.change(SCENE, r"m_Roots:\n  - .*\n", "m_Roots:\n")
-        self.found(SCENE, "SceneRoots", "not listed")
+        self.assert_problem(SCENE, "SceneRoots", "not listed")
 
     def test_finds_two_objects_with_one_id(self) -> None:
         self.change(SCENE, "!u!104 &2", "!u!104 &1")
-        self.found(SCENE, "used twice")
+        self.assert_problem(SCENE, "used twice")
 
     def test_finds_text_that_is_no_yaml(self) -> None:
         self.change(NODE, "^  m_Layer: 0", "  m_Layer 0")
-        self.found(NODE, "could not find expected ':'")
+        self.assert_problem(NODE, "could not find expected ':'")
 
     def test_finds_a_flow_mapping_without_a_value(self) -> None:
         self.change(SCENE, r"m_GameObject: \{fileID: ", "m_GameObject: {fileID ")
-        self.found(SCENE, "not 'key: value'")
+        self.assert_problem(SCENE, "not 'key: value'")
 
     def test_finds_a_duplicate_key(self) -> None:
         self.change(NODE, "^  m_Layer: 0", "  m_Layer: 0\n  m_Layer: 0")
-        self.found(NODE, "duplicate key m_Layer")
+        self.assert_problem(NODE, "duplicate key m_Layer")
 
     def test_finds_an_object_of_an_unknown_class(self) -> None:
         self.change(SCENE, "!u!20 ", "!u!21 ")
-        self.found(SCENE, "Camera")
+        self.assert_problem(SCENE, "Camera")
 
     def test_finds_an_assembly_reference_to_nothing(self) -> None:
         self.change(ASMDEF, '"Collektive.Bridge"', '"Collektive.Bridges"')
-        self.found(ASMDEF, "Collektive.Bridges")
+        self.assert_problem(ASMDEF, "Collektive.Bridges")
 
     def test_finds_an_assembly_that_refers_to_itself(self) -> None:
         self.change("unity/Runtime/Bridge/Collektive.Bridge.asmdef", r'"references": \[\]', '"references": ["Collektive.Unity"]')
-        self.found("refers to itself")
+        self.assert_problem("reference cycle")
 
     def test_finds_an_assembly_of_another_name_than_its_file(self) -> None:
         self.change(ASMDEF, '"name": "Collektive.Unity"', '"name": "Collektive.Units"')
-        self.found(ASMDEF, "Collektive.Units")
+        self.assert_problem(ASMDEF, "Collektive.Units")
 
     def test_finds_a_plugin_that_nobody_brings(self) -> None:
         self.change(ASMDEF, "Collektive.FlatBuffers.dll", "FlatBuffers.dll")
-        self.found(ASMDEF, "FlatBuffers.dll")
+        self.assert_problem(ASMDEF, "FlatBuffers.dll")
 
     def test_finds_an_assembly_that_is_missing_on_some_platforms(self) -> None:
         self.change(ASMDEF, r'"includePlatforms": \[\]', '"includePlatforms": ["Editor", "LinuxStandalone64"]')
-        self.found(ASMDEF, "compile for all")
+        self.assert_problem(ASMDEF, "compile for all")
 
     def test_finds_code_without_an_assembly(self) -> None:
         os.remove(os.path.join(self.root, ASMDEF))
         os.remove(os.path.join(self.root, ASMDEF + ".meta"))
-        self.found("SimulationManager.cs", "no assembly definition")
+        self.assert_problem("SimulationManager.cs", "no assembly definition")
 
     def test_finds_an_asset_that_is_not_packed(self) -> None:
         self.change("package.json", r'    "unity/Prefabs",\n', "")
-        self.found(NODE, "allow-list")
+        self.assert_problem(NODE, "allow-list")
 
     def test_finds_a_sample_that_is_not_listed(self) -> None:
         os.makedirs(os.path.join(self.root, "unity/Samples~/Extra"))
-        self.found("Samples~/Extra", "lists no such sample")
+        self.assert_problem("Samples~/Extra", "not in package.json")
 
     def test_finds_an_old_manifest_for_git(self) -> None:
         self.change("package.json", r'"version": "[^"]*"', '"version": "9.9.9"')
-        self.found("unity/package.json", "not the one")
+        self.assert_problem("unity/package.json", "outdated")

@@ -78,7 +78,7 @@ class Trial:
     def host(self, kind: str) -> str:
         if kind == "cut":
             return self.cut(self.places["host"], "host.jar")
-        return {"missing": self.path("host.jar"), "misfit": str(self.places["misfit"])}[kind]
+        return {"missing": self.path("host.jar"), "incompatible": str(self.places["incompatible"])}[kind]
 
     def jar(self, kind: str) -> str:
         if kind == "missing":
@@ -86,7 +86,7 @@ class Trial:
         if kind == "cut":
             return self.cut(self.places["jar"], "programs.jar")
         if kind == "other-schema":
-            return str(self.places["misfit"])
+            return str(self.places["incompatible"])
         with open(self.path("programs.jar"), "wb") as file:
             if kind == "newer":
                 with zipfile.ZipFile(file, "w") as made, zipfile.ZipFile(self.places["jar"]) as real:

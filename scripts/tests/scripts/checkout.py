@@ -15,7 +15,7 @@ from pathlib import Path
 root = Path(sys.argv[1])
 sys.path.insert(0, str(root / "scripts"))
 from build import fetch, graph, lock, processes
-from build.console import Failure, logged
+from build.console import Failure, run_logged
 
 def wait_at_gate():
     (root / "gate").read_bytes()

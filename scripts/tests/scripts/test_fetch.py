@@ -8,11 +8,11 @@ from checkout import Checkout
 
 from build.places import ROOT
 
-NOT_DONE = "try: fetch.once('thing', '1', lambda folder: logged('broken', ['false']))\nexcept Failure as failure: sys.exit(f'collektive: {failure}')"
+NOT_DONE = "try: fetch.fill_once('thing', '1', lambda folder: run_logged('broken', ['false']))\nexcept Failure as failure: sys.exit(f'collektive: {failure}')"
 
 
 def once(key: str) -> str:
-    return f"lock.shared(); fetch.once('thing', '{key}', make)"
+    return f"lock.shared(); fetch.fill_once('thing', '{key}', make)"
 
 
 def test_a_folder_is_filled_once_for_what_it_depends_on(checkout: Checkout) -> None:

@@ -46,7 +46,7 @@ def test_a_command_that_changes_outputs_lets_others_in_when_it_only_uses_them(ch
 
 def test_of_two_first_commands_the_second_waits_for_the_build_only(checkout: Checkout) -> None:
     os.mkfifo(checkout.root / "start")
-    runs = [checkout.start("lock.shared(); open(root / 'start').read(); fetch.once('thing', '1', make); print('runs', flush=True); signal.pause()")
+    runs = [checkout.start("lock.shared(); open(root / 'start').read(); fetch.fill_once('thing', '1', make); print('runs', flush=True); signal.pause()")
             for _ in range(2)]
     try:
         with open(checkout.root / "start", "w"):

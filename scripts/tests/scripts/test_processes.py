@@ -11,8 +11,8 @@ CHILD = "processes.call([sys.executable, '-c', 'import os, sys, time; open(sys.a
 SLEEP = CHILD.format("time.sleep(600)")
 
 
-def attended(body: str) -> str:
-    return f"sys.exit(processes.attended(lambda: {body}))"
+def run_in_group(body: str) -> str:
+    return f"sys.exit(processes.run_in_group(lambda: {body}))"
 
 
 def child_of(checkout: Checkout) -> int:
@@ -41,12 +41,12 @@ def ends(pid: int) -> bool:
 
 @pytest.mark.parametrize("code", [0, 3])
 def test_the_exit_code_is_that_of_the_command(checkout: Checkout, code: int) -> None:
-    assert checkout.run(attended(str(code))).returncode == code
+    assert checkout.run(run_in_group(str(code))).returncode == code
 
 
 @pytest.mark.parametrize("number, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, number: signal.Signals, code: int) -> None:
-    process = checkout.start(attended(SLEEP))
+    process = checkout.start(run_in_group(SLEEP))
     child = child_of(checkout)
     process.send_signal(number)
     assert process.wait(20) == code
@@ -54,18 +54,18 @@ def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, nu
 
 
 def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> None:
-    assert checkout.run(attended("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
+    assert checkout.run(run_in_group("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
 
 
 def test_a_command_ends_where_nobody_waits_for_orphans(checkout: Checkout) -> None:
     # As in a container, whose first process often does not.
     negligent = "import ctypes; ctypes.CDLL(None).prctl(36, 1, 0, 0, 0); sys.exit(__import__('subprocess').run([sys.executable, '-c', {!r}, root]).returncode)"
-    orphan = attended("__import__('subprocess').Popen(['sleep', '0.5']) and 0")
+    orphan = run_in_group("__import__('subprocess').Popen(['sleep', '0.5']) and 0")
     assert checkout.run(negligent.format(SETUP + orphan)).returncode == 0
 
 
 def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
-    process = checkout.start(attended(SLEEP))
+    process = checkout.start(run_in_group(SLEEP))
     child = child_of(checkout)
     process.kill()
     process.wait()
@@ -74,7 +74,7 @@ def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
 
 def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Checkout) -> None:
     body = CHILD.format("import signal; signal.signal(signal.SIGINT, lambda *_: (time.sleep(0.5), os._exit(0))); time.sleep(600)")
-    process = checkout.start(attended(body))
+    process = checkout.start(run_in_group(body))
     child = child_of(checkout)
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
@@ -85,12 +85,12 @@ def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Chec
 def test_orphans_of_a_program_end_whichever_group_they_are_in(checkout: Checkout) -> None:
     program = """processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > "$0"', str(root / 'pid')])"""
     began = time.monotonic()
-    assert checkout.run(attended(f"{program} or processes.end_orphans() or 0")).returncode == 0
+    assert checkout.run(run_in_group(f"{program} or processes.end_orphans() or 0")).returncode == 0
     assert time.monotonic() - began < 10
     assert ends(child_of(checkout))
 
 
 def test_a_command_ends_after_the_last_of_its_processes(checkout: Checkout) -> None:
     began = time.monotonic()
-    assert checkout.run(attended("__import__('subprocess').Popen(['sleep', '2']) and 0")).returncode == 0
+    assert checkout.run(run_in_group("__import__('subprocess').Popen(['sleep', '2']) and 0")).returncode == 0
     assert time.monotonic() - began >= 2

@@ -27,7 +27,7 @@ def test_openupm_builds_from_the_tags_with_the_packages_content() -> None:
 def test_the_bill_names_what_is_not_ours_and_the_package_as_a_whole() -> None:
     maven = {"metadata": {"component": {"name": "parent"}}, "components": [
         {"group": "org.collektive", "name": "host", "bom-ref": "host"}, {"group": "org.slf4j", "name": "slf4j-api", "bom-ref": "slf4j"}]}
-    bill = release.complete(maven, manifest.read(ROOT), release.fetched("25.1", "0.6.0", "25"))
+    bill = release.complete_bill(maven, manifest.read(ROOT), release.fetched_components("25.1", "0.6.0", "25"))
     assert [component["name"] for component in bill["components"]] == ["slf4j-api", "flatbuffers", "openjdk"]
     assert bill["metadata"]["component"]["version"] == manifest.read(ROOT)["version"]
     assert bill["dependencies"] == [{"ref": "org.collektive.unity", "dependsOn": ["slf4j"]}]

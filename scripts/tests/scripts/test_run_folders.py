@@ -20,20 +20,20 @@ def contents(folder: Path) -> dict[str, str]:
 
 
 def test_they_are_refused_unless_they_may_be_overwritten(folder: Path) -> None:
-    with pytest.raises(Failure, match=r"has results of a run: manifest\.json, profile\.jfr; name another folder"), outputs.prepared(folder, False):
+    with pytest.raises(Failure, match=r"has results of a run: manifest\.json, profile\.jfr; name another folder"), outputs.open_folder(folder, False):
         pass
     assert len(contents(folder)) == 3
 
 
 def test_a_run_that_has_begun_replaces_them(folder: Path) -> None:
-    with outputs.prepared(folder, True):
+    with outputs.open_folder(folder, True):
         (folder / "manifest.json").write_text("running")
     assert contents(folder) == {"manifest.json": "running", "notes.txt": "of the user"}
 
 
 def test_they_come_back_when_the_run_does_not_begin(folder: Path) -> None:
     before = contents(folder)
-    with outputs.prepared(folder, True):
+    with outputs.open_folder(folder, True):
         assert not (folder / "manifest.json").exists()
         (folder / "run.clkrec.part").touch()
     assert contents(folder) == before
@@ -44,6 +44,6 @@ def test_after_a_command_that_was_killed_they_come_back_with_the_next_one(folder
     earlier = folder / outputs.EARLIER
     earlier.mkdir()
     (folder / "manifest.json").rename(earlier / "manifest.json")
-    with pytest.raises(Failure, match="has results of a run"), outputs.prepared(folder, False):
+    with pytest.raises(Failure, match="has results of a run"), outputs.open_folder(folder, False):
         pass
     assert contents(folder) == before

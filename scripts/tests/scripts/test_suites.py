@@ -149,7 +149,7 @@ def test_suites_run_with_their_fixtures_and_within_their_time(project: Callable[
 
 
 def test_the_suites_of_a_project_are_found_with_their_labels(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
-    suites = {suite.name: suite for suite in command.declared()}
+    suites = {suite.name: suite for suite in command.read_suites()}
     assert set(suites) == {"good", "bad", "without-fixture", "endless", "crash", "missing", "needs-nunit"}
     assert suites["bad"] == Suite("bad", frozenset({"it", "quick", "all"}))
     assert suites["needs-nunit"].is_disabled
@@ -169,37 +169,37 @@ SUITES = [Suite("lint", frozenset({"lint", "quick", "all"})), Suite("jvm", froze
     (["sanitized"], ["sanitized-on-17"]),
 ])
 def test_suites_are_chosen_by_run_area_and_name(words: list[str], names: list[str]) -> None:
-    assert [suite.name for suite in command.choose(SUITES, words)] == names
+    assert [suite.name for suite in command.select_suites(SUITES, words)] == names
 
 
 def test_an_unknown_suite_is_named_with_those_that_are_known() -> None:
     with pytest.raises(Failure, match="unknown suite 'nonesuch'; known: lint jvm csharp sanitized, and in parts: csharp-on-17 "):
-        command.choose(SUITES, ["lint", "nonesuch"])
+        command.select_suites(SUITES, ["lint", "nonesuch"])
 
 
 def test_suites_without_nunit_are_left_out_unless_nothing_else_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
     suites = [*SUITES[:1], *(suite._replace(is_disabled=True) for suite in SUITES[3:5])]
-    assert [suite.name for suite in command.choose(suites, ["all"])] == ["lint"]
+    assert [suite.name for suite in command.select_suites(suites, ["all"])] == ["lint"]
     assert "skipped unity, csharp-on-17: this system has no package of NUnit 2.6" in capsys.readouterr().err
     with pytest.raises(Failure, match="no package of NUnit"):
-        command.choose(suites, ["csharp"])
+        command.select_suites(suites, ["csharp"])
 
 
 @pytest.fixture(scope="module")
 def declared() -> list[Suite]:
     """The suites of this checkout, whose graph the suite `scripts` has configured."""
-    return command.declared()
+    return command.read_suites()
 
 
 def test_a_quick_run_has_most_suites_on_one_jdk(declared: list[Suite]) -> None:
-    names = [suite.name for suite in command.choose(declared, ["quick"])]
+    names = [suite.name for suite in command.select_suites(declared, ["quick"])]
     assert {"lint", "scripts", "jvm-quick", "assets", "acceptance-quick"} <= set(names)
     assert len([name for name in names if name.startswith("shim-on-")]) == 1
     assert not {"acceptance-rest", "page", "bench", "exits", "jvm"} & set(names)
 
 
 def test_a_whole_run_has_every_suite_of_a_quick_one(declared: list[Suite]) -> None:
-    quick, whole = ({suite.name for suite in command.choose(declared, [run])} for run in ("quick", "all"))
+    quick, whole = ({suite.name for suite in command.select_suites(declared, [run])} for run in ("quick", "all"))
     assert quick - whole == {"jvm-quick"}
 
 

@@ -47,7 +47,7 @@ class Tools:
 def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Tools:
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     monkeypatch.setattr(system, "BUILD", tmp_path / "build")
-    monkeypatch.setattr(system, "may_install", lambda: False)
+    monkeypatch.setattr(system, "can_install", lambda: False)
     return Tools(tmp_path)
 
 
@@ -87,7 +87,7 @@ def test_modules_in_the_current_folder_are_not_executed(tools: Tools, monkeypatc
 
 
 def test_on_a_fresh_system_the_package_is_chosen_when_apt_has_its_lists(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(system, "may_install", lambda: True)
+    monkeypatch.setattr(system, "can_install", lambda: True)
     monkeypatch.setattr("build.console.LOGS", tools.folder / "log")
     lists, installed = tools.path("lists"), tools.path("installed")
     tools.fake("cargo", "echo cargo 1.75.0")

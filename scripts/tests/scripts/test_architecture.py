@@ -1,4 +1,4 @@
-"""The parts know no more of each other than they may, and the pages tell what is."""
+"""Dependency rules between modules; the docs match the code."""
 import os
 import re
 import unittest
@@ -6,8 +6,8 @@ import unittest
 from build.places import ROOT
 
 
-def declaration(path: str, test: str) -> str:
-    """How a file declares a test; a page of checks by hand numbers it."""
+def declaration_pattern(path: str, test: str) -> str:
+    """Returns a pattern of the declaration of a test in a file. Manual checks on pages are numbered."""
     name = re.escape(test)
     return {
         ".cs": rf"\[(?:Test|TestCase|UnityTest)\b[^;{{]*\s{name}\(",
@@ -17,7 +17,7 @@ def declaration(path: str, test: str) -> str:
     }[os.path.splitext(path)[1]]
 
 
-class TheHouse(unittest.TestCase):
+class ArchitectureTest(unittest.TestCase):
     def test_the_core_knows_no_case_study(self) -> None:
         core = ["schema", "native-shim", "unity/Runtime", "unity/Headless~/UnityEngine", "unity/Headless~/Player"]
         core += [os.path.join("jvm-host", module) for module in os.listdir(os.path.join(ROOT, "jvm-host")) if module not in ("programs", "bench")]
@@ -31,7 +31,7 @@ class TheHouse(unittest.TestCase):
                         match = words.search(file.read())
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
 
-    def test_the_documentations_links_lead_somewhere(self) -> None:
+    def test_links_of_pages_are_not_broken(self) -> None:
         folder = os.path.join(ROOT, "Documentation~")
         for name in sorted(os.listdir(folder)):
             if not name.endswith(".md"):
@@ -64,7 +64,7 @@ class TheHouse(unittest.TestCase):
         for key in [*keys, *(f"outputs.{name}" for name in outputs[1:])]:
             self.assertRegex(page, rf"`{re.escape(key)}[`.]", key)
 
-    def test_troubleshooting_quotes_messages_that_there_are(self) -> None:
+    def test_troubleshooting_quotes_existing_messages(self) -> None:
         sources = ""
         modules = [os.path.join("jvm-host", module, "src/main") for module in os.listdir(os.path.join(ROOT, "jvm-host"))]
         for folder in ["unity/Runtime", "unity/Editor", "native-shim/src", *modules]:
@@ -91,4 +91,4 @@ class TheHouse(unittest.TestCase):
         for path, test in re.findall(r"`([^`:]+):([^`]+)`", text):
             self.assertTrue(os.path.exists(os.path.join(ROOT, path)), path)
             with open(os.path.join(ROOT, path)) as file:
-                self.assertRegex(file.read(), declaration(path, test), f"{path} has no {test}")
+                self.assertRegex(file.read(), declaration_pattern(path, test), f"{path} has no {test}")

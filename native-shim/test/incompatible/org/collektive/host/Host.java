@@ -9,7 +9,7 @@ final class Host {
     }
 
     static String start() {
-        return "misfit";
+        return "incompatible";
     }
 
     static long open(byte[] request) {

@@ -4,8 +4,8 @@ import java.lang.classfile.attribute.ModuleHashesAttribute;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** {@code WithoutHashes FOLDER...}: lets the modules in these folders be linked into another image, by forgetting what they were linked with. */
-class WithoutHashes {
+/** {@code RemoveModuleHashes FOLDER...}: lets the modules in these folders be linked into another image, by forgetting what they were linked with. */
+class RemoveModuleHashes {
     public static void main(String[] folders) throws Exception {
         for (String folder : folders) {
             Path info = Path.of(folder, "module-info.class");
