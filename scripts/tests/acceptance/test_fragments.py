@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 from blocks import of_kind
-from command import Folder
+from command import Folder, compiled
 
 from build import inputs, projects
 from build.places import ROOT
@@ -72,11 +72,11 @@ class Fragments(Folder):
 
     def test_csharp_compiles(self) -> None:
         folder = Path(self.written("csharp", csharp))
-        projects.scripts_dll(inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
+        compiled(projects.scripts_dll, inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
 
     def test_kotlin_compiles(self) -> None:
         folder = Path(self.written("kotlin", kotlin))
-        projects.programs_jar(inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
+        compiled(projects.programs_jar, inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
 
     def test_json_is_json(self) -> None:
         for place, code in fragments("json"):
