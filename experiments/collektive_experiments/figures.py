@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from . import files
 from .experiment import text
+from .positions import ExperimentError
 from .results import Results, compare, interval, label, load
 
 # Okabe and Ito's colours, told apart by all common kinds of sight; the yellow is too pale for lines.
@@ -33,6 +34,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
     sweep. Colours are the values of the first key that varies, panels the combinations of the others. Returns the paths.
     """
     results = load(folder)
+    if results.complete.empty:
+        raise ExperimentError(f"'{folder}' has no complete run to plot: the message of each is in runs.parquet")
     paths, sections = [], []
     files.make(os.path.join(folder, "figures"))
     converged = [name for name in results.runs.columns if name.startswith("converged.")]

@@ -4,6 +4,7 @@ import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from build import inputs, managed, processes, projects
 from build.console import Failure
@@ -18,11 +19,11 @@ READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": input
 class Plan:
     """What a scenario needs: the player's reading of its file, and the parts of its project as they are now."""
 
-    values: dict[str, str]
+    values: dict[str, Any]
     parts: dict[str, Part]
 
-    def __getitem__(self, key: str) -> str:
-        return self.values.get(key, "")
+    def __getitem__(self, key: str) -> Any:
+        return self.values[key]
 
     def programs_jar(self) -> Path:
         """Returns the jar of the scenario's programs, compiled if they changed."""
@@ -46,7 +47,7 @@ def plan(scenario: str, reading: Sequence[str]) -> Plan:
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True)
     if result.returncode != 0:
         raise Refused(result.returncode)
-    values = dict(line.split("=", 1) for line in result.stdout.splitlines() if "=" in line)
+    values = json.loads(result.stdout)
     return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
 
 

@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     plan = player.plan(arguments.scenario, reading)
     jar, dll = plan.programs_jar(), plan.scripts_dll()
     words: list[str] = []
-    if plan["replay"] == "yes":
+    if plan["replay"]:
         graph.build("replay_page")
         words += ["--template", str(REPLAY_PAGE)]
     name = os.path.basename(arguments.scenario).removesuffix(".json")
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         words += ["--recording", arguments.recording]
     if arguments.keep_going:
         words.append("--keep-going")
-    has_pictures = plan["pictures"] == "yes"
+    has_pictures = plan["pictures"]
     say(f"running {arguments.scenario}")
     with outputs.prepared(Path(out), arguments.overwrite):
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
