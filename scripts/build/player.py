@@ -1,5 +1,6 @@
 """The player: what a scenario needs, as the player itself reads the file, and how it is run."""
 import json
+import signal
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -44,7 +45,9 @@ def plan(scenario: str, reading: Sequence[str]) -> Plan:
     Raises `Failure` without a message if the scenario is refused.
     """
     command = managed.command("mono-sgen", PLAYER, "plan", scenario, *reading)
-    result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True)
+    result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE)
+    if result.returncode < 0:
+        raise Failure(f"the player was ended by {signal.Signals(-result.returncode).name}", 128 - result.returncode)
     if result.returncode != 0:
         raise Refused(result.returncode)
     values = json.loads(result.stdout)

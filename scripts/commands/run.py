@@ -59,13 +59,14 @@ def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or f"out/{name}-seed{arguments.seed or plan['seed']}"
     projects.own_program(jar)
     if arguments.recording is not None:
-        words += ["--recording", arguments.recording]
+        words += ["--recording", os.path.abspath(arguments.recording)]
     if arguments.keep_going:
         words.append("--keep-going")
     has_pictures = plan["pictures"]
     say(f"running {arguments.scenario}")
     with outputs.prepared(Path(out), arguments.overwrite):
-        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+        # Scripts may change the current folder.
+        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *reading])
         outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code
