@@ -123,6 +123,13 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
+    def test_a_script_that_quits_with_a_code_has_not_ended_with_0(self) -> None:
+        for code, expected in [(3, 3), (256, 1)]:
+            with self.subTest(code):
+                result = self.at_tick_4(f"Application.Quit({code});")
+                self.change("scene/Lamps.cs", self.SCRIPT % f"Application.Quit({code});", "\n        protected override void Build(")
+                self.assertEqual(result.returncode, expected, result.stderr)
+
     def fails_at_tick_4(self, code):
         """The messages of a run whose script has that code at tick 4, and which is not complete."""
         result = self.at_tick_4(code)

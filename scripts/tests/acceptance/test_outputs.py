@@ -87,6 +87,29 @@ class Outputs(Project):
             self.assertEqual(file.read(), "mine")
         self.assertEqual([name for name in os.listdir(self.path("out")) if os.path.islink(self.path("out", name))], ["metrics.csv.part"])
 
+    def test_a_script_that_changes_the_current_folder_changes_nothing_about_the_outputs(self) -> None:
+        os.mkdir(self.path("elsewhere"))
+        self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
+                    f'            System.IO.Directory.SetCurrentDirectory("{self.path("elsewhere")}");')
+        result = collektive("run", "project/lamps.json", "--out", "out", "--recording", "run.jfr", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
+        self.assertTrue(os.path.exists(self.path("run.jfr")))
+        self.assertEqual(os.listdir(self.path("elsewhere")), [])
+
+    def test_a_link_to_a_folder_is_one_for_outputs(self) -> None:
+        os.mkdir(self.path("out"))
+        os.symlink("out", self.path("link"))
+        result = self.run_it(out="link")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.outcome(), "complete")
+
+    def test_a_player_that_a_limit_of_the_shell_ends_is_one_sentence(self) -> None:
+        command = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")]
+        result = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 128 + signal.SIGXFSZ)
+        self.assertIn("the player was ended by SIGXFSZ", last_error(result))
+
     def test_a_run_whose_pictures_fail_is_not_complete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"replay": true, "pictures": true')
         os.mkdir(self.path("bin"))

@@ -259,7 +259,9 @@ namespace Collektive.Headless
             }
             manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
             var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
-            if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
+            // Processes end with eight bits of their code: 256 would become 0.
+            var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
+            if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine(
                 "collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");

@@ -63,7 +63,7 @@ namespace Collektive.Headless
 
         private static readonly HashSet<string> ForbiddenMembers = new HashSet<string>
         {
-            "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly",
+            "Intern", "GetInstanceID", "Finalize", "get_Method", "get_Module", "get_Assembly",
         };
 
         private static readonly OpCode[] PointerCodes =
@@ -133,7 +133,7 @@ namespace Collektive.Headless
                 var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
-                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner)
+                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner) && called.IsConstructor
                     || IsStateless(owner) || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
                 if (!isHarmless) return true;
             }
