@@ -6,7 +6,7 @@ import unittest
 from build.places import ROOT
 
 
-def declaration_pattern(path, test):
+def declaration_pattern(path: str, test: str) -> str:
     """Returns a pattern of the declaration of a test in a file. Manual checks on pages are numbered."""
     name = re.escape(test)
     return {

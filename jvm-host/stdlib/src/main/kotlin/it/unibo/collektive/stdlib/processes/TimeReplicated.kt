@@ -39,7 +39,7 @@ public inline fun <reified T> Aggregate<*>.timeReplicated(
 
 @PublishedApi
 internal fun <T> Aggregate<*>.replicated(currentTime: Instant, maxReplicas: Int, timeToSpawn: Duration, process: () -> T): T {
-    require(maxReplicas >= 1) { "maxReplicas is $maxReplicas; one run at least is needed" }
+    require(maxReplicas >= 1) { "maxReplicas is $maxReplicas; it must be at least 1" }
     require(timeToSpawn.isPositive()) { "timeToSpawn is $timeToSpawn; it must be positive" }
     return aligned("timeReplicated") {
         val isOver = !sharedTimeLeftTo(currentTime, timeToSpawn).isPositive()

@@ -17,7 +17,7 @@ import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
 import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
 
-/** The lambda literal that is the last argument of a call; `null` if there is none. */
+/** The lambda literal that is the last argument of a call, or `null`. */
 internal val FirFunctionCall.lambda: FirAnonymousFunction?
     get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
 
