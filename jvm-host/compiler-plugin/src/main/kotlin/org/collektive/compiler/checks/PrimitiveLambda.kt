@@ -37,13 +37,13 @@ internal val FirAnonymousFunction.onlyExpression: FirExpression?
         else -> statement as? FirExpression
     }
 
-/** Whether [wanted] holds for this element or one inside it. */
-internal fun FirElement.contains(wanted: (FirElement) -> Boolean): Boolean {
+/** Whether [predicate] holds for this element or one inside it. */
+internal fun FirElement.contains(predicate: (FirElement) -> Boolean): Boolean {
     var found = false
     accept(
         object : FirVisitorVoid() {
             override fun visitElement(element: FirElement) {
-                found = found || wanted(element)
+                found = found || predicate(element)
                 if (!found) element.acceptChildren(this)
             }
         },
