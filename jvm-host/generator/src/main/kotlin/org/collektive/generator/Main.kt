@@ -47,7 +47,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     if (arguments.csharp == null && arguments.jvm == null) return
     val schema = reader.read()
     val copies = SanitizedSchemas(reader.files, include.resolve(CORE_TYPES), work)
-    val harmless = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
+    val sanitized = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
 
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)

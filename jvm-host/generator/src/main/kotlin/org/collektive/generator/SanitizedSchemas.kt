@@ -17,7 +17,7 @@ internal class SanitizedSchemas(private val files: List<Path>, core: Path, priva
         Files.copy(core, this.core.resolve(CORE_TYPES))
         for (file in files) {
             Files.createDirectories(of(file).parent)
-            Files.writeString(of(file), SchemaText.read(file).harmless)
+            Files.writeString(of(file), SchemaText.read(file).sanitized)
         }
     }
 

@@ -15,7 +15,7 @@ internal class SchemaText(private val text: String) {
     private val words = ArrayDeque<String>()
 
     /** The same text, line by line, whose comments cannot end the comments of generated code. */
-    val harmless: String
+    val sanitized: String
 
     init {
         var at = 0
@@ -33,7 +33,7 @@ internal class SchemaText(private val text: String) {
             line += part.count { it == '\n' }
             at = end
         }
-        harmless = rewritten.toString()
+        sanitized = rewritten.toString()
     }
 
     /** The line of a type, or of a field of a type (`a.b.Type.field`), both with their namespace; `null` when it is not in this text. */

@@ -40,7 +40,7 @@ class RecordCorpusTest {
     private fun recorded(): ByteArray {
         val file = folder.resolve("seed.clkrec")
         val session = TestSession(TestShim())
-        check(session.open(jars = listOf(ProbeJars.sanitized.toString()), record = file.toString()) >= 0)
+        check(session.open(jars = listOf(ProbeJars.harmless.toString()), record = file.toString()) >= 0)
         for (tick in 1L..TICKS) {
             session.ok(
                 Step(tick).apply {
