@@ -11,7 +11,7 @@
  *
  *   There are three kinds of call: open a session, step a session, and control, which needs no session. Each passes the request
  *   frame in the bytes [offset, offset + length) of a slot to the host, and returns the location of the answer frame, in a slot that the
- *   shim owns. Nothing is copied.
+ *   shim owns. The call copies no data.
  *
  * Threads
  *   Any thread may call any function. Calls that need the engine thread (start, check, open, step, close, control, stop) take turns.
@@ -91,7 +91,7 @@ CLK_API const char *clk_error_name(int32_t code);
 CLK_API const char *clk_error_text(int32_t code);
 
 /* Copies the text of the calling thread's last error to `buffer`, NUL-terminated; a longer text is truncated after a whole character. Returns
- * the length of the whole text in bytes, without NUL, or 0 if there was no error. `buffer` may be NULL when `capacity` is 0. */
+ * the length of the whole text in bytes, without NUL, or 0 without an error. `buffer` may be NULL when `capacity` is 0. */
 CLK_API int32_t clk_last_error(char *buffer, int32_t capacity);
 
 /* ---- JVM ------------------------------------------------------------------------------------------------------------- */
@@ -170,7 +170,7 @@ typedef struct clk_answer {
 } clk_answer;
 
 /* Opens a session, with the request frame in the caller's slot. Sets `session` and `answer` on CLK_OK; otherwise no session was opened.
- * Returns CLK_MEMORY when 256 sessions are open. Other errors are those of clk_step. */
+ * Returns CLK_MEMORY when 256 sessions are open. See clk_step for other errors. */
 CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer);
 
 /* Steps a session, with the request frame in the caller's slot. After an error the session is as it was before the call, except after

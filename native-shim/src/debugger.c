@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One `key=value` of the agent's list, not NUL-terminated; `value` is empty if there is no '='. */
+/* One `key=value` of the agent's list, not NUL-terminated; `value` is empty without '='. */
 struct word {
     const char *key, *value;
     size_t key_length, value_length;

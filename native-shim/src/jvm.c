@@ -264,7 +264,7 @@ static void detach_halt_thread(void) {
 }
 
 /* Locks the folder of the class archive. A JVM replaces its archive under the same name, so two that end at once could write to one file.
- * Negative if there is no archive, or the lock is not available. */
+ * Negative if the archive does not exist or the lock is not available. */
 static int lock_archive(void) {
     const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
     return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + jvm.stop_limit_ms / 4 * PRIM_MILLI);

@@ -13,7 +13,7 @@ from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, JVM, LIB
 
 JAVA = str(find_jdk() / "bin/java")
 # The tests of the generator and of frames have the programs.
-GENERATE_EACH = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateEach", str(FLATC),
+GENERATE_ALL = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateAll", str(FLATC),
                  str(ROOT / "schema")]
 REFERENCES = [f"-r:{CSHARP}/Collektive.FlatBuffers.dll", f"-r:{CSHARP}/Collektive.Bridge.dll"]
 

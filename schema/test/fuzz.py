@@ -179,7 +179,7 @@ def write_batch(folder: str, seed: int, count: int) -> None:
 
 def run(folder: str, records: int = 20) -> tuple[int, int, list[Finding]]:
     """Runs all schemas of `cases`. Returns how many were made and refused, and what went wrong."""
-    each = subprocess.run([*compile_schemas.GENERATE_EACH, folder], capture_output=True, text=True)
+    each = subprocess.run([*compile_schemas.GENERATE_ALL, folder], capture_output=True, text=True)
     outcomes = [line.split("\t") for line in each.stdout.splitlines()]
     findings = []
     if len(outcomes) != len(os.listdir(os.path.join(folder, "cases"))):

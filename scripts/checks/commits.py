@@ -9,7 +9,7 @@ NOT_IMPERATIVE = re.compile(r"(?!(Bring|String|Ping|Embed|Feed|Need|Seed|Shed|Sp
 
 
 def problem(subject: str) -> str | None:
-    """Returns what is wrong with the subject of a commit, or None."""
+    """Returns the error in the subject of a commit, or None."""
     if subject.startswith(("Merge ", "Revert ")):
         return None
     if len(subject) > MAX_LENGTH:

@@ -38,8 +38,8 @@ class LongRun(NamedTuple):
 
 
 LONG_RUNS = {
-    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "incompatible_host"), ("--all",), "inject each fault of scripts/tests/faults/faults.json "
-                      "(or those whose name contains WORDS) on every runtime and JVM"),
+    "faults": LongRun("faults/faults.py", ("runtime", "csharp_tests", "incompatible_host"), ("--all",),
+                      "inject each fault of scripts/tests/faults/faults.json (or those whose name contains WORDS) on every runtime and JVM"),
     "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "end 200 runs in different ways: scene change, quit, Ctrl-C, "
                      "unhandled exceptions"),
     "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page", "failing"), ("200", "20", "50", "5", "500", "--seed"), "disturb 780 runs: kill, "

@@ -1,4 +1,4 @@
-"""The manifest: what it says is so, and its allow-list names all assets and nothing else."""
+"""Checks the manifest: names, samples, and an allow-list of exactly the assets."""
 import fnmatch
 import os
 import re

@@ -7,7 +7,7 @@ import yaml
 
 
 class UnityYamlError(Exception):
-    """The line and what is wrong there."""
+    """An error in a line."""
 
 
 @dataclass(frozen=True)

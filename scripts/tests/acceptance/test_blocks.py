@@ -1,5 +1,4 @@
 """Each code block of the README and the site has a test: of its kind in blocks.py, here or in the file that is named there."""
-import glob
 import os
 import re
 import shlex
@@ -49,9 +48,9 @@ def commands():
 def test_a_command_that_is_not_run_has_options_that_exist(place, words) -> None:
     command = os.path.basename(words[0])
     if command == "collektive":
-        told = collektive(words[1], "--help")
-        assert told.stdout.startswith("usage:"), words[1]
-        unknown = [word for word in words[2:] if word.startswith("--") and not re.search(rf"{word}\b", told.stdout)]
+        output = collektive(words[1], "--help")
+        assert output.stdout.startswith("usage:"), words[1]
+        unknown = [word for word in words[2:] if word.startswith("--") and not re.search(rf"{word}\b", output.stdout)]
     elif words[0].startswith("./Swarm"):
         unknown = [word for word in words[1:] if word.startswith("-") and word not in UNITY and word not in player_options()]
     else:
@@ -73,29 +72,14 @@ def test_options_of_players_are_known() -> None:
     assert "-collektive-jars" not in player_options()
 
 
-def declarations(code):
-    """What stands between braces and semicolons, without comments; accessors say nothing alone."""
-    code = re.sub(r"//.*", "", code)
-    found = (" ".join(part.split()) for part in re.split(r"[{};]|=> ", code))
-    return [part for part in found if part and part not in ("get", "set", "null")]
-
-
-def test_the_boundarys_csharp_is_that_of_the_sources() -> None:
-    sources = " ".join(" ".join(text(path).split()) for path in glob.glob(os.path.join(ROOT, "unity/Runtime/Bridge/Schema/*.cs")))
-    told = [part for block in of_kind("contract") if block.language == "csharp" for part in declarations(block.text)]
-    assert len(told) > 20
-    assert [part for part in told if part not in sources] == []
-
-
-def test_the_boundarys_java_is_what_the_native_library_binds() -> None:
+def test_java_of_the_boundary_page_matches_the_native_library() -> None:
     shim = text("native-shim/src/host.c")
     shim = shim.replace("CALL_TYPE", re.search(r'#define CALL_TYPE (".*")', shim)[1])
     # From the natives of the class Shim to the entries of Host.
     bound = re.findall(r'"(\w+)",\s*"(\(\S*\)\S+)"', shim[shim.index('NATIVE("grow"'):shim.index("entries[i].name")])
-    told = set()
+    documented = set()
     for block in of_kind("contract"):
-        if block.language == "java":
-            for kind, name, parameters in re.findall(r"static (?:native )?([\w\[\]]+) (\w+) ?\(([^)]*)\)", block.text):
-                types = [parameter.split()[0] for parameter in parameters.split(",") if parameter.strip()]
-                told.add((name, f"({''.join(map(DESCRIPTORS.get, types))}){DESCRIPTORS[kind]}"))
-    assert told == set(bound)
+        for kind, name, parameters in re.findall(r"static (?:native )?([\w\[\]]+) (\w+) ?\(([^)]*)\)", block.text):
+            types = [parameter.split()[0] for parameter in parameters.split(",") if parameter.strip()]
+            documented.add((name, f"({''.join(map(DESCRIPTORS.get, types))}){DESCRIPTORS[kind]}"))
+    assert documented == set(bound)

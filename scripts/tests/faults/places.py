@@ -12,8 +12,8 @@ RUNTIMES = ["mono-sgen", "mono-boehm", "coreclr"]
 
 def places(runtimes: list[str], jdks: list[Path]) -> dict[str, Any]:
     """Returns the runtimes and JDKs of the trials and the files that they use, by name."""
-    files = {"program": CSHARP / "Collektive.Faults.exe", "player": PLAYER, "shim": SHIM, "host": HOST_JAR, "incompatible": BUILD / "incompatible-host.jar",
-             "schema": PROBE,
+    files = {"program": CSHARP / "Collektive.Faults.exe", "player": PLAYER, "shim": SHIM, "host": HOST_JAR,
+             "incompatible": BUILD / "incompatible-host.jar", "schema": PROBE,
              "jar": projects.programs_jar(inputs.schema(PROBE), inputs.programs(PROGRAMS))}
     return {name: str(file) for name, file in files.items()} | {"runtimes": runtimes, "jdks": [str(home) for home in jdks], "jobs": 2}
 

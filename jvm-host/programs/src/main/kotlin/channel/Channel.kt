@@ -15,7 +15,7 @@ import org.collektive.api.Program
 @Program(
     "channel",
     parameters = [
-        Parameter("width", "2.0", "Metres by which a way through a node of the channel may be longer than the shortest, 0 or greater."),
+        Parameter("width", "2.0", "Metres by which a path through a node of the channel may exceed the shortest path, 0 or greater."),
     ],
 )
 public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorData {

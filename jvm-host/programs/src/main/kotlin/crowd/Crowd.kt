@@ -18,14 +18,14 @@ import kotlin.math.sqrt
 @Program(
     "crowd",
     parameters = [
-        Parameter("speed", "1.4", "Metres per second of a free walker, greater than 0."),
-        Parameter("limit", "0.9", "Walkers per square metre from which on a warning is given."),
-        Parameter("hops", "2", "How far a warning spreads."),
+        Parameter("speed", "1.4", "Speed of a free walker in metres per second, greater than 0."),
+        Parameter("limit", "0.9", "Walkers per square metre that trigger a warning."),
+        Parameter("hops", "2", "Number of hops that a warning spreads."),
     ],
 )
 public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorData {
-    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
-    val goal = requireNotNull(sensors.goal()) { "the sensors give no goal" }
+    val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
+    val goal = requireNotNull(sensors.goal()) { "the sensor data has no goal" }
     val here = Point2D(position.x().toDouble() to position.z().toDouble())
     val speed = device.parameters.double("speed")
     val way = Steering()
@@ -62,7 +62,7 @@ private class Steering {
         z += scale * toZ
     }
 
-    /** Pushes away from what lies along a vector, [gap] metres apart, and a little to the right of it. */
+    /** Pushes away from an obstacle at a vector, [gap] metres apart, and a little to the right of it. */
     fun avoid(toX: Double, toZ: Double, gap: Double) {
         val length = sqrt(toX * toX + toZ * toZ)
         if (gap > COMFORT || length < TOO_SMALL) return

@@ -7,13 +7,13 @@ import kotlin.math.hypot
 import kotlin.math.max
 import kotlin.math.sqrt
 
-/** A surface around the origin. All shapes of one radius have about the area of the sphere of that radius: there is the same room on each. */
+/** A surface around the origin. Shapes of one radius have about the same area. */
 internal fun interface Shape {
     /** From [place] to the nearest point of the surface, or to one near it. */
     fun wayTo(place: Point3D, radius: Double): Point3D
 }
 
-/** In the order in which they are formed. */
+/** The shapes, in order. */
 internal val SHAPES: List<Shape> = listOf(
     Shape { place, radius -> place.atDistance(place.length, radius) - place },
     // A ring of three times the thickness of its tube.

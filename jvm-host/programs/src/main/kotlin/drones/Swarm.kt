@@ -13,19 +13,19 @@ import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
- * Forms one shape after another. The drones elect a leader, whose clock says which shape it is time for; the news passes from neighbour to
+ * Forms one shape after another. The drones elect a leader, whose clock determines the current shape, which spreads from neighbour to
  * neighbour. A drone flies to the nearest point of the shape and on around its axis, and keeps its distance from others.
  */
 @Program(
     "swarm",
     parameters = [
-        Parameter("radius", "20.0", "Metres: a sphere of it has room for all drones on its surface."),
-        Parameter("hold", "15.0", "Seconds from one shape to the next."),
-        Parameter("speed", "8.0", "Metres per second of a fast drone."),
+        Parameter("radius", "20.0", "Radius of the shapes in metres. All drones must fit on a sphere of this radius."),
+        Parameter("hold", "15.0", "Seconds between two shapes."),
+        Parameter("speed", "8.0", "Maximum speed of a drone in metres per second."),
     ],
 )
 public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorData {
-    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
     val here = Point3D(Triple(position.x().toDouble(), position.y().toDouble(), position.z().toDouble()))
     val radius = device.parameters.double("radius")
     val leads = boundedElection(MOST_HOPS) == localId

@@ -15,9 +15,9 @@ import kotlin.math.sqrt
  *
  * The result is the point one step away in the direction of the sum, at the same height.
  */
-@Program("gradient-ascent", parameters = [Parameter("step", "1.0", "Metres from a node to its target, 0 or greater.")])
+@Program("gradient-ascent", parameters = [Parameter("step", "1.0", "Distance from a node to its target in metres, 0 or greater.")])
 public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): ActuatorData {
-    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
     val here = Sample(position.x(), position.y(), position.z(), sensors.intensity())
     var x = 0.0
     var z = 0.0

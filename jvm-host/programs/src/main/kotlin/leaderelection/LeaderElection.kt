@@ -14,7 +14,7 @@ import org.collektive.api.Program
  */
 @Program(
     "leader-election",
-    parameters = [Parameter("radius", "20.0", "Metres from a leader to the farthest of its region, greater than 0.")],
+    parameters = [Parameter("radius", "20.0", "Radius of a region in metres along links, greater than 0.")],
 )
 public fun Aggregate<Int>.leaderElection(sensors: SensorData, device: Device): ActuatorData {
     val metric = euclideanDistance2D(sensors.position().x().toDouble() to sensors.position().z().toDouble())

@@ -15,21 +15,21 @@ import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
- * Explores a ruin and keeps a channel from the base to each casualty that was found. One robot stays with each casualty; the robots on the
- * shortest way from it to the base hold their places, and the others spread. All of that follows from what neighbours tell now: a robot that
- * fails is replaced, and a channel that breaks is built anew.
+ * Explores a ruin and keeps a channel from the base to each casualty that was found. One robot stays with each casualty. Robots on the
+ * shortest path to the base keep their positions, and the others spread. Decisions depend only on the neighbours' latest messages, so a
+ * failed robot is replaced and a broken channel is rebuilt.
  */
 @Program(
     "rescue",
     parameters = [
-        Parameter("speed", "2.5", "Metres per second of a robot that explores, greater than 0."),
-        Parameter("spacing", "7.5", "Metres that robots keep from each other while they explore, greater than 0 and less than the range."),
-        Parameter("casualties", "3", "How many casualties there may be, 0 or greater: they have the numbers below it."),
-        Parameter("width", "1.0", "Metres by which a way through a robot of the channel may be longer than the shortest, 0 or greater."),
+        Parameter("speed", "2.5", "Speed of an exploring robot in metres per second, greater than 0."),
+        Parameter("spacing", "7.5", "Distance between exploring robots in metres, greater than 0 and less than the range."),
+        Parameter("casualties", "3", "Maximum number of casualties, 0 or greater. Casualties are numbered from 0."),
+        Parameter("width", "1.0", "Metres by which a path through a robot of the channel may exceed the shortest path, 0 or greater."),
     ],
 )
 public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorData {
-    val position = requireNotNull(sensors.position()) { "the sensors give no position" }
+    val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
     val here = Point2D(position.x().toDouble() to position.z().toDouble())
     val metric = euclideanDistance2D(here)
     val staysWithCasualty = staysWith(sensors.casualty())
@@ -72,7 +72,7 @@ private fun Aggregate<Int>.staysWith(casualty: Int): Boolean {
     return casualty >= 0 && seen.neighbors.list.none { (id, theirs) -> theirs == casualty && id < localId }
 }
 
-/** Where a robot is, and how far from the base along links, in metres. */
+/** The position of a robot, and its distance from the base along links, in metres. */
 private data class Other(val place: Point2D, val toBase: Double)
 
 /** The direction in which a robot wants to go: a sum of vectors on the ground. */
@@ -103,7 +103,7 @@ private class Drive {
         if (least.isFinite() && least > spacing) add(nearest.x - here.x, nearest.y - here.y, 1 / least)
     }
 
-    /** Keeps away from what is in the way, the more the nearer it is. */
+    /** Moves away from obstacles, more strongly if they are near. */
     fun avoid(sensors: SensorData) {
         val obstacle = Vector3()
         for (index in 0 until sensors.obstaclesLength()) {

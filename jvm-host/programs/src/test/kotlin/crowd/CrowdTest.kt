@@ -37,7 +37,7 @@ class CrowdTest {
 
     @Test
     fun `a walker without a goal fails with a message that says so`() =
-        assertContains(assertFailsWith<IllegalStateException> { alone(null) }.message.orEmpty(), "the sensors give no goal")
+        assertContains(assertFailsWith<IllegalStateException> { alone(null) }.message.orEmpty(), "the sensor data has no goal")
 
     @Test
     fun `two walkers who meet pass each other on the right`() {

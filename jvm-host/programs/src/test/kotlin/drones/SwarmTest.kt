@@ -54,7 +54,7 @@ class SwarmTest {
     fun `a drone without a position fails with a message that says so`() {
         network.add(0, parameters = PARAMETERS)
         val error = assertFailsWith<IllegalStateException> { network.round { swarm(sensors(null), it) } }
-        assertContains(error.message.orEmpty(), "the sensors give no position")
+        assertContains(error.message.orEmpty(), "the sensor data has no position")
     }
 
     private fun line(count: Int) {

@@ -15,7 +15,7 @@ import org.gradle.api.tasks.bundling.Jar
 import java.io.File
 import javax.inject.Inject
 
-/** Makes the jars that Maven makes, with the same names in the same places. */
+/** Builds the same jars as Maven, with the same names and places. */
 internal fun configureJars(project: Project, pom: Model, classes: FileCollection) {
     project.extensions.getByType(BasePluginExtension::class.java).libsDirectory.set(project.layout.buildDirectory)
     project.tasks.withType(AbstractArchiveTask::class.java).configureEach {

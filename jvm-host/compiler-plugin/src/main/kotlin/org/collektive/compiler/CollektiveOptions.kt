@@ -30,7 +30,7 @@ public class CollektiveOptions : CommandLineProcessor {
         private val enabled = CliOption(
             optionName = "collektiveEnabled",
             valueDescription = "<true|false>",
-            description = "whether aggregate programs are aligned and checked (default: true)",
+            description = "whether to align and check aggregate programs (default: true)",
             required = false,
         )
     }

@@ -49,7 +49,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
         }
     }
 
-    /** The text of the file [path] among the compiled classes; `null` if there is none. */
+    /** The text of the file [path] among the compiled classes, or `null`. */
     fun output(path: String): String? = classes.resolve(path).toFile().takeIf(File::exists)?.readText()
 
     companion object {

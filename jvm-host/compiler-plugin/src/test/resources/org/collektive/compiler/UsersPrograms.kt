@@ -1,4 +1,4 @@
-// Programs as users write them. The comment before each is what four devices in a row return in the twelfth round.
+// Programs in the styles of users. The comment before each is what four devices in a row return in the twelfth round.
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.*
 import it.unibo.collektive.stdlib.spreading.*

@@ -8,7 +8,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
  * compiled programs call [Aggregate.align] and [Aggregate.dealign]; then a program that calls `align` without `dealign` stays misaligned.
  *
  * A token is a string constant that names a place in the program. Constants are interned, so tokens are compared by identity.
- * [readable] and [location] turn them into text for people.
+ * [readable] and [location] return readable texts.
  *
  * Use it only on the thread that runs the round.
  */
@@ -34,6 +34,6 @@ public interface AlignmentStack {
     /** The place that the program has reached. */
     public val place: ProgramPlace
 
-    /** Records the current path as the one where [failure] was thrown, unless one is recorded for it. */
-    public fun failing(failure: Throwable)
+    /** Records the current path as the place where [failure] was thrown, unless this has been done. */
+    public fun recordFailure(failure: Throwable)
 }

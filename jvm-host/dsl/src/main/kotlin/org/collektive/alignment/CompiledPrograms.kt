@@ -1,6 +1,6 @@
 @file:OptIn(DelicateCollektiveApi::class)
 
-// The compiler plugin inserts calls to these functions. Nothing else calls them.
+// The compiler plugin inserts calls to these functions. Do not call them otherwise.
 
 package org.collektive.alignment
 
@@ -23,7 +23,7 @@ public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
 
 /** Runs when [failure] leaves an aligned call or branch, before [popToken]. */
 public fun noteFailure(aggregate: Aggregate<*>?, failure: Throwable) {
-    if (aggregate is AlignmentStack) aggregate.failing(failure)
+    if (aggregate is AlignmentStack) aggregate.recordFailure(failure)
 }
 
 /** Restricts [field], made outside a branch or an `alignedOn` body, to the neighbours aligned inside. Runs where the field is read. */

@@ -1,17 +1,17 @@
 package org.collektive.alignment
 
-import it.unibo.collektive.aggregate.StandInDevice
+import it.unibo.collektive.aggregate.FakeDevice
 import it.unibo.collektive.aggregate.toMap
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 import kotlin.test.assertSame
 
-/** What compiled programs call, on a device that offers no [AlignmentStack]. */
+/** Tests the functions that compiled programs call, on a device without [AlignmentStack]. */
 class CompiledProgramsTest {
     @Test
     fun `tokens are pivots of the device's own stack`() {
-        val device = StandInDevice(1)
+        val device = FakeDevice(1)
         val outer = pushToken(device, "outer")
         val inner = pushToken(device, "inner")
         assertEquals(listOf<Any?>("outer", "inner"), device.path)
@@ -25,7 +25,7 @@ class CompiledProgramsTest {
 
     @Test
     fun `a projected field has those that are aligned at the token`() {
-        val device = StandInDevice(1, aligned = listOf(3, 4))
+        val device = FakeDevice(1, aligned = listOf(3, 4))
         val field = device.field(listOf(2, 3, 4), listOf(20, 30, 40), local = 10)
         assertEquals(mapOf(3 to 30, 4 to 40, 1 to 10), project(field, "branch")?.all?.toMap())
         assertEquals(emptyList(), device.path)
@@ -33,7 +33,7 @@ class CompiledProgramsTest {
 
     @Test
     fun `a field of which all are aligned stays what it is`() {
-        val device = StandInDevice(1, aligned = listOf(2, 3))
+        val device = FakeDevice(1, aligned = listOf(2, 3))
         val field = device.field(listOf(2, 3), listOf(20, 30), local = 10)
         assertSame(field, project(field, "branch"))
         assertNull(project<Int, Int>(null, "branch"))

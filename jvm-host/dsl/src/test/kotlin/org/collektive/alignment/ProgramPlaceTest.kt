@@ -1,11 +1,11 @@
 package org.collektive.alignment
 
-import it.unibo.collektive.aggregate.StandInDevice
+import it.unibo.collektive.aggregate.FakeDevice
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 
-/** Tokens of compiled programs, as people read them. */
+/** Tests readable tokens of compiled programs. */
 class ProgramPlaceTest {
     private fun token(name: String, line: Int) = "$name@Swarm.kt:$line#0123456789abcdef"
 
@@ -41,5 +41,5 @@ class ProgramPlaceTest {
     }
 
     @Test
-    fun `a device that keeps no tokens is at the root`() = assertEquals("broken [node 3 at root]", StandInDevice(3).withPlace("broken"))
+    fun `a device that keeps no tokens is at the root`() = assertEquals("broken [node 3 at root]", FakeDevice(3).withPlace("broken"))
 }

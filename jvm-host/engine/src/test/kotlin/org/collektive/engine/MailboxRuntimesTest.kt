@@ -79,7 +79,7 @@ class MailboxRuntimesTest {
                 for (id in 0..3) {
                     assertContains(
                         answers[id].toString(),
-                        "a builder changes; it cannot be shared, kept or a pivot [node $id at ",
+                        "a builder changes; it cannot be shared, stored or used as a pivot [node $id at ",
                     )
                 }
                 assertEquals(4, answers[4])

@@ -35,7 +35,7 @@ internal class Arguments(
                 if (option !in options) throw GeneratorException("unknown option $option\n$USAGE")
                 val value = words.getOrNull(i + 1) ?: throw GeneratorException("$option needs a value\n$USAGE")
                 val others = values[option].orEmpty()
-                if (others.isNotEmpty() && option != "--schema") throw GeneratorException("$option is given twice\n$USAGE")
+                if (others.isNotEmpty() && option != "--schema") throw GeneratorException("$option is used twice\n$USAGE")
                 values[option] = others.plusElement(Path.of(value))
             }
 
@@ -50,9 +50,9 @@ internal class Arguments(
                 optional("--layouts"),
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
-            arguments.schemas.find { !Files.isRegularFile(it) }?.let { throw GeneratorException("no schema file at $it") }
+            arguments.schemas.find { !Files.isRegularFile(it) }?.let { throw GeneratorException("the schema does not exist at $it") }
             if (!Files.isRegularFile(arguments.include.resolve(CORE_TYPES))) {
-                throw GeneratorException("no $CORE_TYPES in ${arguments.include}: --include names the folder that holds it")
+                throw GeneratorException("no $CORE_TYPES in ${arguments.include}: set --include to the folder that contains it")
             }
             return arguments
         }

@@ -6,7 +6,7 @@ internal class CSharp(private val schema: UserSchema) {
     private val readers = (reachable(listOfNotNull(schema.actuator as? TableType)).map { it.name } + schema.enums.map { it.name })
         .mapTo(HashSet()) { "${it.toString().replace('.', '/')}.cs" }
 
-    /** The structs and tables that C# writes or copies as a whole. Those of `types.fbs` are part of the product. */
+    /** The structs and tables that C# writes or copies as a whole. The types of `types.fbs` are part of the product. */
     private val mirrored = schema.structs.filter { !it.core }
     private val drafted = reachable(listOfNotNull(schema.sensor, schema.global)).filterIsInstance<TableType>()
 

@@ -1,4 +1,4 @@
 package org.collektive.generator
 
-/** The user must change something; the message says what and where. */
+/** An error in the user's schema or arguments. The message contains the place and the solution. */
 internal class GeneratorException(message: String) : Exception(message)

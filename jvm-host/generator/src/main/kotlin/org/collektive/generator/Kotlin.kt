@@ -29,7 +29,7 @@ internal class Kotlin(private val schema: UserSchema) {
         )
     }
 
-    /** The models of the classes of which results consist, by name. Those of `types.fbs` are part of the product. */
+    /** The models of the classes of which results consist, by name. The types of `types.fbs` are part of the product. */
     fun values(): Map<TypeName, Map<String, Any?>> = results.filter { it !is StructType || !it.core }.associate {
         TypeName(it.name.namespace, value(it).substringAfterLast('.')) to
             model(it)
@@ -38,7 +38,7 @@ internal class Kotlin(private val schema: UserSchema) {
     private fun model(type: Composite): Map<String, Any?> = mapOf(
         "namespace" to type.name.namespace,
         "name" to value(type).substringAfterLast('.'),
-        // The equality of arrays is that of objects, so a class with arrays has no equality of values either.
+        // Arrays are compared by identity, so a class with arrays cannot be compared by value.
         "modifier" to if (type.fields.isEmpty() || type.fields.any { isArray(it.type) }) "" else "data ",
         "documentation" to documentation(type.documentation.ifEmpty { "What a program writes as `${type.name.simple}`." }),
         "anyDocumented" to type.fields.any { it.documentation.isNotEmpty() },
@@ -195,7 +195,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun addScalar(field: Field, type: Scalar, value: String): String {
         if (!field.optional) return "builder.${adder(type)}(${field.id}, ${built(type, value)}, ${builtDefault(type, field.default)})"
-        // A value that is there is written, whatever it is.
+        // A present value is always written.
         return "$value?.let { builder.${adder(type)}(${built(type, "it")}); builder.slot(${field.id}) }"
     }
 
@@ -245,7 +245,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun value(type: Composite): String = if (type === schema.actuator) "${type.name}" else "${type.name}Value"
 
-    private fun member(field: Field): String = lowerCamel(field.name).let { if (it in Words.kotlin) "`$it`" else it }
+    private fun member(field: Field): String = lowerCamel(field.name).let { if (it in ReservedNames.kotlin) "`$it`" else it }
 
     private fun constant(type: TableType): String = "LAYOUT_${type.name.toString().replace('.', '_').uppercase()}"
 }

@@ -11,7 +11,7 @@ internal object Layouts {
         "filled" to tables.filter { it.fields.isNotEmpty() }.map { layout(it, ::shortConstant) },
     )
 
-    /** The name of the generated class, `FrameLayouts` for `frame.fbs`; [namespace] is that of the tables. */
+    /** The name of the generated class, `FrameLayouts` for `frame.fbs`; [namespace] is the namespace of the tables. */
     fun name(file: String, namespace: String = ""): TypeName = TypeName(namespace, upperCamel(file.removeSuffix(".fbs")) + "Layouts")
 
     /** The model of the layout of [type]; [constant] returns the constant's name for a table. */

@@ -35,7 +35,7 @@ internal fun generate(arguments: Arguments) {
 private fun generate(arguments: Arguments, file: Path, work: Path) {
     val include = arguments.include.toAbsolutePath().normalize()
     val flatc = Flatc(arguments.flatc.toAbsolutePath(), listOf(include, file.parent))
-    // What is no text, flatc answers with its usage.
+    // flatc prints its usage for files that are not text.
     SchemaText.read(file)
     flatc.fullBinarySchema(file, work)
     val reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), file, include.resolve(CORE_TYPES))
@@ -46,13 +46,13 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     }
     if (arguments.csharp == null && arguments.jvm == null) return
     val schema = reader.read()
-    val copies = HarmlessCopies(reader.files, include.resolve(CORE_TYPES), work)
-    val harmless = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
+    val copies = SanitizedSchemas(reader.files, include.resolve(CORE_TYPES), work)
+    val sanitized = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
 
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)
         val csharp = CSharp(schema)
-        reader.files.forEach { harmless.csharp(copies.of(it), work.resolve("csharp")) }
+        reader.files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.defineSymbols(text) else null }
         for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
@@ -61,12 +61,12 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     arguments.jvm?.let { folder ->
         val output = OutputFolder(folder)
         val kotlin = Kotlin(schema)
-        reader.files.forEach { harmless.java(copies.of(it), work.resolve("java")) }
+        reader.files.forEach { sanitized.java(copies.of(it), work.resolve("java")) }
         // Programs only write the actuator data.
         output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
         for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
         output.write("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
-        harmless.binarySchema(copies.of(file), work.resolve("portable"))
+        sanitized.binarySchema(copies.of(file), work.resolve("portable"))
         output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
         output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.kt") }
     }

@@ -6,7 +6,7 @@ import com.google.flatbuffers.reflection.Field as BinaryField
 import com.google.flatbuffers.reflection.Object as BinaryObject
 
 /**
- * Refuses names with which the code of flatc and of this generator does not compile, or means something else.
+ * Rejects names with which the code of flatc or this generator would not compile, or would have another meaning.
  *
  * @property isOwn whether code is generated for the file with this path, as flatc writes it.
  * @property refuse throws the error about a type, or about a field of a type (`a.b.Type.field`).
@@ -34,8 +34,8 @@ internal class NameRules(
             for (value in values) {
                 checkWord("${enum.name()}.$value", value)
                 if (value in ENUM_MEMBERS) refuse("${enum.name()}.$value", "generated code has a member of this name; rename the value")
-                if ("${value}_" in values && value in Words.reserved) {
-                    refuse("${enum.name()}.$value", "in generated code it is ${value}_, which is another value; rename one of them")
+                if ("${value}_" in values && value in ReservedNames.reserved) {
+                    refuse("${enum.name()}.$value", "in generated code its name is ${value}_, which is another value; rename one of them")
                 }
             }
         }
@@ -46,13 +46,15 @@ internal class NameRules(
         for (part in parts) checkWord(name, part)
         val simple = parts.last()
         val namespace = parts.dropLast(1)
-        if (simple in Words.reserved || simple in Words.types) refuse(name, "generated code uses a type of this name; rename the type")
-        namespace.find { it in Words.reserved }?.let { refuse(name, "the namespace has the keyword '$it' in it; rename the namespace") }
-        namespace.find { it in Words.types }?.let { refuse(name, "generated code uses a type of the name $it; rename the namespace") }
-        if (namespace.firstOrNull() in Words.roots || namespace.joinToString(".") in Words.packages) {
+        if (simple in ReservedNames.reserved || simple in ReservedNames.types) {
+            refuse(name, "generated code uses a type of this name; rename the type")
+        }
+        namespace.find { it in ReservedNames.reserved }?.let { refuse(name, "the namespace has the keyword '$it'; rename the namespace") }
+        namespace.find { it in ReservedNames.types }?.let { refuse(name, "generated code uses a type named $it; rename the namespace") }
+        if (namespace.firstOrNull() in ReservedNames.roots || namespace.joinToString(".") in ReservedNames.packages) {
             refuse(
                 name,
-                "the namespace ${namespace.joinToString(".")} is that of a library, or a name in generated code; rename the namespace",
+                "the namespace ${namespace.joinToString(".")} is used by a library or by generated code; rename the namespace",
             )
         }
         if (simple in roots) refuse(name, "in generated code it hides the namespace $simple; rename one of them")
@@ -65,11 +67,11 @@ internal class NameRules(
     }
 
     private fun checkWord(place: String, word: String) {
-        if (word.all { it == '_' }) refuse(place, "a name needs a letter; rename it")
+        if (word.all { it == '_' }) refuse(place, "a name must contain a letter; rename it")
         if (word.length > MAX_WORD) refuse(place, "the name has more than $MAX_WORD characters; shorten it")
     }
 
-    /** Types become files, also on systems that do not tell `Foo` from `foo`, and constants in upper case. */
+    /** Types become files, also on case-insensitive file systems, and constants in upper case. */
     private fun checkDistinct(made: List<String>) {
         val seen = HashMap<String, String>()
         for (name in objects.map { it.name() } + enums.map { it.name() } + made) {
@@ -90,7 +92,7 @@ internal class NameRules(
     private fun checkFields(type: BinaryObject) {
         val simple = type.name().substringAfterLast('.')
         val taken = HashMap<String, String>()
-        // The builder is a parameter of what makes a struct or table.
+        // The builder is a parameter of the methods that create a struct or table.
         for (made in listOf("Builder", "Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[made] = simple
         val fields = (0 until type.fieldsLength()).map(type::fields)
         for (field in fields) for (made in derived(field)) taken[made] = field.name()
@@ -102,7 +104,7 @@ internal class NameRules(
             if (member in RESERVED_MEMBERS) refuse(place, "C# or Java has a member of this name in every class; rename the field")
             if (member in roots) refuse(place, "in C# it hides the namespace $member; rename one of them")
             if (type.isStruct) checkInner(field)
-            if (!field.name().first().isLetter()) refuse(place, "a name begins with a letter; rename the field")
+            if (!field.name().first().isLetter()) refuse(place, "a name must begin with a letter; rename the field")
             seen.put(member, field.name())?.let {
                 refuse(place, "generated code calls both this field and $it $member; rename one of them")
             }
@@ -116,8 +118,8 @@ internal class NameRules(
         val inner = schema.objects(field.type().index())
         for (index in 0 until inner.fieldsLength()) {
             val part = inner.fields(index)
-            if (part.type().baseType() != BaseType.Obj || part.name() !in Words.reserved) continue
-            refuse("${inner.name()}.${part.name()}", "C# cannot name it where this struct is part of another one; rename the field")
+            if (part.type().baseType() != BaseType.Obj || part.name() !in ReservedNames.reserved) continue
+            refuse("${inner.name()}.${part.name()}", "C# cannot use this name where the struct is nested; rename the field")
         }
     }
 
@@ -148,7 +150,7 @@ internal class NameRules(
     private companion object {
         const val MAX_WORD = 100
         const val MAX_NAME = 200
-        const val TAKEN = "it is a name that the generator gives"
+        const val TAKEN = "the generator uses this name"
         val SCALARS = BaseType.UType..BaseType.Double
         val ENUM_MEMBERS = setOf("names", "value__")
 

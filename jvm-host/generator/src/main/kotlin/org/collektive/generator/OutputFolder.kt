@@ -16,7 +16,7 @@ internal class OutputFolder(private val root: Path) {
 
     fun holds(path: String): Boolean = Files.exists(root.resolve(path))
 
-    /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds: other schemas share the file. */
+    /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds, because schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
         val file = root.resolve(path)
         val old = if (Files.exists(file)) Files.readAllLines(file).map(String::trim) else emptyList()

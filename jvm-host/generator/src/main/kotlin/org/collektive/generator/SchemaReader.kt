@@ -33,7 +33,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val global = root("GlobalData")
         if (sensor.name.namespace != actuator.name.namespace) {
             throw error(
-                "SensorData lies in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one",
+                "SensorData is in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one",
                 "${actuator.name}",
             )
         }
@@ -66,12 +66,12 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     /** Rejects numbers that do not fit 64 bits with a sign: flatc's binary schema silently replaces them by 0. */
     private fun checkNumbers(source: Path) {
-        for ((index, line) in texts.getValue(source).harmless.lines().withIndex()) {
+        for ((index, line) in texts.getValue(source).sanitized.lines().withIndex()) {
             for (match in number.findAll(line.substringBefore("//"))) {
                 val text = match.groupValues[1]
                 val value = if (text.startsWith("0x", ignoreCase = true)) text.drop(2).toBigInteger(16) else text.toBigInteger()
                 if (value.bitLength() > 63) {
-                    throw GeneratorException("${source.fileName}:${index + 1}: $text is too large; numbers go up to ${Long.MAX_VALUE}")
+                    throw GeneratorException("${source.fileName}:${index + 1}: $text is too large; the maximum is ${Long.MAX_VALUE}")
                 }
             }
         }
@@ -88,7 +88,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private fun missing(name: String): GeneratorException {
         val others = objects().filter { plain(it.second.declarationFile()) != core }.joinToString { simple(it.second.name()) }
         val has = if (others.isEmpty()) "it defines no types" else "it defines $others"
-        return error("there is no $name; add `table $name { ... }` or `struct $name { ... }` ($has)")
+        return error("$name is missing; add `table $name { ... }` or `struct $name { ... }` ($has)")
     }
 
     private fun composite(index: Int): Composite {
@@ -113,7 +113,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private fun slots(table: TypeName, fields: List<BinaryField>): Int {
         val slots = (fields.maxOfOrNull { it.id() } ?: -1) + 1
-        if (slots > MAX_SLOTS) throw error("it has $slots fields, more than $MAX_SLOTS; put some into a table of their own", "$table")
+        if (slots > MAX_SLOTS) throw error("it has $slots fields, more than $MAX_SLOTS; move some of them to another table", "$table")
         return slots
     }
 
@@ -149,7 +149,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
                 "fixed arrays are not supported; use one field for each element, or a vector in a table",
             )
 
-            BaseType.Vector64 -> throw unsupported(owner, field.name(), "64-bit vectors are not supported; use a plain vector")
+            BaseType.Vector64 -> throw unsupported(owner, field.name(), "64-bit vectors are not supported; use a 32-bit vector")
 
             else -> plainOrEnum(type.baseType(), index) ?: throw unsupported(owner, field.name(), "its type is not supported")
         }
@@ -188,7 +188,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
                 is Scalar -> fieldType.bytes to fieldType.bytes
                 is EnumType -> fieldType.underlying.bytes to fieldType.underlying.bytes
                 is StructType -> fieldType.bytes to fieldType.alignment
-                else -> throw error("structs hold only scalars, enums and structs", "${type.name}.${field.name}")
+                else -> throw error("structs can contain only scalars, enums and structs", "${type.name}.${field.name}")
             }
             end = aligned(end, alignment)
             if (end != field.offset) break
@@ -207,7 +207,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
                 val part = (field.type as? VectorType)?.element ?: field.type
                 if (part in user.roots) {
                     val name = (part as Composite).name.simple
-                    throw error("$name cannot be part of a type; use a type of its own", "${type.name}.${field.name}")
+                    throw error("$name cannot be nested in another type; use a separate type", "${type.name}.${field.name}")
                 }
             }
         }
@@ -217,16 +217,16 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private fun checkFile() {
         if (!fileName.matches(file.fileName.toString())) {
             throw error(
-                "the schema's class is named after its file: begin the file's name with a letter, and use letters of ASCII, digits, _ and -",
+                "the name of the file is the name of a class: begin it with a letter, and use only ASCII letters, digits, _ and -",
             )
         }
         val identifier = schema.fileIdent().orEmpty()
         if (!identifier.all { it in 'A'..'Z' || it in 'a'..'z' || it in '0'..'9' }) {
-            throw error("the file_identifier has other characters than letters and digits of ASCII; correct or remove it")
+            throw error("the file_identifier may have only ASCII letters and digits; correct or remove it")
         }
     }
 
-    /** Code of types that others cannot see does not compile beside code of types that others can see. */
+    /** Code of private types does not compile together with code of public types. */
     private fun checkVisible() {
         for (type in objects().map { it.second }) {
             if (type.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", type.name())
@@ -236,7 +236,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Types can contain each other in so many ways, or have so many fields, that code about all of them has no end or no room. */
+    /** The generated code must not become too large: types can be nested in many ways and have many fields. */
     private fun checkExtent(user: UserSchema) {
         var ways = 0
         fun visit(type: Composite, outer: List<Composite>) {
@@ -244,7 +244,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
             for (field in type.fields) {
                 if (++ways > MAX_WAYS) {
                     throw error(
-                        "types contain each other in more than $MAX_WAYS ways; use fewer or flatter ones",
+                        "types are nested in more than $MAX_WAYS ways; use fewer or flatter types",
                         "${outer.first().name}",
                     )
                 }
@@ -255,14 +255,14 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         for (root in user.roots) visit(root, listOf(root))
         for (struct in user.structs) {
             if (slots(struct) > MAX_PARAMETERS) {
-                throw error("it has more numbers than a call can pass, $MAX_PARAMETERS; use a table", "${struct.name}")
+                throw error("it has more numbers than a method can have parameters, $MAX_PARAMETERS; use a table", "${struct.name}")
             }
         }
         val fields = user.tables.sumOf { it.fields.size }
-        if (fields > MAX_FIELDS) throw error("its tables have $fields fields, more than $MAX_FIELDS; leave some out")
+        if (fields > MAX_FIELDS) throw error("its tables have $fields fields, more than $MAX_FIELDS; remove some")
     }
 
-    /** How many parameters of the JVM the numbers of a struct are; those of 64 bits count twice. */
+    /** Returns the number of JVM parameter slots for the numbers of a struct. Numbers of 64 bits count twice. */
     private fun slots(struct: StructType): Int = struct.fields.sumOf { field ->
         when (val type = field.type) {
             is StructType -> slots(type)
@@ -275,7 +275,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private fun objects() = (0 until schema.objectsLength()).map { it to schema.objects(it) }
 
     private fun name(full: String): TypeName {
-        if ('.' !in full) throw error("it lies in no namespace; write `namespace yours;` before the first type of its file", full)
+        if ('.' !in full) throw error("it has no namespace; write `namespace NAME;` before the first type of the file", full)
         return TypeName(full.substringBeforeLast('.'), simple(full))
     }
 
@@ -298,7 +298,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
         /** As `FrameChecker` reads frames. */
         const val MAX_DEPTH = 64
-        const val TOO_DEEP = "types contain each other more than $MAX_DEPTH deep, and no frame is read deeper; use fewer levels"
+        const val TOO_DEEP = "types are nested more than $MAX_DEPTH levels deep, which frames do not support; use fewer levels"
         const val MAX_WAYS = 20_000
 
         /** A constructor of Java has 255 parameters, some of which Kotlin takes. */

@@ -4,7 +4,7 @@ import java.nio.charset.MalformedInputException
 import java.nio.file.Files
 import java.nio.file.Path
 
-/** The text of a schema file. flatc knows its grammar; here only words, strings and comments are told apart. */
+/** The text of a schema file. Distinguishes only words, strings and comments; flatc checks the grammar. */
 internal class SchemaText(private val text: String) {
     private val starts = HashMap<String, Int>()
     private val rewritten = StringBuilder(text.length)
@@ -15,7 +15,7 @@ internal class SchemaText(private val text: String) {
     private val words = ArrayDeque<String>()
 
     /** The same text, line by line, whose comments cannot end the comments of generated code. */
-    val harmless: String
+    val sanitized: String
 
     init {
         var at = 0
@@ -23,7 +23,7 @@ internal class SchemaText(private val text: String) {
             val end = endOf(at)
             val part = text.substring(at, end)
             when {
-                part.startsWith("//") -> rewritten.append(harmless(part))
+                part.startsWith("//") -> rewritten.append(sanitized(part))
 
                 else -> {
                     rewritten.append(part)
@@ -33,7 +33,7 @@ internal class SchemaText(private val text: String) {
             line += part.count { it == '\n' }
             at = end
         }
-        harmless = rewritten.toString()
+        sanitized = rewritten.toString()
     }
 
     /** The line of a type, or of a field of a type (`a.b.Type.field`), both with their namespace; `null` when it is not in this text. */
@@ -57,7 +57,7 @@ internal class SchemaText(private val text: String) {
         return minOf(end + 1, text.length)
     }
 
-    /** Takes a word or another character, and notes where types and their fields stand. */
+    /** Processes a word or another character, and records the positions of types and their fields. */
     private fun accept(part: String) {
         if (part.isBlank()) return
         val before = words.lastOrNull()
@@ -83,7 +83,7 @@ internal class SchemaText(private val text: String) {
 
         private fun isWord(character: Char) = character == '_' || character in 'a'..'z' || character in 'A'..'Z' || character in '0'..'9'
 
-        /** @throws GeneratorException when [file] is no text in UTF-8. */
+        /** @throws GeneratorException when [file] is not text in UTF-8. */
         fun read(file: Path): SchemaText = try {
             val text = Files.readString(file)
             val zero = text.indexOf('\u0000')
@@ -96,17 +96,17 @@ internal class SchemaText(private val text: String) {
             throw GeneratorException("${file.fileName}:1: the file is not in UTF-8; save it with that encoding")
         }
 
-        /** A comment of one line without what ends a comment, or starts one, in Java, Kotlin or C#. */
-        private fun harmless(comment: String): String {
+        /** Returns a one-line comment without character sequences that start or end comments in Java, Kotlin or C#. */
+        private fun sanitized(comment: String): String {
             val content = comment.indexOfFirst { it != '/' }.coerceIn(2, 3).coerceAtMost(comment.length)
             val text = withoutCommentEnds(comment.substring(content)).replace("\\", "&#92;")
             return comment.substring(0, content) + if (text.startsWith("/")) "&#47;" + text.drop(1) else text
         }
 
-        /** [text] on one line, without what ends or starts a block comment. */
+        /** Returns [text] on one line, without the start or end of block comments. */
         fun withoutCommentEnds(text: String): String = withoutLineEnds(text).replace("*/", "*&#47;").replace("/*", "/&#42;")
 
-        /** [text] with spaces for all that ends a line in some language, and for what writes from right to left. */
+        /** Returns [text] with spaces in place of line ends in any language and right-to-left controls. */
         fun withoutLineEnds(text: String): String = text.map {
             if (it.isISOControl() || it in '\u2028'..'\u202E' || it in '\u2066'..'\u2069') ' ' else it
         }.joinToString("")

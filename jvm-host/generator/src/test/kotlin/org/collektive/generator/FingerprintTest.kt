@@ -44,12 +44,12 @@ internal class FingerprintTest {
     private fun fingerprint(fields: String) = Fingerprint.of(read("", fields).sensor)
 
     private fun read(before: String, fields: String): UserSchema {
-        val folder = Workshop.newFolder()
+        val folder = Fixture.newFolder()
         val file = Files.writeString(
             folder.resolve("user.fbs"),
             "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }",
         )
-        Flatc(Workshop.flatc, emptyList()).fullBinarySchema(file, folder)
+        Flatc(Fixture.flatc, emptyList()).fullBinarySchema(file, folder)
         return SchemaReader(Files.readAllBytes(folder.resolve("user.bfbs")), file, folder.resolve(CORE_TYPES)).read()
     }
 }

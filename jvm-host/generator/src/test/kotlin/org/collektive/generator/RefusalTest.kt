@@ -9,15 +9,15 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Mistakes of users, and the messages about them. */
+/** Messages about errors in schemas. */
 internal class RefusalTest {
     @Test
     fun `a schema without one of the two types is refused, and the message lists its types`() {
         assertEquals(
-            "user.fbs:1: there is no SensorData; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
+            "user.fbs:1: SensorData is missing; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
             refusal("namespace a; struct Sensors { x: float; } struct ActuatorData { x: float; }"),
         )
-        assertContains(refusal("namespace a; struct SensorData { x: float; }"), "there is no ActuatorData")
+        assertContains(refusal("namespace a; struct SensorData { x: float; }"), "ActuatorData is missing")
         assertContains(refusal("namespace a;"), "it defines no types")
     }
 
@@ -55,7 +55,7 @@ internal class RefusalTest {
         assertContains(refusal(user("", "huge: [ubyte] (vector64);")), "SensorData.huge")
         val many = (0..64).joinToString(" ") { "f$it: int;" }
         assertEquals(
-            "user.fbs:1: Wide: it has 65 fields, more than 64; put some into a table of their own",
+            "user.fbs:1: Wide: it has 65 fields, more than 64; move some of them to another table",
             refusal(user("table Wide { $many }", "wide: Wide;")),
         )
         assertEquals(
@@ -77,7 +77,7 @@ internal class RefusalTest {
             )
         }
         assertEquals(
-            "user.fbs:1: DetailValue: it is a name that the generator gives; rename the type",
+            "user.fbs:1: DetailValue: the generator uses this name; rename the type",
             refusal(user("table DetailValue {} table Detail {}", "x: Detail;")),
         )
     }
@@ -124,7 +124,7 @@ internal class RefusalTest {
             "include \"types.fbs\";\n" + namespace("swarm.org") to "in C# the org in its namespace hides the namespace org",
             namespace("Big").replace("x: int", "big: int") to "user.fbs:2: SensorData.big: in C# it hides the namespace Big",
             type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
-                "user.fbs:4: B.is: C# cannot name it where this struct is part of another one; rename the field",
+                "user.fbs:4: B.is: C# cannot use this name where the struct is nested; rename the field",
             type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
             type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier has other characters",
         )
@@ -134,16 +134,16 @@ internal class RefusalTest {
     @Test
     fun `a file whose name cannot be that of a class is refused`() {
         for (name in listOf("1st.fbs", "_.fbs", "sch\u00f6n.fbs", "a\nb.fbs", "a*b.fbs")) {
-            val message = assertFailsWith<GeneratorException> { Workshop.generate(user("", "x: int;"), name) }.message.orEmpty()
+            val message = assertFailsWith<GeneratorException> { Fixture.generate(user("", "x: int;"), name) }.message.orEmpty()
             assertContains(message, "the schema's class is named after its file: begin the file's name with a letter")
         }
     }
 
     @Test
     fun `a file in another encoding is refused`() {
-        val schema = Workshop.newFolder().resolve("user.fbs")
+        val schema = Fixture.newFolder().resolve("user.fbs")
         Files.write(schema, "// Gr\u00f6\u00dfe\n${user("", "x: int;")}".toByteArray(Charsets.ISO_8859_1))
-        val message = assertFailsWith<GeneratorException> { Workshop.generate(schema, schema.resolveSibling("out")) }.message.orEmpty()
+        val message = assertFailsWith<GeneratorException> { Fixture.generate(schema, schema.resolveSibling("out")) }.message.orEmpty()
         assertEquals("user.fbs:1: the file is not in UTF-8; save it with that encoding", message)
     }
 
@@ -153,7 +153,7 @@ internal class RefusalTest {
         val deep = "more than 64 deep"
         assertContains(refusal(user(chain(3000), "first: T0;")), deep)
         assertContains(refusal(user(chain(64), "first: T0;")), deep)
-        Workshop.generate(user(chain(60), "first: T0;"))
+        Fixture.generate(user(chain(60), "first: T0;"))
         val doubling = (0 until 30).joinToString("\n") { "table T$it { a: T${it + 1}; b: T${it + 1}; }" } + "\ntable T30 { x: int; }"
         assertContains(refusal(user(doubling, "first: T0;")), "contain each other in more than 20000 ways")
         val ring = (0 until 30).joinToString("\n") { i -> "table T$i { ${(0 until 30).joinToString(" ") { "f$it: T$it;" }} }" }
@@ -168,11 +168,11 @@ internal class RefusalTest {
     @Test
     fun `a root type inside of another type is refused`() {
         assertEquals(
-            "user.fbs:1: Detail.all: SensorData cannot be part of a type; use a type of its own",
+            "user.fbs:1: Detail.all: SensorData cannot be nested in another type; use a separate type",
             refusal(user("table Detail { all: [SensorData]; }", "x: Detail;")),
         )
         assertEquals(
-            "user.fbs:1: SensorData.last: ActuatorData cannot be part of a type; use a type of its own",
+            "user.fbs:1: SensorData.last: ActuatorData cannot be nested in another type; use a separate type",
             refusal(user("", "last: ActuatorData;")),
         )
     }
@@ -180,7 +180,7 @@ internal class RefusalTest {
     @Test
     fun `numbers beyond 63 bits are refused, since the binary schema loses them`() {
         assertEquals(
-            "user.fbs:2: 9223372036854775808 is too large; numbers go up to 9223372036854775807",
+            "user.fbs:2: 9223372036854775808 is too large; the maximum is 9223372036854775807",
             refusal("namespace a;\ntable SensorData { x: ulong = 9223372036854775808; }\nstruct ActuatorData { x: float; }"),
         )
     }
@@ -200,7 +200,7 @@ internal class RefusalTest {
         )
         assertContains(
             refusal("namespace a; struct SensorData { x: float; } namespace b; struct ActuatorData { x: float; }"),
-            "SensorData lies in namespace a, ActuatorData in b: use one",
+            "SensorData is in namespace a, ActuatorData in b: use one",
         )
     }
 
@@ -213,37 +213,37 @@ internal class RefusalTest {
 
     @Test
     fun `a refused schema leaves no files`() {
-        val folder = Workshop.newFolder()
+        val folder = Fixture.newFolder()
         val schema = Files.writeString(folder.resolve("user.fbs"), user("union U { SensorData }", "u: U;"))
-        assertFailsWith<GeneratorException> { Workshop.generate(schema, folder.resolve("out")) }
+        assertFailsWith<GeneratorException> { Fixture.generate(schema, folder.resolve("out")) }
         assertFalse(Files.exists(folder.resolve("out")))
     }
 
     @Test
     fun `a command line with a missing or unknown option is refused by name`() {
-        val flatc = Workshop.flatc.toString()
-        val schema = Workshop.testSchemas.resolve("blocks.fbs").toString()
+        val flatc = Fixture.flatc.toString()
+        val schema = Fixture.testSchemas.resolve("blocks.fbs").toString()
         fun message(vararg words: String) = assertFailsWith<GeneratorException> { Arguments.parse(arrayOf(*words)) }.message.orEmpty()
         assertContains(message(), "--flatc is missing")
         assertContains(message("--flatc", flatc, "--schema"), "--schema needs a value")
         assertContains(message("--colour", "red"), "unknown option --colour")
         assertContains(message("--flatc", flatc, "--flatc", flatc), "--flatc is given twice")
         assertContains(message("--flatc", "nothing", "--schema", schema, "--include", "x"), "no flatc at nothing: run ./collektive setup")
-        assertContains(message("--flatc", flatc, "--schema", "nothing.fbs", "--include", "x"), "no schema file at nothing.fbs")
+        assertContains(message("--flatc", flatc, "--schema", "nothing.fbs", "--include", "x"), "the schema does not exist at nothing.fbs")
         assertContains(message("--flatc", flatc, "--schema", schema, "--include", "x"), "no types.fbs in x")
     }
 
     @Test
     fun `a command line may name several schemas, of which each must exist`() {
-        val (first, second) = Workshop.files(Workshop.testSchemas).filter { it.toString().endsWith(".fbs") }
-        val include = Workshop.root.resolve("schema").toString()
-        val words = arrayOf("--flatc", "${Workshop.flatc}", "--include", include, "--schema", "$first", "--schema")
+        val (first, second) = Fixture.files(Fixture.testSchemas).filter { it.toString().endsWith(".fbs") }
+        val include = Fixture.root.resolve("schema").toString()
+        val words = arrayOf("--flatc", "${Fixture.flatc}", "--include", include, "--schema", "$first", "--schema")
         assertEquals(listOf(first, second), Arguments.parse(words + "$second").schemas)
         val failure = assertFailsWith<GeneratorException> { Arguments.parse(words + "gone.fbs") }
-        assertContains(failure.message.orEmpty(), "no schema file at gone.fbs")
+        assertContains(failure.message.orEmpty(), "the schema does not exist at gone.fbs")
     }
 
     private fun user(before: String, fields: String) = "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }"
 
-    private fun refusal(text: String): String = assertFailsWith<GeneratorException> { Workshop.generate(text) }.message.orEmpty()
+    private fun refusal(text: String): String = assertFailsWith<GeneratorException> { Fixture.generate(text) }.message.orEmpty()
 }

@@ -38,21 +38,21 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     private var newState: State = emptyMap()
     private var outbound = Messages(emptyMap(), null)
 
-    // The path of the primitive that ran last: all that the API tells about the place of a failure.
+    // The path of the last primitive, for the place of a failure. The API has no more information.
     private var reached: Path? = null
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
-        val messages = (0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NOBODY) }
+        val messages = (0 until inbox.size).mapNotNull { (inbox.export(it) as Messages?)?.message(if (inbox.wasKnown(it)) id else NO_ID) }
         inbound = Inbound(messages)
         reached = null
         val round: AggregateResult<Int, Any?> =
             Collektive.aggregate(localId = id, network = this, previousState = state, pathFactory = this) { program.run(this, sensors) }
-        for ((path, value) in round.newState) allow(path, value)
+        for ((path, value) in round.newState) requireShareable(path, value)
         newState = round.newState
         return round.result
     }
 
-    override val exports: Int get() = outbound.message(NOBODY)?.sharedData.orEmpty().size
+    override val exports: Int get() = outbound.message(NO_ID)?.sharedData.orEmpty().size
 
     override fun placeOf(failure: Throwable): String = place(reached)
 
@@ -65,27 +65,27 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     override fun currentInbound(): NeighborsData<Int> = inbound
 
-    override fun deliverableReceived(message: Message<Int, *>) = error("messages come with the links")
+    override fun deliverableReceived(message: Message<Int, *>) = error("messages are read from the links, not pushed")
 
-    /** Makes all messages here, because an envelope need not support concurrent readers. */
+    /** Creates all messages, because an envelope need not support concurrent readers. */
     override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {
-        val default = outboundMessage.prepareMessageFor(NOBODY)
+        val default = outboundMessage.prepareMessageFor(NO_ID)
         val each = inbound.neighbors.associateWith { outboundMessage.prepareMessageFor(it) }
-        for (message in each.values + default) for ((path, value) in message.sharedData) allow(path, value)
+        for (message in each.values + default) for ((path, value) in message.sharedData) requireShareable(path, value)
         outbound = Messages(each, default)
     }
 
-    /** The path of [tokens], each of which may be a pivot of the program's. */
+    /** Returns the path of [tokens], which include the program's pivots. */
     override fun invoke(tokens: List<Any?>): Path {
         val path = FullPathFactory(tokens)
         reached = path
-        for (token in tokens) allow(path, token)
+        for (token in tokens) requireShareable(path, token)
         return path
     }
 
-    private fun allow(path: Path, value: Any?) {
+    private fun requireShareable(path: Path, value: Any?) {
         val refusal = rule.refusal(value) ?: return
-        throw IllegalArgumentException("$refusal; it cannot be shared, kept or a pivot [${place(path)}]")
+        throw IllegalArgumentException("$refusal; it cannot be shared, stored or used as a pivot [${place(path)}]")
     }
 
     private fun place(path: Path?): String = "node $id" + if (path == null) "" else " at ${path.toMultilineString(" > ")}"
@@ -104,7 +104,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     }
 
     private companion object {
-        /** The id of no device; stands for a receiver that was no neighbour when the message was sent. */
-        const val NOBODY = -1
+        /** Not the id of a device. Stands for receivers that were not neighbours when the message was sent. */
+        const val NO_ID = -1
     }
 }

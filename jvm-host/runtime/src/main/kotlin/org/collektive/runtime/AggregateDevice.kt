@@ -19,7 +19,7 @@ import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
 /**
- * One device: the records of its current state and of the running round, and older records that neighbours still hold.
+ * One device: the records of its last and its running round, and older records that neighbours still use.
  *
  * Generic in [ID], so that an id is boxed only once.
  */
@@ -39,19 +39,19 @@ internal class AggregateDevice<ID : Any>(
 
     // The stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
-    private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside its round")
+    private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside of its round")
     override val depth get() = stack.depth
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
         this.inbox = inbox
-        forgetFailure()
+        clearFailure()
         running.clear()
         val stack = stacks.get()
         ownStack = stack
         try {
             return program.run(this, sensors)
         } catch (failure: Throwable) {
-            failing(failure)
+            recordFailure(failure)
             throw failure
         } finally {
             stack.popTo(0)
@@ -112,9 +112,9 @@ internal class AggregateDevice<ID : Any>(
         return AlignmentClashException(FullPath(tokens()), previous, SharedData<ID, Any?>(value), place)
     }
 
-    /** Makes the path of [pivot] below [parent]; throws when [pivot] cannot be a pivot. */
+    /** Creates the path of [pivot] below [parent]. @throws IllegalArgumentException when [pivot] is not a valid pivot. */
     fun enter(parent: PathNode, pivot: Any?): PathNode {
-        val fault = pivotFault(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
+        val fault = pivotError(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
         throw IllegalArgumentException(withPlace(fault, ProgramPlace(localId, stack.resolvedTokens())))
     }
 
@@ -125,7 +125,7 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun keep(path: PathNode, value: Any?) {
-        allow(value)
+        requireShareable(value)
         running.keep(path, value)
     }
 
@@ -178,7 +178,7 @@ internal class AggregateDevice<ID : Any>(
                 if (value === others) continue
                 one = index
                 exceptions++
-                allow(value)
+                requireShareable(value)
             }
         }
         val sent = when (exceptions) {
@@ -190,7 +190,7 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun <T> sendToAll(path: PathNode, value: T, sharing: DataSharingMethod<T>) {
-        allow(value)
+        requireShareable(value)
         running.send(path, value)
     }
 
@@ -219,7 +219,7 @@ internal class AggregateDevice<ID : Any>(
         return Field.make(field.context, keptIds.copyOf(kept).requireNoNulls(), keptValues.copyOf(kept), field.localValue)
     }
 
-    private fun allow(value: Any?) {
-        rule.refusal(value)?.let { throw IllegalArgumentException(withPlace("$it; it cannot be shared or kept")) }
+    private fun requireShareable(value: Any?) {
+        rule.refusal(value)?.let { throw IllegalArgumentException(withPlace("$it; it cannot be shared or stored")) }
     }
 }

@@ -3,7 +3,7 @@ package org.collektive.runtime
 /**
  * What a device sent: [value] to the device [id], and [others] to all others.
  *
- * Stands for a field that differs for one neighbour only, as those of gradient casts do: a receiver compares one id instead of
- * searching the sender's.
+ * Replaces a field that differs for one neighbour only, as in gradient casts. A receiver then compares one id instead of searching
+ * the sender's ids.
  */
 internal class AllButOne(val id: Any, val value: Any?, val others: Any?)

@@ -4,7 +4,7 @@ import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.RuntimeProvider
 import org.collektive.spi.SharingRule
 
-/** The project's own runtime, as the host finds it. */
+/** Provides the built-in runtime to the host. */
 public class BuiltInRuntime : RuntimeProvider {
     override val name: String get() = "builtIn"
 

@@ -8,7 +8,7 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.networking.PayloadRepresentation
 import it.unibo.collektive.path.Path
 
-/** Everything that [senderId] sends after one round. */
+/** The values that [senderId] sends after one round. */
 internal class Envelope<ID : Any>(private val senderId: ID) : OutboundEnvelope<ID> {
     private val data = LinkedHashMap<Path, Entry<ID, *>>()
 
@@ -16,7 +16,7 @@ internal class Envelope<ID : Any>(private val senderId: ID) : OutboundEnvelope<I
         check(this.data.put(path, Entry(data, dataSharingMethod)) == null) { "device $senderId sends twice at the path '$path'" }
     }
 
-    /** What is sent at [path] by default; `null` when nothing is. */
+    /** Returns the default value that is sent at [path], or `null`. */
     fun defaultAt(path: Path): PayloadRepresentation<*>? = data[path]?.default
 
     override fun isEmpty(): Boolean = data.isEmpty()

@@ -37,7 +37,7 @@ internal class MailboxRound<ID : Any>(
         val result = try {
             program()
         } catch (failure: StackOverflowError) {
-            throw StackOverflowError(withPlace("the recursion does not end", failurePlace(failure))).initCause(failure)
+            throw StackOverflowError(withPlace("infinite recursion", failurePlace(failure))).initCause(failure)
         }
         return AggregateResult(localId, result, outbound, newState)
     }
@@ -45,7 +45,7 @@ internal class MailboxRound<ID : Any>(
     override val depth get() = stack.size
 
     override fun push(token: Any?) {
-        pivotFault(token)?.let { throw IllegalArgumentException(withPlace(it)) }
+        pivotError(token)?.let { throw IllegalArgumentException(withPlace(it)) }
         stack += token
     }
 

@@ -31,7 +31,7 @@ internal class PathStack(private val tree: PathTree) {
         entries[entryCount++] = depth
     }
 
-    /** Drops what lies above [depth], so that the stack keeps no user's object reachable. */
+    /** Pops tokens until the depth is [depth], and clears them, so that they can be collected. */
     fun popTo(depth: Int) {
         while (this.depth > depth) tokens[--this.depth] = null
         while (resolved > depth) nodes[resolved--] = null

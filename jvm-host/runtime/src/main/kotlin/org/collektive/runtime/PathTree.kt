@@ -11,13 +11,13 @@ internal class PathTree {
     val root = PathNode(null, null)
 
     private var size = 0
-    private var sizeToTidy = FIRST_TIDY
+    private var sweepThreshold = FIRST_SWEEP
     private var sweep = 0
 
-    /** The node for [token] below [parent]; `null` when there is none, or when another thread has just added it. Safe on any thread. */
+    /** Returns the child of [parent] for [token], or `null` if it does not exist or another thread has just added it. Thread-safe. */
     fun find(parent: PathNode, token: Any?): PathNode? = parent.children?.find(token)
 
-    /** The node for [token] below [parent], made if there is none. Safe on any thread. */
+    /** Returns the child of [parent] for [token], and creates it if necessary. Thread-safe. */
     @Synchronized
     fun enter(parent: PathNode, token: Any?): PathNode {
         val children = parent.children ?: PathTable.of(0)
@@ -28,8 +28,8 @@ internal class PathTree {
         return node
     }
 
-    /** Whether the tree has grown enough since the last [keepOnly] for another to pay off. */
-    val isCrowded: Boolean get() = size > sizeToTidy
+    /** Whether the tree has grown enough since the last [keepOnly] to repeat it. */
+    val needsSweep: Boolean get() = size > sweepThreshold
 
     /** Removes all paths except those that [visit] passes to its argument, and their ancestors. Call it only while no round runs. */
     fun keepOnly(visit: ((PathNode) -> Unit) -> Unit) {
@@ -46,7 +46,7 @@ internal class PathTree {
                 open.addLast(it)
             }
         }
-        sizeToTidy = maxOf(FIRST_TIDY, 2 * size)
+        sweepThreshold = maxOf(FIRST_SWEEP, 2 * size)
     }
 
     private fun mark(node: PathNode) {
@@ -58,8 +58,8 @@ internal class PathTree {
     }
 
     private companion object {
-        /** Fewer paths are not worth a sweep; a program whose pivots are all constants stays far below. */
-        const val FIRST_TIDY = 4096
+        /** Minimum size for a sweep. Programs with constant pivots have far fewer paths. */
+        const val FIRST_SWEEP = 4096
     }
 }
 
@@ -70,7 +70,7 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     /** Mixed well, because tables use its low bits. */
     val hash: Int = ((parent?.hash ?: 0) * 31 + tokenHash).let { it * -0x61c88647 xor (it ushr 15) }
 
-    /** `null` when there are none; a racing reader may see `null` too. Written under the tree's lock. */
+    /** The children, or `null`. A racing reader may see `null`, too. Written under the tree's lock. */
     @Volatile
     var children: PathTable? = null
 
@@ -106,7 +106,7 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
         return table
     }
 
-    /** A table of the nodes for which [keep] returns `true`; `null` when there are none. */
+    /** Returns a table of the nodes for which [keep] returns `true`, or `null` without such nodes. */
     inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
         var kept = 0
         forEach { if (keep(it)) kept++ }

@@ -31,17 +31,17 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     /**
      * Reserves the current path for a primitive that starts from [value], and returns it; throws [AlignmentClashException] when it is
-     * taken.
+     * in use.
      */
     protected abstract fun claimPath(value: Any?): Path
 
-    /** The value that the last round stored at [path], or [initial] if there is none. */
+    /** The value that the last round stored at [path], or [initial] if it stored none. */
     protected abstract fun <T> keptAt(path: Path, initial: T): T
 
     /** Stores [value] for the next round. */
     protected abstract fun keep(path: Path, value: Any?)
 
-    /** The field of what aligned neighbours sent to this device at [path]. */
+    /** Returns the field of the values that aligned neighbours sent to this device at [path]. */
     protected abstract fun <T> receive(path: Path, local: T, sharing: DataSharingMethod<T>): Field<ID, T>
 
     /** Sends each neighbour its value in [values], and all other receivers the local value. */
@@ -55,7 +55,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     override val place: ProgramPlace get() = ProgramPlace(localId, tokens())
 
-    override fun failing(failure: Throwable) {
+    override fun recordFailure(failure: Throwable) {
         if (failure === this.failure) return
         failedAt = tokens()
         this.failure = failure
@@ -65,17 +65,17 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     fun failurePlace(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
 
     /** Forgets the failure of the last round. */
-    protected fun forgetFailure() {
+    protected fun clearFailure() {
         failure = null
         failedAt = emptyList()
     }
 
     /** The reason why [pivot] cannot align devices; `null` when it can. */
-    protected fun pivotFault(pivot: Any?): String? = when {
-        pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: each device has another one"
+    protected fun pivotError(pivot: Any?): String? = when {
+        pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: it differs on each device"
 
         pivot is Function<*> || pivot != null && pivot.javaClass.isArray ->
-            "a ${pivot.javaClass.simpleName} cannot be a pivot: it equals no other one; use a number, a string, a list or a data class"
+            "a ${pivot.javaClass.simpleName} cannot be a pivot: it is compared by identity; use a number, a string, a list or a data class"
 
         else -> null
     }
@@ -84,14 +84,14 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         val path = claimPath(initial)
         val value = transform(keptAt(path, initial))
         keep(path, value)
-        return refuseField(value, "evolve")
+        return rejectField(value, "evolve")
     }
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
         val path = claimPath(initial)
         val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
         keep(path, kept)
-        return refuseField(result, "evolving")
+        return rejectField(result, "evolving")
     }
 
     override fun <Shared, Return> exchanging(
@@ -117,9 +117,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         val before = depth
         push(pivot)
         try {
-            return refuseField(body(), "alignedOn")
+            return rejectField(body(), "alignedOn")
         } catch (failure: Throwable) {
-            failing(failure)
+            recordFailure(failure)
             throw failure
         } finally {
             popTo(before)
@@ -129,7 +129,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     override fun align(pivot: Any?) = push(pivot)
 
     override fun dealign() {
-        check(depth > 0) { withPlace("dealign() without align()") }
+        check(depth > 0) { withPlace("dealign() was called without align()") }
         popTo(depth - 1)
     }
 
@@ -140,9 +140,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         markEntry()
     }
 
-    private fun <T> refuseField(result: T, primitive: String): T {
+    private fun <T> rejectField(result: T, primitive: String): T {
         check(result !is Field<*, *>) {
-            withPlace("$primitive returned a field, which would mix devices that are not aligned outside; collapse it inside")
+            withPlace("$primitive returned a field, whose devices may not be aligned outside; collapse it inside")
         }
         return result
     }

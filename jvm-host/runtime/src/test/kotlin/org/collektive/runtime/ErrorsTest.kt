@@ -112,7 +112,7 @@ class ErrorsTest {
     fun `a pivot without a toString of its own, where messages are serialised`() {
         class Key
         val error = failure(JSON) { alignedOn(Key()) { evolve(0) { it } } }
-        assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: it has no toString of its own")
+        assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: its class does not override toString")
         assertContains(error.message.orEmpty(), "[node 1 at helper > ")
     }
 
@@ -120,7 +120,7 @@ class ErrorsTest {
     fun `a value that cannot be serialised`() {
         class Plain
         val type = assertIs<SerializationException>(failure(JSON) { call("share", 9) { share(Plain()) { it.local.value } } })
-        assertContains(type.message.orEmpty(), "Plain cannot be sent: there is no serializer; mark the class with @Serializable")
+        assertContains(type.message.orEmpty(), "Plain cannot be sent: they have no serializer; mark the class with @Serializable")
         assertTrue(type.message.orEmpty().endsWith("[node 1 at helper > share (Swarm.kt:9)]"), type.message)
         // These devices serialise messages when they are read.
         val value = assertFailsWith<SerializationException> {
@@ -137,7 +137,7 @@ class ErrorsTest {
             val error = assertIs<StackOverflowError>(failure(route) { deeper() })
             val expected =
                 Regex(
-                    "the recursion does not end \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]",
+                    "infinite recursion \\[node 1 at helper > deeper > key > deeper > .* > … \\([0-9,]+ more\\) > .* \\(Swarm.kt:3\\)]",
                 )
             assertTrue(expected.matches(error.message.orEmpty()), error.message)
         }

@@ -34,7 +34,7 @@ class PathTreeTest {
         var sweeps = 0
         for (pivot in 0 until 1_000_000) {
             val used = tree.child(kept, pivot)
-            if (tree.isCrowded) {
+            if (tree.needsSweep) {
                 tree.keepOnly { it(used) }
                 sweeps++
                 assertSame(used, tree.child(kept, pivot))

@@ -269,7 +269,7 @@ class PrimitivesTest {
         )
         for (program in programs) {
             val error = assertFailsWith<IllegalArgumentException> { network.round(program) }
-            assertEquals("a builder changes; it cannot be shared or kept [node 1 at here]", error.message)
+            assertEquals("a builder changes; it cannot be shared or stored [node 1 at here]", error.message)
         }
         val pivot = assertFailsWith<IllegalArgumentException> {
             network.round { alignedOn(view) { evolve(0) { it } } }

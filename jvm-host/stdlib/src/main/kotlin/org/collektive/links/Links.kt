@@ -13,7 +13,7 @@ import org.collektive.api.Device
 /**
  * The lengths of the links from the aligned neighbours in metres, and 0 for this device: `with(device) { distances() }`.
  *
- * Lengths are those that the scene's neighbourhood rule declares, so programs need no positions in their schema:
+ * The scene's neighbourhood rule sets the lengths, so programs need no positions in their schema:
  *
  * ```
  * val toSource = with(device) { distanceTo(sensors.source(), metric = distances()) }

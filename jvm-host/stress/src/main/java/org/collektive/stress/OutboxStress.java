@@ -27,7 +27,7 @@ public class OutboxStress {
 
   @JCStressTest
   @Outcome(id = "1", expect = Expect.ACCEPTABLE, desc = "the export from before the tick")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of its own tick, or none")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of the same tick, or none")
   @State
   public static class RoundsReadWhatWasSentBefore {
     private final Box box = new Box();
@@ -50,7 +50,7 @@ public class OutboxStress {
 
   @JCStressTest
   @Outcome(id = "nothing", expect = Expect.ACCEPTABLE, desc = "no export from before the tick")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of its own tick")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of the same tick")
   @State
   public static class FirstExportWaitsForTheNextTick {
     private final Box box = new Box();

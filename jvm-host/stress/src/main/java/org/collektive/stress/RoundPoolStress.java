@@ -72,7 +72,7 @@ public class RoundPoolStress {
 
   @JCStressTest(Mode.Termination)
   @Outcome(id = "TERMINATED", expect = Expect.ACCEPTABLE, desc = "the thread ended")
-  @Outcome(id = "STALE", expect = Expect.FORBIDDEN, desc = "an idle thread did not notice that its pool was abandoned")
+  @Outcome(id = "STALE", expect = Expect.FORBIDDEN, desc = "an idle thread did not end after its pool was abandoned")
   @State
   public static class AbandonedThreadsEnd {
     private final RoundPool pool = new RoundPool(1);

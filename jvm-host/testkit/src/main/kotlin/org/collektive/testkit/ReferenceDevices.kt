@@ -170,7 +170,7 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
 
     override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())
 
-    override fun failing(failure: Throwable) {
+    override fun recordFailure(failure: Throwable) {
         if (failed?.second !== failure) failed = place to failure
     }
 

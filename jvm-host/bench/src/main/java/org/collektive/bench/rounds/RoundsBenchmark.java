@@ -12,7 +12,7 @@ import org.openjdk.jmh.annotations.Setup;
 import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.TearDown;
 
-/** Measures one tick of a settled network. In Java, because JMH generates code with a Java annotation processor. */
+/** Measures one tick of a settled network. Written in Java, because JMH needs a Java annotation processor. */
 @BenchmarkMode(Mode.AverageTime)
 @OutputTimeUnit(TimeUnit.MICROSECONDS)
 public class RoundsBenchmark {

@@ -16,7 +16,7 @@ public class HandwrittenRounds(program: String, private val topology: Topology) 
     private val step = when (program) {
         "a" -> ::gradientAscent
         "b2" -> ::bellmanFord
-        else -> throw IllegalArgumentException("program '$program' is not written by hand, only a and b2")
+        else -> throw IllegalArgumentException("program '$program' has no hand-written loops; only a and b2 have")
     }
 
     internal val headingX = DoubleArray(size)

@@ -22,7 +22,7 @@ public fun main(arguments: Array<String>) {
     rows.forEach { println(it.line) }
 }
 
-/** The cost of one round: time, allocated bytes, and the ratio to hand-written loops in the same run; `null` if there are none. */
+/** The cost of one round: time, allocated bytes, and the ratio to hand-written loops in the same run; `null` without such loops. */
 private class RoundsRow(
     private val program: String,
     private val topology: String,

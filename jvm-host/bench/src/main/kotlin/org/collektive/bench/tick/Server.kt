@@ -80,7 +80,7 @@ private class Server(private val client: SocketChannel) : ShimCalls {
         return true
     }
 
-    /** The host's answer with a header before it; copies the answer only if there is no room for the header. */
+    /** The host's answer with a header before it; copies the answer only if the header does not fit before it. */
     private fun framed(written: Long): ByteBuffer {
         if (written < 0) return numbers(status = written.toInt())
         val offset = (written ushr Int.SIZE_BITS).toInt()

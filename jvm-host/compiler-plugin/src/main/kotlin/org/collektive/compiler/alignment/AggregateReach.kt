@@ -31,7 +31,7 @@ import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.ir.visitors.acceptVoid
 
 /**
- * Decides which calls can reach a primitive: those with an argument that is an Aggregate, a Field, or a function that may use one. Only
+ * Determines which calls can reach a primitive: calls with an argument that is an Aggregate, a Field, or a function that may use one. Only
  * these are aligned. For all others (`sqrt`, `listOf`, getters of a field) alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {

@@ -149,7 +149,7 @@ internal class AlignmentTransformer(
         return expression.also(::visitStatements)
     }
 
-    /** The null checks that the compiler generates for `?.`. They are no branches of the program. */
+    /** The null checks that the compiler generates for `?.`. They are not branches of the program. */
     private val plainBranches = HashSet<IrWhen>()
 
     private fun visitStatements(container: IrStatementContainer) {
@@ -243,7 +243,7 @@ internal class AlignmentTransformer(
         return if (mustAlign) aligned(call) else call
     }
 
-    /** Generates `arguments; push; try { call } catch (failure) { note it; throw it } finally { pop }`. */
+    /** Generates `arguments; push; try { call } catch (failure) { record it; rethrow it } finally { pop }`. */
     private fun aligned(call: IrFunctionAccessExpression): IrExpression {
         dependsOnPath = true
         val callee = call.symbol.owner
@@ -334,7 +334,7 @@ internal class AlignmentTransformer(
         return if (parameter != null) Source(parameter) else self.firstOrNull()?.let { keptBy(it, function.parentAsClass) }
     }
 
-    /** The Aggregate that [self], of class [type], or an object around it keeps in a property; `null` if there is none. */
+    /** The Aggregate that [self], of class [type], or an object around it keeps in a property, or `null`. */
     private fun keptBy(self: IrValueParameter, type: IrClass): Source? {
         dsl.keptAggregate(type)?.let { return Source(self, it) }
         return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { keptBy(it, outer) } } else null

@@ -64,8 +64,8 @@ internal class DslSymbols private constructor(
     }
 
     /**
-     * The property in which an object of [type] keeps the Aggregate of its program; `null` if there is none. Implementations of Aggregate
-     * are excluded: a property of theirs is a delegate.
+     * The property in which an object of [type] keeps the Aggregate of its program; or `null`. Implementations of Aggregate
+     * are excluded, because their property is a delegate.
      */
     fun keptAggregate(type: IrClass): IrProperty? =
         if (type.symbol.isSubtypeOfClass(aggregate)) null else type.properties.firstOrNull(::isKeptAggregate)

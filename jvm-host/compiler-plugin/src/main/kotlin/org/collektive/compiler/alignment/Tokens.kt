@@ -13,7 +13,7 @@ import org.jetbrains.kotlin.ir.util.render
  * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number inside these.
  *
  * Inside an entry, a lambda with an Aggregate receiver outside all aggregate code such as the one passed to `Collektive.aggregate`, tokens
- * have no location, and the hash is that of the declarations inside the entry: two such lambdas with the same calls in the same order
+ * have no location, and the hash covers only declarations inside the entry: two such lambdas with the same calls in the same order
  * align, wherever they are written.
  *
  * The whole text is the identity, so error messages need no table of names. It depends on the sources alone, so all devices that run

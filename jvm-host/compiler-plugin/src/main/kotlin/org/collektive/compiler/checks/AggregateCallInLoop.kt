@@ -27,7 +27,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
         reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name.asString())
     }
 
-    /** Walks outwards until an element decides whether [expression] runs once or several times per path. */
+    /** Walks outwards until an element determines whether [expression] runs once or several times per path. */
     context(context: CheckerContext)
     private fun repeats(expression: FirQualifiedAccessExpression): Boolean {
         var lambda: FirAnonymousFunction? = null

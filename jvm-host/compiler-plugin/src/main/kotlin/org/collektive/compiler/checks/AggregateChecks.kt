@@ -20,7 +20,7 @@ internal class AggregateChecks : FirExtensionRegistrar() {
             override val variableAssignmentCheckers = setOf(FieldAssignedInBranch)
             override val qualifiedAccessExpressionCheckers = setOf(AggregateCallInLoop)
             override val functionCallCheckers =
-                setOf(ManualAlignment, EvolveThatShares, IgnoredParameter, NeedlessYielding, ConstantNeighboring)
+                setOf(ManualAlignment, EvolveInsteadOfShare, IgnoredParameter, NeedlessYielding, ConstantNeighboring)
         }
     }
 }

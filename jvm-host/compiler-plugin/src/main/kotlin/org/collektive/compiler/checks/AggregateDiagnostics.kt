@@ -14,7 +14,7 @@ import org.jetbrains.kotlin.diagnostics.warning2
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     /**
      * A `Field` is the value of an arm of `if` or `when`.
-     * Collapse it inside the arm, or make it before the branch and choose between values.
+     * Collapse it inside the arm, or create it before the branch.
      */
     val FIELD_FROM_BRANCH by error0<PsiElement>()
 
@@ -22,7 +22,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     val FIELD_LEAVES_BRANCH by warning0<PsiElement>()
 
     /**
-     * An aggregate call stands in a loop or a collection's lambda without `alignedOn`.
+     * An aggregate call is in a loop or a collection's lambda without `alignedOn`.
      * Wrap the body in `alignedOn(key)`, with a key that differs in each iteration.
      */
     val AGGREGATE_CALL_IN_LOOP by warning1<PsiElement, String>()
@@ -50,38 +50,38 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
             for (diagnostic in listOf(FIELD_FROM_BRANCH, FIELD_LEAVES_BRANCH)) {
                 map.put(
                     diagnostic,
-                    "This Field leaves its branch, but holds only the neighbours that chose the same branch. " +
-                        "Choose between values: collapse the field inside the branch, or make it before.",
+                    "This Field leaves its branch, but contains only the neighbours that took the same branch. " +
+                        "Collapse the field inside the branch, or create it before the branch.",
                 )
             }
             map.put(
                 AGGREGATE_CALL_IN_LOOP,
-                "''{0}'' runs several times at one place of the program, so its second run clashes with the first. " +
-                    "Wrap the body in alignedOn(key) '{' ... '}' with a key of each iteration.",
+                "''{0}'' runs several times at the same path, so its second run clashes with the first. " +
+                    "Wrap the body in alignedOn(key) '{' ... '}' with a different key in each iteration.",
                 CommonRenderers.STRING,
             )
             map.put(
                 MANUAL_ALIGNMENT,
-                "The compiler aligns calls itself; ''{0}'' by hand can leave the program misaligned. Use alignedOn(pivot) '{' ... '}'.",
+                "''{0}'' can leave the program misaligned, and the compiler aligns calls itself. Use alignedOn(pivot) '{' ... '}'.",
                 CommonRenderers.STRING,
             )
             map.put(
                 EVOLVE_THAT_SHARES,
-                "This sends to neighbours what it kept a round ago. 'share' keeps and sends one value, and information travels twice as fast.",
+                "This sends the value of the previous round. Use 'share', which sends the new value, so information travels twice as fast.",
             )
             map.put(
                 IGNORED_PARAMETER,
-                "The lambda of ''{0}'' ignores what it is given; {1} does the same.",
+                "The lambda of ''{0}'' ignores its parameter. Use {1} instead.",
                 CommonRenderers.STRING,
                 CommonRenderers.STRING,
             )
             map.put(
                 NEEDLESS_YIELDING,
-                "This returns what it keeps: the variant without 'yielding' (evolve, share, exchange) does the same.",
+                "This returns the value that it stores. Use the variant without 'yielding' (evolve, share or exchange).",
             )
             map.put(
                 CONSTANT_NEIGHBORING,
-                "Every device sends this same constant; neighborhood() or mapNeighborhood { ... } says so and sends nothing of it.",
+                "Every device sends the same constant. Use neighborhood() or mapNeighborhood { ... }, which send no values.",
             )
         }
     }

@@ -30,20 +30,20 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Reports fields that leave an `if` or `when`: outside, devices that took other arms are aligned too. */
+/** Reports fields that leave an `if` or `when`, because devices that took other arms are aligned outside. */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
-        if (!isValueTaken(expression)) return
+        if (!isValueUsed(expression)) return
         for (branch in expression.branches) reportField(branch.result, AggregateDiagnostics.FIELD_FROM_BRANCH)
     }
 }
 
-/** Warns of a field from the right side of `?:`; as everywhere in this file, it holds only the neighbours that took the same way. */
+/** Warns of a field from the right side of `?:`; as everywhere in this file, it contains only the neighbours that took the same branch. */
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
-        if (isValueTaken(expression)) reportField(expression.rhs, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
+        if (isValueUsed(expression)) reportField(expression.rhs, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
     }
 }
 
@@ -52,7 +52,7 @@ internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpressi
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirReturnExpression) {
         val isOutside = { element: FirElement -> element === expression.target.labeledElement }
-        if (isInArm(expression, isOutside) && isValueTaken(expression.result)) {
+        if (isInArm(expression, isOutside) && isValueUsed(expression.result)) {
             reportField(expression.result, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
         }
     }

@@ -8,11 +8,11 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 
-/** Reports a primitive whose lambda ignores its parameter: a simpler primitive does the same. */
+/** Reports a primitive whose lambda ignores its parameter and that a simpler expression can replace. */
 internal object IgnoredParameter : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     private val simpler = mapOf(
-        "evolve" to "the plain value",
-        "evolving" to "the plain value",
+        "evolve" to "the value itself",
+        "evolving" to "the value itself",
         "share" to "neighboring",
         "sharing" to "neighboring",
         "exchange" to "neighboring",

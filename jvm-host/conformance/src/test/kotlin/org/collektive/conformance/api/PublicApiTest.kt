@@ -34,7 +34,7 @@ class PublicApiTest {
         for (sample in samples) read(File(sample.java.protectionDomain.codeSource.location.toURI()))
     }.all().filterNotTo(LinkedHashSet()) { it.split('\t')[1].startsWith("org.collektive.runtime") }
 
-    /** The key in [EXCEPTIONS] of the declaration [line], which is the class or the function; `null` if there is none. */
+    /** The key in [EXCEPTIONS] of the declaration [line], which is the class or the function, or `null`. */
     private fun exceptionFor(line: String): String? {
         val (_, owner, name) = line.split('\t')
         return EXCEPTIONS.keys.firstOrNull { it == owner || it == "$owner.$name" }
@@ -48,7 +48,7 @@ class PublicApiTest {
     private fun lines(table: InputStream): List<String> = table.bufferedReader().readLines().filterNot { it.startsWith("#") }
 
     private companion object {
-        /** What is not here, and why a user does not miss it. */
+        /** Missing declarations, and the reason for each. */
         val EXCEPTIONS = mapOf(
             "~.networking.OutboundEnvelope.Companion" to "it is empty: there is nothing to call on it",
             "~.path.KotlinCryptoDigest" to "it wraps a class of a library that programs on the JVM do not need: JdkDigest has all digests",

@@ -7,7 +7,7 @@ import org.collektive.testkit.Network
 import kotlin.math.hypot
 import kotlin.random.Random
 
-/** What a golden program senses in a round. */
+/** The sensor data of a golden program in a round. */
 class Senses(
     val id: Int,
     val x: Double,
@@ -21,7 +21,7 @@ class Senses(
 
 typealias GoldenProgram = Aggregate<Int>.(Senses) -> Any?
 
-/** Where the network's nodes are at the start. */
+/** The initial positions of the nodes. */
 enum class Topology(val nodes: Int, val place: (Int) -> Pair<Double, Double>) {
     LINE(12, { it.toDouble() to 0.0 }),
     GRID(25, { (it % 5).toDouble() to (it / 5).toDouble() }),
@@ -65,7 +65,7 @@ class GoldenNetwork(private val topology: Topology, private val churning: Boolea
         }
     }
 
-    /** Brings nodes and links in line with [places]. */
+    /** Updates nodes and links to [places]. */
     private fun update() {
         (network.ids - places.keys).forEach(network::remove)
         (places.keys - network.ids).forEach { network.add(it) }

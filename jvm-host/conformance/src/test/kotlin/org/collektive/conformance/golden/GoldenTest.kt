@@ -12,7 +12,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 
 /**
- * Our runtime and library answer what Collektive 28.3.2 answered, in every round of every golden program. Programs that are meant to differ
+ * Compares our answers with those of Collektive 28.3.2, in every round of every golden program. Programs that are meant to differ
  * are left out; `docs/decisions.md` says why they are.
  */
 class GoldenTest {
@@ -45,7 +45,7 @@ class GoldenTest {
     private fun isSame(a: Double, b: Double) = abs(a - b) <= 1e-9 * max(abs(a), abs(b))
 
     private companion object {
-        val programs = goldenPrograms + furtherGoldenPrograms
+        val programs = goldenPrograms + moreGoldenPrograms
         val NUMBER = Regex("""-?\d+\.\d+(E-?\d+)?""")
 
         val answers: Map<String, List<String>> = buildMap {

@@ -10,8 +10,8 @@ import org.collektive.alignment.withPlace
  * Two primitives ran at the same [path] in one round. Wrap one of them, or each iteration of a loop, in `alignedOn(key) { }`.
  *
  * @property path the path of both.
- * @property previous what the first primitive sends; `null` when it sends nothing.
- * @property current what the second one started from; it does not run.
+ * @property previous the value that the first primitive sends, or `null`.
+ * @property current the initial value of the second primitive, which does not run.
  */
 public class AlignmentClashException private constructor(
     public val path: Path,

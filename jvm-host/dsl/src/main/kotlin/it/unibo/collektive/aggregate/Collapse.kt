@@ -1,6 +1,6 @@
 package it.unibo.collektive.aggregate
 
-/** A view of a [Field] as a plain collection, in the field's order. Making one copies nothing. */
+/** A view of a [Field] as a plain collection, in the field's order. Creating a view copies nothing. */
 public sealed interface Collapse<out E> {
     /** The elements, ascending by device id. */
     public val list: List<E>

@@ -8,14 +8,14 @@ import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.withPlace
 
 /**
- * A value for this device and one for each neighbour that was aligned where the field was made.
+ * A value for this device and one for each neighbour that was aligned where the field was created.
  *
  * A field is immutable and evaluated eagerly. Its neighbours are in ascending order of their ids. The functions passed to `map`,
  * `mapValues` and `alignedMap` run once per entry, neighbours first; primitives inside them are aligned on the entry's id. Two
  * fields are equal when they map the same ids, this device's included, to equal values.
  *
  * A branch is an arm of `if` or `when`, or the right side of `?:`, `&&` or `||`. Inside a branch or an `alignedOn` body, a field
- * made outside has only the neighbours that entered the same branch or body. Read what concerns all neighbours before branching:
+ * created outside has only the neighbours that entered the same branch or body. Read values of all neighbours before branching:
  *
  * ```
  * val near = seen.neighbors.values.list.min()
@@ -85,7 +85,7 @@ public class Field<ID : Any, out T> private constructor(
 
     /** Returns a field with the same devices and [singleton] for all of them. */
     public fun <R> mapToConstant(singleton: R): Field<ID, R> {
-        refuseField(context, singleton)
+        rejectField(context, singleton)
         return Field(context, ids, null, singleton)
     }
 
@@ -275,7 +275,7 @@ public class Field<ID : Any, out T> private constructor(
         check((ids === other.ids || ids.contentEquals(other.ids)) && context.localId == other.context.localId) {
             context.withPlace(
                 "fields of different devices cannot be combined: one has values for ${all.ids.list}, " +
-                    "the other for ${other.all.ids.list}; make both at one place of the program",
+                    "the other for ${other.all.ids.list}; create both in the same branch of the program",
             )
         }
     }
@@ -291,8 +291,8 @@ public class Field<ID : Any, out T> private constructor(
          */
         @DelicateCollektiveApi
         public fun <ID : Any, T> make(context: Aggregate<ID>, ids: Array<out Any>, values: Array<out Any?>, local: T): Field<ID, T> {
-            for (value in values) refuseField(context, value)
-            refuseField(context, local)
+            for (value in values) rejectField(context, value)
+            rejectField(context, local)
             return Field(context, ids, values, local)
         }
 
@@ -306,7 +306,7 @@ public class Field<ID : Any, out T> private constructor(
             for (field in fields) field1.requireAligned(field)
         }
 
-        private fun refuseField(context: Aggregate<*>, value: Any?) {
+        private fun rejectField(context: Aggregate<*>, value: Any?) {
             check(value !is Field<*, *>) { context.withPlace("a field cannot be a value of a field: $value") }
         }
     }

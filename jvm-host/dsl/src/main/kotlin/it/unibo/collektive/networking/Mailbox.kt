@@ -1,6 +1,6 @@
 package it.unibo.collektive.networking
 
-/** Connects one device to its neighbours. Implement it to run programs over a network of your own. */
+/** Connects one device to its neighbours. Implement it to run programs on your own network. */
 public interface Mailbox<ID : Any> {
     /** `true` when messages stay in the process, so that any object can be sent without a serializer. */
     public val inMemory: Boolean

@@ -15,7 +15,7 @@ public sealed interface Message<ID : Any, out Payload> {
 /** A message whose values are passed by reference. */
 public data class InMemoryMessage<ID : Any>(override val senderId: ID, override val sharedData: Map<Path, Any?>) : Message<ID, Any?>
 
-/** A message whose values are serialised one by one: a receiver learns the type of each when its program reaches the path. */
+/** A message whose values are serialised one by one: a receiver knows the type of each when its program reaches the path. */
 @Serializable
 public data class SerializedMessage<ID : Any>(override val senderId: ID, override val sharedData: Map<Path, ByteArray>) :
     Message<ID, ByteArray>

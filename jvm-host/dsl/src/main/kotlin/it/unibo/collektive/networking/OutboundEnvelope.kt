@@ -3,7 +3,7 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** Everything that a device sends after one round: a value for each neighbour at each path. */
+/** The values that a device sends after one round: one for each neighbour at each path. */
 public interface OutboundEnvelope<ID : Any> {
     /**
      * Adds the values to send at [path].
@@ -12,13 +12,13 @@ public interface OutboundEnvelope<ID : Any> {
      */
     public fun <V> addData(path: Path, data: SharedData<ID, V>, dataSharingMethod: DataSharingMethod<V>)
 
-    /** Whether nothing is sent. */
+    /** Whether the device sends no values. */
     public fun isEmpty(): Boolean
 
-    /** Whether something is sent. */
+    /** Whether the device sends values. */
     public fun isNotEmpty(): Boolean = !isEmpty()
 
-    /** The message for [receiverId], made by [factory]. A receiver that was no neighbour during the round gets the default values. */
+    /** The message for [receiverId], made by [factory]. A receiver that was not a neighbour during the round gets the default values. */
     public fun prepareMessageFor(receiverId: ID, factory: MessageFactory<ID, *> = InMemoryMessageFactory()): Message<ID, Any?>
 
     /**

@@ -26,7 +26,7 @@ public class SerializedMessageFactory<ID : Any, Payload>(private val serializerF
         try {
             return when (val representation = value.representation) {
                 is Serialize -> serializerFormat.encode(representation.serializer, value.payload)
-                InMemory -> throw SerializationException("it was shared for use inside one process only")
+                InMemory -> throw SerializationException("its InMemory data sharing works only inside one process")
             }
         } catch (cause: SerializationException) {
             val place = ProgramPlace(senderId, path.tokens)

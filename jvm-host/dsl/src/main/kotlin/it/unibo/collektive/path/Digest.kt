@@ -4,10 +4,10 @@ import java.security.MessageDigest
 
 /** Computes digests of bytes, one after the other. Confined to one thread. */
 public interface Digest {
-    /** Adds [data] to what the next digest is computed of. */
+    /** Adds [data] to the input of the next digest. */
     public fun update(data: ByteArray)
 
-    /** The digest of all data since the last one; starts anew. */
+    /** Returns the digest of all data since the last call, and resets. */
     public fun digest(): ByteArray
 
     /** [digest] as text. */

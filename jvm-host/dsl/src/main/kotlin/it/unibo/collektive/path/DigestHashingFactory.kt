@@ -3,8 +3,8 @@ package it.unibo.collektive.path
 /**
  * Makes short, serialisable paths: digests of the tokens' class names and texts. Confined to one thread, like its digest.
  *
- * A token's `toString` must contain everything that its `equals` compares, and be the same on all devices. Numbers, strings, enums
- * and data classes of these qualify.
+ * A token's `toString` must contain everything that its `equals` compares, and be the same on all devices. This holds for numbers,
+ * strings, enums and data classes of these.
  *
  * @property digest computes the digests; the same on all devices.
  */
@@ -13,8 +13,8 @@ public value class DigestHashingFactory(public val digest: Digest = JdkDigest())
     /** @throws IllegalArgumentException when a token inherits `Any.toString`, whose result differs from device to device. */
     override fun invoke(tokens: List<Any?>): Path {
         for (token in tokens) {
-            require(token is String || token == null || saysWhatItIs(token.javaClass)) {
-                "a ${token?.javaClass?.name} cannot be a pivot where messages are serialised: it has no toString of its own; " +
+            require(token is String || token == null || overridesToString(token.javaClass)) {
+                "a ${token?.javaClass?.name} cannot be a pivot where messages are serialised: its class does not override toString; " +
                     "use a number, a string, an enum or a data class"
             }
         }
@@ -25,5 +25,5 @@ public value class DigestHashingFactory(public val digest: Digest = JdkDigest())
         return SerializablePath(digest.digestToString(), tokens.toList())
     }
 
-    private fun saysWhatItIs(type: Class<*>) = type.getMethod("toString").declaringClass != Any::class.java
+    private fun overridesToString(type: Class<*>) = type.getMethod("toString").declaringClass != Any::class.java
 }

@@ -5,6 +5,6 @@ import kotlinx.serialization.Serializable
 /** The place where a primitive runs: stands for the tokens on the alignment stack. Equal stacks give equal paths on all devices. */
 @Serializable(with = PathSerializer::class)
 public sealed interface Path {
-    /** The path for people, its tokens divided by [separator]. */
+    /** Returns a readable text, with [separator] between the tokens. */
     public fun toMultilineString(separator: String = "\n"): String
 }

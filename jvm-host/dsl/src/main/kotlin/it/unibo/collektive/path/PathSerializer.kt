@@ -14,7 +14,7 @@ public object PathSerializer : KSerializer<Path> {
 
     override fun serialize(encoder: Encoder, value: Path) {
         if (value !is SerializablePath) {
-            throw SerializationException("the path '$value' holds objects; use DigestHashingFactory where messages are serialised")
+            throw SerializationException("the path '$value' contains objects, which cannot be serialised; use DigestHashingFactory")
         }
         encoder.encodeString(value.backend)
     }

@@ -2,5 +2,5 @@ package it.unibo.collektive.state
 
 import it.unibo.collektive.path.Path
 
-/** What a device stores from round to round: the value at each path that it visited. */
+/** The values that a device stores between rounds, by path. */
 public typealias State = Map<Path, Any?>

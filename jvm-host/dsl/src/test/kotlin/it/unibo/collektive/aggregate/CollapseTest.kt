@@ -6,10 +6,10 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** What a program sees of a field as collections. */
+/** Tests the collections of a field. */
 class CollapseTest {
-    private val field = StandInDevice(2).field(listOf(1, 3, 4), listOf("a", "b", "a"), local = "own")
-    private val alone = StandInDevice(2).field(emptyList(), emptyList(), local = "own")
+    private val field = FakeDevice(2).field(listOf(1, 3, 4), listOf("a", "b", "a"), local = "own")
+    private val alone = FakeDevice(2).field(emptyList(), emptyList(), local = "own")
 
     @Test
     fun `the neighbours come in order, without the device itself`() {

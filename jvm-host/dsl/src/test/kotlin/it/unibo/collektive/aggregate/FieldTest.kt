@@ -12,7 +12,7 @@ import kotlin.test.assertNotEquals
 import kotlin.test.assertTrue
 
 class FieldTest {
-    private val device = StandInDevice(5)
+    private val device = FakeDevice(5)
 
     /** A field of device 5, whose neighbours 1, 3 and 1000 (beyond the cache of boxes) sent their id times ten. */
     private val f = device.field(listOf(1, 3, 1000), listOf(10, 30, 10_000), local = 50)
@@ -83,7 +83,7 @@ class FieldTest {
         val error = assertFailsWith<IllegalStateException> { f.alignedMapValues(alone) { a, b -> a + b } }
         assertEquals(
             "fields of different devices cannot be combined: one has values for [1, 3, 1000, 5], the other for [5]; " +
-                "make both at one place of the program [node 5 at root]",
+                "create both in the same branch of the program [node 5 at root]",
             error.message,
         )
     }
@@ -110,7 +110,7 @@ class FieldTest {
 
     @Test
     fun `ids need no order when they are no numbers`() {
-        val named = StandInDevice("b").field(listOf("z", "a"), listOf(1, 2), local = 3)
+        val named = FakeDevice("b").field(listOf("z", "a"), listOf(1, 2), local = 3)
         assertEquals(listOf(1, 2, 3), listOf("z", "a", "b").map { named[it] })
         assertFailsWith<NoSuchElementException> { named["c"] }
     }

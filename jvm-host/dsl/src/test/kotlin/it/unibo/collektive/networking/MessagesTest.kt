@@ -16,7 +16,7 @@ import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** How values leave a device. */
+/** Tests messages and their factories. */
 class MessagesTest {
     private val path = DigestHashingFactory()("helper@Swarm.kt:3#0123456789abcdef", "share@Swarm.kt:12#0123456789abcdef")
     private val serialized = SerializedMessageFactory<Int, Any?>(Json)
@@ -51,7 +51,7 @@ class MessagesTest {
     fun `a value shared for one process only cannot be sent, and the error names its place`() {
         val error = assertFailsWith<SerializationException> { serialized(7, mapOf(path to value("secret", InMemory))) }
         assertEquals(
-            "secret cannot be sent: it was shared for use inside one process only [node 7 at helper > share (Swarm.kt:12)]",
+            "secret cannot be sent: its InMemory data sharing works only inside one process [node 7 at helper > share (Swarm.kt:12)]",
             error.message,
         )
     }
@@ -60,7 +60,7 @@ class MessagesTest {
     fun `a path that holds objects cannot be sent`() {
         val message = SerializedMessage(7, mapOf(FullPathFactory("a", "b") to ByteArray(0)))
         val error = assertFailsWith<SerializationException> { Json.encodeToString(SerializedMessage.serializer(Int.serializer()), message) }
-        assertEquals("the path 'a > b' holds objects; use DigestHashingFactory where messages are serialised", error.message)
+        assertEquals("the path 'a > b' contains objects, which cannot be serialised; use DigestHashingFactory", error.message)
     }
 
     @Test

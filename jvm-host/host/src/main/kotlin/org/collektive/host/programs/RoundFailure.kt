@@ -30,7 +30,7 @@ internal object RoundFailure {
         val text = when {
             failure is InvalidAnswerException -> failure.message.orEmpty()
 
-            failure is StackOverflowError -> "$failure: the recursion does not end"
+            failure is StackOverflowError -> "$failure: infinite recursion"
 
             failure is OutOfMemoryError -> "$failure${remedy(failure)}"
 

@@ -77,7 +77,7 @@ public interface Aggregate<ID : Any> {
 
     public companion object {
         /**
-         * How values of type [Shared] travel: by reference inside one process, otherwise by their serializer. Primitives call it for you.
+         * Returns how values of type [Shared] are sent: by reference inside one process, otherwise serialised. Primitives call it.
          *
          * @throws SerializationException when values leave the process and [Shared] has no serializer.
          */
@@ -90,7 +90,7 @@ public interface Aggregate<ID : Any> {
             Serialize(serializer(type) as KSerializer<Shared>)
         } catch (cause: SerializationException) {
             val name = type.toString().removeSuffix(" (Kotlin reflection is not available)")
-            val message = "values of type $name cannot be sent: there is no serializer; mark the class with @Serializable"
+            val message = "values of type $name cannot be sent: they have no serializer; mark the class with @Serializable"
             throw SerializationException(withPlace(message), cause)
         }
     }

@@ -3,7 +3,7 @@ package it.unibo.collektive.aggregate.api
 /**
  * Excludes a declaration and everything inside it from the compiler plugin.
  *
- * @property explanation why that is safe.
+ * @property explanation the reason why this is safe.
  */
 @Target(
     AnnotationTarget.FILE,

@@ -2,10 +2,10 @@ package it.unibo.collektive.aggregate.api
 
 import kotlinx.serialization.KSerializer
 
-/** How values of type [T] travel between devices. */
+/** The way in which values of type [T] are sent between devices. */
 public sealed interface DataSharingMethod<in T>
 
-/** By reference, inside one process. A shared value must not change afterwards: every receiver holds the same object. */
+/** By reference, inside one process. A shared value must not change afterwards: all receivers share the same object. */
 public data object InMemory : DataSharingMethod<Any?>
 
 /**

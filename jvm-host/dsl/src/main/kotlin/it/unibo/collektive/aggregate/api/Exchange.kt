@@ -8,8 +8,8 @@ import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 /**
  * Sends each neighbour a different value and stores one for the next round.
  *
- * [body] receives a field of what the aligned neighbours sent to this device. Its local value is the one stored by the previous
- * round, or [initial] if there is none. [body] yields the field to send; the field's local value is stored. A receiver that is not
+ * [body] receives a field of the values that the aligned neighbours sent to this device. Its local value is the one stored by the previous
+ * round, or [initial] in the first round. [body] yields the field to send; the field's local value is stored. A receiver that is not
  * in that field also gets its local value.
  */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.exchanging(

@@ -5,7 +5,7 @@ package it.unibo.collektive.aggregate.api
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
 
-/** Sends [local] to all neighbours. Returns the field of what the aligned neighbours sent, with [local] as its local value. */
+/** Sends [local] to all neighbours. Returns the field of the values of the aligned neighbours, with [local] as its local value. */
 public inline fun <ID : Any, reified Shared> Aggregate<ID>.neighboring(local: Shared): Field<ID, Shared> =
     neighboring(local, dataSharingMethod<Shared>())
 

@@ -6,10 +6,10 @@ import it.unibo.collektive.aggregate.FieldEntry
 
 // On ties the first entry in the field's order wins: the neighbour with the lowest id, the device itself last.
 
-/** The neighbour with the greatest value; `null` when there are none. */
+/** The neighbour with the greatest value; `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMax(): ID? = maxBy { it.value }?.id
 
-/** The neighbour whose entry's [selector] is greatest; `null` when there are none. */
+/** The neighbour whose entry's [selector] is greatest; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): ID? = maxBy(selector)?.id
@@ -18,14 +18,14 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMaxBy(selector: (FieldEntry<ID, T>) -> C): ID =
     maxBy(selector).id
 
-/** The neighbour whose entry is greatest in the order of [comparator]; `null` when there are none. */
+/** The neighbour whose entry is greatest in the order of [comparator]; `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     maxWith(comparator)?.id
 
 /** The device whose entry is greatest in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID = maxWith(comparator).id
 
-/** The value of the neighbour's entry whose [selector] is greatest; `null` when there are none. */
+/** The value of the neighbour's entry whose [selector] is greatest; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): T? = maxBy(selector)?.value
@@ -34,7 +34,7 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMaxBy(selector: (FieldEntry<ID, T>) -> C): T =
     maxBy(selector).value
 
-/** The value of the neighbour's entry that is greatest in the order of [comparator]; `null` when there are none. */
+/** The value of the neighbour's entry that is greatest in the order of [comparator]; `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     maxWith(comparator)?.value
 
@@ -42,10 +42,10 @@ public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(com
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T =
     maxWith(comparator).value
 
-/** The neighbour with the least value; `null` when there are none. */
+/** The neighbour with the least value; `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMin(): ID? = minBy { it.value }?.id
 
-/** The neighbour whose entry's [selector] is least; `null` when there are none. */
+/** The neighbour whose entry's [selector] is least; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): ID? = minBy(selector)?.id
@@ -54,14 +54,14 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMinBy(selector: (FieldEntry<ID, T>) -> C): ID =
     minBy(selector).id
 
-/** The neighbour whose entry is least in the order of [comparator]; `null` when there are none. */
+/** The neighbour whose entry is least in the order of [comparator]; `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     minWith(comparator)?.id
 
 /** The device whose entry is least in the order of [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID = minWith(comparator).id
 
-/** The value of the neighbour's entry whose [selector] is least; `null` when there are none. */
+/** The value of the neighbour's entry whose [selector] is least; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): T? = minBy(selector)?.value
@@ -70,7 +70,7 @@ public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMinBy(selector: (FieldEntry<ID, T>) -> C): T =
     minBy(selector).value
 
-/** The value of the neighbour's entry that is least in the order of [comparator]; `null` when there are none. */
+/** The value of the neighbour's entry that is least in the order of [comparator]; `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     minWith(comparator)?.value
 

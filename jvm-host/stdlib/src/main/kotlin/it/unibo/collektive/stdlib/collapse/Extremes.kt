@@ -9,14 +9,14 @@ import it.unibo.collektive.aggregate.CollapseNeighbors
 
 // On ties the first element in the field's order wins: the neighbour with the lowest id, the device itself last.
 
-/** The greatest of the neighbours' elements; `null` when there are none. */
+/** The greatest of the neighbours' elements; `null` without neighbours. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.max(): E? = list.maxOrNull()
 
-/** The greatest of the neighbours' elements; `Int.MIN_VALUE` when there are none. */
+/** The greatest of the neighbours' elements; `Int.MIN_VALUE` without neighbours. */
 @JvmName("maxOfInt")
 public fun CollapseNeighbors<Int>.max(): Int = max(Int.MIN_VALUE)
 
-/** The greatest of the neighbours' elements; `Double.NEGATIVE_INFINITY` when there are none. */
+/** The greatest of the neighbours' elements; `Double.NEGATIVE_INFINITY` without neighbours. */
 @JvmName("maxOfDouble")
 public fun CollapseNeighbors<Double>.max(): Double = max(Double.NEGATIVE_INFINITY)
 
@@ -26,10 +26,10 @@ public fun <E : Comparable<E>> CollapseAll<E>.max(): E = list.max()
 /** The greatest of the elements and [base]. */
 public fun <E : Comparable<E>> Collapse<E>.max(base: E): E = list.fold(base) { best, element -> maxOf(best, element) }
 
-/** The neighbours' element whose [selector] is greatest; `null` when there are none. */
+/** The neighbours' element whose [selector] is greatest; `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
 
-/** The neighbours' element, which may be `null`, whose [selector] is greatest; [None] when there are none. */
+/** The neighbours' element, which may be `null`, whose [selector] is greatest; [None] without neighbours. */
 @JvmName("maxByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.maxBy(selector))
@@ -37,10 +37,10 @@ public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E
 /** The element whose [selector] is greatest. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.maxBy(selector: (E) -> C): E = list.maxBy(selector)
 
-/** The greatest of the neighbours' elements in the order of [comparator]; `null` when there are none. */
+/** The greatest of the neighbours' elements in the order of [comparator]; `null` without neighbours. */
 public fun <E : Any> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): E? = list.maxWithOrNull(comparator)
 
-/** The greatest of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] when there are none. */
+/** The greatest of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] without neighbours. */
 @JvmName("maxWithOption")
 public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): Option<E?> =
     if (size == 0) None else Some(list.maxWith(comparator))
@@ -48,14 +48,14 @@ public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): Optio
 /** The greatest element in the order of [comparator]. */
 public fun <E> CollapseAll<E>.maxWith(comparator: Comparator<in E>): E = list.maxWith(comparator)
 
-/** The least of the neighbours' elements; `null` when there are none. */
+/** The least of the neighbours' elements; `null` without neighbours. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.min(): E? = list.minOrNull()
 
-/** The least of the neighbours' elements; `Int.MAX_VALUE` when there are none. */
+/** The least of the neighbours' elements; `Int.MAX_VALUE` without neighbours. */
 @JvmName("minOfInt")
 public fun CollapseNeighbors<Int>.min(): Int = min(Int.MAX_VALUE)
 
-/** The least of the neighbours' elements; `Double.POSITIVE_INFINITY` when there are none. */
+/** The least of the neighbours' elements; `Double.POSITIVE_INFINITY` without neighbours. */
 @JvmName("minOfDouble")
 public fun CollapseNeighbors<Double>.min(): Double = min(Double.POSITIVE_INFINITY)
 
@@ -65,10 +65,10 @@ public fun <E : Comparable<E>> CollapseAll<E>.min(): E = list.min()
 /** The least of the elements and [base]. */
 public fun <E : Comparable<E>> Collapse<E>.min(base: E): E = list.fold(base) { best, element -> minOf(best, element) }
 
-/** The neighbours' element whose [selector] is least; `null` when there are none. */
+/** The neighbours' element whose [selector] is least; `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
 
-/** The neighbours' element, which may be `null`, whose [selector] is least; [None] when there are none. */
+/** The neighbours' element, which may be `null`, whose [selector] is least; [None] without neighbours. */
 @JvmName("minByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.minBy(selector))
@@ -76,10 +76,10 @@ public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E
 /** The element whose [selector] is least. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.minBy(selector: (E) -> C): E = list.minBy(selector)
 
-/** The least of the neighbours' elements in the order of [comparator]; `null` when there are none. */
+/** The least of the neighbours' elements in the order of [comparator]; `null` without neighbours. */
 public fun <E : Any> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): E? = list.minWithOrNull(comparator)
 
-/** The least of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] when there are none. */
+/** The least of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] without neighbours. */
 @JvmName("minWithOption")
 public fun <E> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): Option<E?> =
     if (size == 0) None else Some(list.minWith(comparator))

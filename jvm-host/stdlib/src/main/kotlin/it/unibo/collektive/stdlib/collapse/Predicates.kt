@@ -2,7 +2,7 @@ package it.unibo.collektive.stdlib.collapse
 
 import it.unibo.collektive.aggregate.Collapse
 
-/** Whether [predicate] holds for each element; `true` when there are none. */
+/** Whether [predicate] holds for each element; `true` if empty. */
 public inline fun <E> Collapse<E>.all(predicate: (E) -> Boolean): Boolean = list.all(predicate)
 
 /** Whether [predicate] holds for at least one element. */
@@ -11,7 +11,7 @@ public inline fun <E> Collapse<E>.any(predicate: (E) -> Boolean): Boolean = list
 /** Whether [predicate] holds for no element. */
 public inline fun <E> Collapse<E>.none(predicate: (E) -> Boolean): Boolean = list.none(predicate)
 
-/** Whether each element is `true`; `true` when there are none. */
+/** Whether each element is `true`; `true` if empty. */
 public val Collapse<Boolean>.all: Boolean get() = all { it }
 
 /** Whether at least one element is `true`. */

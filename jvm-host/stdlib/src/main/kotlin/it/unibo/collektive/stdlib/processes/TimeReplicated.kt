@@ -20,7 +20,7 @@ public typealias ReplicaID = ULong
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
  * A device takes part in the youngest replica that a neighbour knows. It starts the next one in the round after [sharedTimeLeftTo] of
- * [timeToSpawn] was over, unless it has just started or adopted a replica, or learns of a younger one: so replicas start two rounds apart
+ * [timeToSpawn] was over, unless it has just started or adopted a replica, or receives a younger one: so replicas start two rounds apart
  * at least. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer depends on
  * earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component. [process] must
  * settle within [timeToSpawn] * ([maxReplicas] - 1).
@@ -39,7 +39,7 @@ public inline fun <reified T> Aggregate<*>.timeReplicated(
 
 @PublishedApi
 internal fun <T> Aggregate<*>.replicated(currentTime: Instant, maxReplicas: Int, timeToSpawn: Duration, process: () -> T): T {
-    require(maxReplicas >= 1) { "maxReplicas is $maxReplicas; one run at least is needed" }
+    require(maxReplicas >= 1) { "maxReplicas is $maxReplicas; it must be at least 1" }
     require(timeToSpawn.isPositive()) { "timeToSpawn is $timeToSpawn; it must be positive" }
     return aligned("timeReplicated") {
         val isOver = !sharedTimeLeftTo(currentTime, timeToSpawn).isPositive()

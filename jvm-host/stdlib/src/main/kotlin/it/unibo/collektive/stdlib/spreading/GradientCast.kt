@@ -26,8 +26,8 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * one. On ties the neighbour with the lower id wins.
  *
  * Self-stabilising: once sources, links, data and metric stop changing, stale offers are gone after as many rounds of every device as
- * the longest simple path has hops (at most the number of devices, or [maxDiameter]). Values are those of the shortest paths after
- * as many further rounds as these have hops. Stale offers cannot circulate, so values do not creep up when a source vanishes or a link
+ * the longest simple path has hops (at most the number of devices, or [maxDiameter]). After as many further rounds as the shortest
+ * paths have hops, values come from these paths. Stale offers cannot circulate, so values do not creep up when a source vanishes or a link
  * breaks, however small the metric is (the "rising value" problem of [bellmanFordGradientCast]).
  *
  * @param source whether this device is a source.
@@ -90,7 +90,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.hopGradientCast(
 internal fun <D : Comparable<D>> limitedSum(distance: D, step: D, sum: D, bottom: D, top: D): D {
     val limited = sum.coerceIn(bottom, top)
     check(limited >= distance && limited >= step) {
-        "accumulateDistance violates the triangle inequality: it made $sum of $distance and $step; a sum must not be less than its parts"
+        "accumulateDistance violates the triangle inequality: $sum is the sum of $distance and $step, but less than one of them"
     }
     return limited
 }
@@ -129,7 +129,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return received.map { if (it.id == best.id) choice.returned else taken }
     }
 
-    /** The choice among what was [received]. Takes over the [former] round's when the offers are the same, without a look at their paths. */
+    /** The choice among what was [received]. Takes over the [former] round's when the offers are the same, without comparing paths. */
     private fun choose(received: Field<ID, PathValue<ID, V, D>?>, former: Choice<ID, V, D>?): Choice<ID, V, D> {
         val settled = former?.takeIf { it.isAmong(received) }
         val offers = if (settled != null) settled.offers else offers(received)
@@ -222,7 +222,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
 
 /**
  * What a device chose in a round among [offers] of at most [maxDiameter] hops: the [best] one for itself and all neighbours but the one
- * that made it, which gets [returned] by way of the [second] best.
+ * that made it, which gets [returned] through the [second] best.
  */
 private class Choice<ID : Any, V, D : Comparable<D>>(
     val offers: List<Offer<ID, V, D>>,
@@ -247,7 +247,7 @@ private class Offer<ID : Any, V, D : Comparable<D>>(
 
     var considered: Boolean = false
 
-    /** Whether the offer passes neither through this device nor through a neighbour that refutes it; `null` before somebody asked. */
+    /** Whether the offer passes neither through this device nor through a neighbour that refutes it; `null` before the first query. */
     var usable: Boolean? = null
 
     /** Whether this offer shares hops with the [other] in another order, and has fewer of them, or as many at another distance. */

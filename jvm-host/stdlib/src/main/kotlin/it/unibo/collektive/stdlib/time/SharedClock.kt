@@ -16,7 +16,7 @@ import kotlin.time.Instant
  * Once links stop changing, clocks differ by no more than the age of the messages between them, after as many rounds as the
  * component's diameter. Not self-stabilising: one clock that is set too far ahead advances all others for ever.
  *
- * It starts at [Instant.DISTANT_PAST], whatever the devices' own clocks say.
+ * It starts at [Instant.DISTANT_PAST], independently of the devices' own clocks.
  *
  * @param localTime this device's own clock; only differences matter.
  */

@@ -1,4 +1,4 @@
-@file:CollektiveIgnore("it is alignment itself")
+@file:CollektiveIgnore("it implements alignment")
 @file:OptIn(DelicateCollektiveApi::class)
 
 package it.unibo.collektive.stdlib.util

@@ -8,7 +8,7 @@ import it.unibo.collektive.aggregate.Field
  * @throws IllegalArgumentException when [min] is greater than [max]; so do all overloads.
  */
 public fun <T : Comparable<T>> T.coerceIn(min: T, max: T): T {
-    require(min <= max) { "nothing is in an empty range: $min is greater than $max" }
+    require(min <= max) { "the range is empty: $min is greater than $max" }
     return if (this < min) {
         min
     } else if (this > max) {

@@ -22,10 +22,10 @@ public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
     /** The number of hops from the source to the offering device. */
     public val length: Int get() = hops.size
 
-    /** The device that the data comes from; at the source, there is none. */
+    /** The source of the data; none at the source itself. */
     public val source: ID get() = hops.first()
 
-    /** The device from which the data came to the offering device; at the source, there is none. */
+    /** The device from which the offering device received the data; none at the source. */
     public val nextHop: ID get() = hops.last()
 
     /** Whether the data passed the device [id]. */

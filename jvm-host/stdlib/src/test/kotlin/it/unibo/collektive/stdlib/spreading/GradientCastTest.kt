@@ -138,7 +138,7 @@ class GradientCastTest {
                 distanceTo(localId == 0, narrow)
             }
         }
-        assertTrue("has no distance to the aligned neighbour" in error.message.orEmpty(), error.message)
+        assertTrue("has no distance for the aligned neighbour" in error.message.orEmpty(), error.message)
     }
 
     @Test

@@ -4,5 +4,5 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 
 /** Restricts [field] to the neighbours that are aligned here. The compiler plugin does so wherever a program needs it. */
-@CollektiveIgnore("it is projection itself")
+@CollektiveIgnore("it implements projection")
 public fun <ID : Any, T> project(field: Field<ID, T>): Field<ID, T> = checkNotNull(org.collektive.alignment.project(field, "project"))

@@ -17,7 +17,7 @@ import org.jetbrains.kotlin.fir.references.toResolvedVariableSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
 import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
 
-/** The lambda literal that is the last argument of a call; `null` if there is none. */
+/** The lambda literal that is the last argument of a call, or `null`. */
 internal val FirFunctionCall.lambda: FirAnonymousFunction?
     get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
 
@@ -37,13 +37,13 @@ internal val FirAnonymousFunction.onlyExpression: FirExpression?
         else -> statement as? FirExpression
     }
 
-/** Whether [wanted] holds for this element or one inside it. */
-internal fun FirElement.contains(wanted: (FirElement) -> Boolean): Boolean {
+/** Whether [predicate] holds for this element or one inside it. */
+internal fun FirElement.contains(predicate: (FirElement) -> Boolean): Boolean {
     var found = false
     accept(
         object : FirVisitorVoid() {
             override fun visitElement(element: FirElement) {
-                found = found || wanted(element)
+                found = found || predicate(element)
                 if (!found) element.acceptChildren(this)
             }
         },

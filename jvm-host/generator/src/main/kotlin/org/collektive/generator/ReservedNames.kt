@@ -1,10 +1,10 @@
 package org.collektive.generator
 
-/** Words with a meaning of their own in Java, Kotlin or C#, or in generated code. */
-internal object Words {
+/** Names that are reserved in Java, Kotlin, C# or generated code. */
+internal object ReservedNames {
     private fun words(text: String) = text.split(' ', '\n').filter { it.isNotEmpty() }.toSet()
 
-    /** Kotlin's keywords, which its code can write in backticks only. */
+    /** Kotlin's keywords, which need backticks. */
     val kotlin: Set<String> = words(
         """
         as break class continue do else false for fun if in interface is null object package return super this throw true try typealias
@@ -12,7 +12,7 @@ internal object Words {
         """,
     )
 
-    /** The keywords of the three languages, and what C# takes for one where a type can stand. */
+    /** The keywords of the three languages, and contextual keywords of C# that cannot be type names. */
     val reserved: Set<String> = kotlin + words(
         """
         abstract assert boolean byte case catch char const default double enum extends final finally float goto implements import
@@ -23,7 +23,7 @@ internal object Words {
         """,
     )
 
-    /** Types that generated code names without a namespace: those of Java, Kotlin, C# and of the runtimes. */
+    /** Types of Java, Kotlin, C# and the runtimes that generated code uses without a namespace. */
     val types: Set<String> = words(
         """
         BaseVector Boolean BooleanArray BooleanVector Byte ByteArray ByteBuffer ByteOrder ByteVector Class Constants Double DoubleArray
@@ -33,7 +33,7 @@ internal object Words {
         """,
     )
 
-    /** First parts of namespaces: of libraries, and names that mean something else inside generated Kotlin. */
+    /** First parts of namespaces that libraries or generated Kotlin use. */
     val roots: Set<String> = words(
         """
         java javax jdk sun kotlin kotlinx System Google Microsoft Mono Unity UnityEngine UnityEditor Bridge actuatorReader actuatorType
@@ -42,7 +42,7 @@ internal object Words {
         """,
     )
 
-    /** Namespaces of ours, whose classes the host finds first. */
+    /** Our namespaces, whose classes take precedence in the host. */
     val packages: Set<String> = words(
         """
         com com.google com.google.flatbuffers org org.collektive org.collektive.frame org.collektive.frames org.collektive.frames.data

@@ -8,7 +8,7 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingScope
 
 /** A device that knows its id, its path and its [aligned] neighbours, and runs no rounds: what fields need of one. */
-internal class StandInDevice<ID : Any>(override val localId: ID, private val aligned: List<ID> = emptyList()) : Aggregate<ID> {
+internal class FakeDevice<ID : Any>(override val localId: ID, private val aligned: List<ID> = emptyList()) : Aggregate<ID> {
     private val pivots = ArrayList<Any?>()
 
     val path: List<Any?> get() = pivots.toList()

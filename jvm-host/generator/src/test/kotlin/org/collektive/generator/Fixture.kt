@@ -4,7 +4,7 @@ import java.nio.file.Files
 import java.nio.file.Path
 
 /** Runs the generator in temporary folders. */
-internal object Workshop {
+internal object Fixture {
     val root: Path = Path.of(System.getProperty("collektive.root"))
     val flatc: Path = Path.of(System.getProperty("collektive.flatc"))
     val testSchemas: Path = root.resolve("schema/test")

@@ -15,7 +15,7 @@ import kotlin.reflect.jvm.jvmErasure
 import kotlin.reflect.jvm.kotlinFunction
 
 /** Kotlin's own functions for those of [lifted], an object of lifted operators. */
-internal class PlainFunctions(private val lifted: KClass<*>) {
+internal class StdlibFunctions(private val lifted: KClass<*>) {
     private val functions = HashMap<Method, KFunction<*>?>()
     private val candidates = HashMap<Pair<KClass<*>, String>, List<Pair<KCallable<*>, List<String>>>>()
 

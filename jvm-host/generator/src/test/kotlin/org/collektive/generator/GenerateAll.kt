@@ -9,7 +9,7 @@ import kotlin.io.path.name
  * A part of `schema/test/fuzz.py`: generates code of each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`. Prints a line for each:
  * the name, `made`, `refused` or `crashed`, and the schema's class or the message, separated by tabs.
  */
-internal object GenerateEach {
+internal object GenerateAll {
     @JvmStatic
     fun main(arguments: Array<String>) {
         val (flatc, include, folder) = arguments.map(Path::of)

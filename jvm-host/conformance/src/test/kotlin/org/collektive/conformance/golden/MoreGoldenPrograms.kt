@@ -395,7 +395,7 @@ fun Aggregate<Int>.isHap(s: Senses): Any? =
     isHappeningAnywhere { helper(s.number) > 4 } to everHappened { neighboring(s.number).neighbors.size > 3 }
 
 /** Programs that reach what the others do not: unusual metrics, ties, reducers that merge, rare rounds, fields inside other values. */
-val furtherGoldenPrograms: Map<String, GoldenProgram> = mapOf(
+val moreGoldenPrograms: Map<String, GoldenProgram> = mapOf(
     "zeroMetric" to Aggregate<Int>::zeroMetric,
     "zeroDist" to Aggregate<Int>::zeroDist,
     "negMetric" to Aggregate<Int>::negMetric,

@@ -28,7 +28,7 @@ import org.jetbrains.kotlin.fir.types.type
  * The compiler's own flag `usedAsExpression` of `when` covers neither the last expression of a lambda nor `?:`.
  */
 context(context: CheckerContext)
-internal fun isValueTaken(expression: FirExpression): Boolean {
+internal fun isValueUsed(expression: FirExpression): Boolean {
     var inner: FirElement = expression
     val outwards = context.containingElements.asReversed().iterator()
     while (outwards.hasNext()) {
@@ -71,7 +71,7 @@ internal fun isValueTaken(expression: FirExpression): Boolean {
     return true
 }
 
-/** Whether this call returns the value of [lambda] and does nothing else with it, as `run` and `let` do. */
+/** Whether this call only returns the value of [lambda], as `run` and `let` do. */
 private fun FirFunctionCall.returnsValueOf(lambda: FirAnonymousFunction): Boolean {
     val result = parameterOf(lambda)?.returnTypeRef?.coneType?.typeArguments?.lastOrNull()?.type
     return result is ConeTypeParameterType && result == callee?.resolvedReturnType

@@ -14,7 +14,7 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
  * Reports `evolve(init) { old -> ... neighboring(old) ... }`, also through local `val`s: it sends each value one round later than `share`
  * does.
  */
-internal object EvolveThatShares : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
+internal object EvolveInsteadOfShare : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {
         if (!expression.isAnyOf(setOf("evolve", "evolving"))) return

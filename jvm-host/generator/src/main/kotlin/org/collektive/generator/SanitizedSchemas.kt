@@ -4,10 +4,10 @@ import java.nio.file.Files
 import java.nio.file.Path
 
 /**
- * Copies of a schema's [files] below the folder [work], from which flatc makes code: without what could end a comment in it. They lie as the
- * originals do relative to each other, so that their binary form does not name places of this machine.
+ * Copies of a schema's [files] below the folder [work], from which flatc generates code. They contain no character sequences that
+ * could end comments in the code. Their relative paths are unchanged, so the binary form contains no absolute paths.
  */
-internal class HarmlessCopies(private val files: List<Path>, core: Path, private val work: Path) {
+internal class SanitizedSchemas(private val files: List<Path>, core: Path, private val work: Path) {
     private val root = files.map(Path::getParent).reduce { a, b -> generateSequence(a, Path::getParent).first(b::startsWith) }
 
     /** The folder of the copy of [core], the file of value types. */
@@ -17,7 +17,7 @@ internal class HarmlessCopies(private val files: List<Path>, core: Path, private
         Files.copy(core, this.core.resolve(CORE_TYPES))
         for (file in files) {
             Files.createDirectories(of(file).parent)
-            Files.writeString(of(file), SchemaText.read(file).harmless)
+            Files.writeString(of(file), SchemaText.read(file).sanitized)
         }
     }
 

@@ -24,13 +24,13 @@ import kotlin.test.assertTrue
 import kotlin.test.fail
 
 /** Calls every lifted operator on random fields, and compares each entry with Kotlin's own function. */
-class FieldedTest {
+class LiftedOperatorsTest {
     @Tag("slow")
     @TestFactory
     fun `every function does for each entry what Kotlin's own does`() = objects().map { name ->
         val lifted = Class.forName(name).kotlin
         dynamicTest(name.removePrefix("it.unibo.collektive.stdlib.")) {
-            val plain = PlainFunctions(lifted)
+            val plain = StdlibFunctions(lifted)
             inRound { shape ->
                 for (function in lifted.declaredMemberExtensionFunctions) {
                     if (function.typeParameters.any { it.isReified }) continue
