@@ -45,14 +45,14 @@ LONG_RUNS = {
     "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "200 runs that end in each way: the scene is left, quit, Ctrl-C, "
                      "unhandled exceptions"),
     "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page", "failing"), ("200", "20", "50", "5", "500", "--seed"), "780 runs that are killed, get "
-                     "signals, full and read-only disks, a jumping clock, little memory, or in which one call to the system fails: no folder that only looks complete, no process left, no lost earlier result; a "
-                     "table of the trials and their outcomes"),
+                     "signals, full and read-only disks, a jumping clock, little memory, or in which one call to the system fails: no folder that only "
+                     "looks complete, no process left, no lost earlier result; a table of the trials and their outcomes"),
     "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "a scene whose nodes come, fail and go: memory, threads and descriptors must be flat "
                     "from the second minute on; a table"),
     "stress": LongRun("stress.py", ("jvm_modules",), (str(RESULTS / "stress-at-length/stress.xml"), "-m", "default", "-af", "NONE"), "the JVM side's "
                       "races between threads, with every compiler and mix of compilers: takes long"),
-    "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe", "failing"), ("--each",), "inputs of any bytes against each fuzzer, or "
-                    "those named, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under "
+    "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe", "failing"), ("--each",), "inputs of any bytes against each fuzzer, "
+                    "or those named, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under "
                     "sanitizers), experiments; what it learns stays in build/fuzz"),
 }
 
