@@ -1,4 +1,5 @@
 """Whole sweeps, and what may befall them."""
+import fcntl
 import json
 import os
 import re
@@ -14,7 +15,8 @@ import pyarrow.parquet as pq
 import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
 
-from collektive_experiments import compare, load
+from collektive_experiments import compare, files, load
+from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
 """Long enough to be disturbed."""
@@ -294,6 +296,12 @@ def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
     assert "#SBATCH --cpus-per-task=2\n" in text
     for index in (0, 1, 3):
         subprocess.run([script], check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": str(index)})
+    with Store(str(lamps.folder / "slurm")) as store, files.open_log(str(lamps.folder / "slurm/logs/task-2.txt")) as log:
+        store.lock(shared=True)
+        assert "another sweep writes to" in lamps.sweep("--resume", out="slurm", **keys).stderr
+        fcntl.flock(log, fcntl.LOCK_EX)
+        twice = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": "2"})
+        assert (twice.returncode, "task 2 of" in twice.stderr) == (1, True), twice.stderr
     # A task that never ran is made up for.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr

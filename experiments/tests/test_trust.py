@@ -50,8 +50,7 @@ def change_program(project: Project, statement: str) -> None:
     ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
     ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
     ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
-    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; Time.timeScale = 1; '
-     'if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
+    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
     ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
      "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),
     ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",

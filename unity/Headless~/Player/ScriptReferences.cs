@@ -133,8 +133,8 @@ namespace Collektive.Headless
                 var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
-                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner) && called.IsConstructor
-                    || IsStateless(owner) || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
+                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || IsStateless(owner) || owner == typeof(RuntimeHelpers)
+                    || owner == typeof(UnityEngine.Shader) || typeof(Delegate).IsAssignableFrom(owner) && called.IsConstructor;
                 if (!isHarmless) return true;
             }
             return false;
