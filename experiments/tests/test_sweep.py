@@ -129,14 +129,14 @@ def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
     assert not os.listdir(tmp_path / "out/runs")
 
 
-def test_a_dry_run_tells_how_many_runs_there_are(project: Project) -> None:
+def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     result = project.sweep("--dry-run", **MANY)
     assert result.returncode == 0, result.stderr
     assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
     assert not (project.folder / "out").exists()
 
 
-def test_a_run_that_fails_crashes_or_hangs_is_told_and_the_others_are_done(project: Project) -> None:
+def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(project: Project) -> None:
     scene = project.folder / "project/scene/Lamps.cs"
     # 1: an exception; 2: the process dies; 3: it hangs.
     scene.write_text(scene.read_text().replace("public bool loop;", "public bool loop;\n        public int fate;").replace(

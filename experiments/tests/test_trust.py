@@ -101,7 +101,7 @@ PRINTED = """
 CLOSED = "new System.IO.FileStream(new Microsoft.Win32.SafeHandles.SafeFileHandle((System.IntPtr)1, true), System.IO.FileAccess.Write).Dispose();"
 
 
-def test_a_script_that_prints_an_answer_is_not_believed(project: Project) -> None:
+def test_a_script_cannot_fake_a_response(project: Project) -> None:
     change_scene(project, PRINTED + "System.Diagnostics.Process.GetCurrentProcess().Kill();")
     result = project.sweep(vary={"seed": [1]})
     assert result.returncode == 1
@@ -208,6 +208,6 @@ def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch
         tables.write(experiment, Store(str(lamps.folder / "out")), True)
 
 
-def test_a_tables_folder_that_is_no_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_not_a_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
     assert "is not a folder of a sweep" in capsys.readouterr().err

@@ -11,7 +11,7 @@ RUNS = 3
 HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
 
 
-class AtOnce(Project):
+class SimultaneousCommandsTest(Project):
     def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self) -> None:
         with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
             file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")

@@ -28,7 +28,7 @@ def test_each_block_has_a_test() -> None:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_no_block_is_written_so_that_tests_overlook_it(page) -> None:
+def test_no_code_block_is_overlooked(page) -> None:
     assert len(re.findall(r"(?m)^ *(?:```|~~~)", text(page))) == 2 * len(blocks(page))
 
 

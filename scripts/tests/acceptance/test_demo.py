@@ -11,7 +11,7 @@ from command import HERE, SAMPLE, Folder, collektive
 
 
 @pytest.mark.alone
-class TheDemo(Folder):
+class DemoTest(Folder):
     """One whole demo, looked at from all sides: it takes a while."""
 
     @classmethod
@@ -24,7 +24,7 @@ class TheDemo(Folder):
         with open(os.path.join(cls.out, "manifest.json")) as file:
             cls.whole = json.load(file)
 
-    def test_the_manifest_tells_what_was_run(self) -> None:
+    def test_the_manifest_describes_the_run(self) -> None:
         self.assertEqual(self.whole["nodes"], 500)
         self.assertEqual(self.whole["scenario"]["seconds"], 60)
         self.assertEqual(self.whole["scenario"]["seed"], 1)

@@ -57,7 +57,7 @@ class Outputs(Project):
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 
-    def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self) -> None:
+    def test_a_killed_run_leaves_its_rows_and_an_incomplete_manifest(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",

@@ -70,7 +70,7 @@ class Packaged(unittest.TestCase):
 
 
 @pytest.mark.xdist_group("package")
-class ThePackage(Packaged):
+class PackageTest(Packaged):
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
 
@@ -149,14 +149,14 @@ class ThePackage(Packaged):
 
 
 @pytest.mark.xdist_group("package with a JVM")
-class ThePackageWithAJvm(Packaged):
+class JvmPackageTest(Packaged):
     OPTIONS = ("--jre",)
 
     @property
     def home(self):
         return os.path.join(self.root, "unity/Jvm~/linux-x64")
 
-    def test_it_is_told_from_the_one_without(self) -> None:
+    def test_its_name_differs_from_the_package_without_a_jvm(self) -> None:
         self.assertRegex(os.path.basename(self.archive), r"^org\.collektive\.unity-[0-9.]+-jre\.tgz$")
 
     def test_its_jvm_is_whole_with_archive_licences_debugger_and_recorder(self) -> None:

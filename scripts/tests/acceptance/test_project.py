@@ -8,7 +8,7 @@ import pytest
 from command import Project, collektive, jdk, last_error
 
 
-class AForeignProject(Project):
+class ProjectTest(Project):
     """It is run by one command."""
 
     def run_it(self, *arguments):
@@ -31,7 +31,7 @@ class AForeignProject(Project):
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
-    def test_an_edit_counts_wherever_a_link_or_an_include_leads(self) -> None:
+    def test_edits_behind_links_and_includes_are_detected(self) -> None:
         os.rename(self.path("project", "scene"), self.path("elsewhere"))
         os.symlink(self.path("elsewhere"), self.path("project", "scene"))
         os.makedirs(self.path("project", "programs", "target", ".git"))
@@ -98,7 +98,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
 
-    def test_no_start_waits_for_the_events_of_a_recorder_that_nobody_asked_for(self) -> None:
+    def test_starts_do_not_wait_for_events_without_a_recording(self) -> None:
         self.change("lamps.json", '"-Xss2m"', '"-Xlog:class+load:file=classes.txt"')
         result = self.run_it("--trust-jvm")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -145,7 +145,7 @@ class AForeignProject(Project):
         self.change("lamps.json", "light.fbs", "dark.fbs")
         self.refused("schema", "dark.fbs")
 
-    def test_an_unknown_program_is_named_with_those_that_there_are(self) -> None:
+    def test_an_unknown_program_is_reported_with_the_existing_ones(self) -> None:
         self.change("lamps.json", '"brightest"', '"darkest"')
         self.refused("darkest", "brightest")
 
@@ -153,7 +153,7 @@ class AForeignProject(Project):
         self.change("lamps.json", "Lamps.LampScene", "Lamps.Nonesuch")
         self.refused("Lamps.Nonesuch", "SceneBuilder")
 
-    def test_an_unknown_field_is_named_with_those_that_there_are(self) -> None:
+    def test_an_unknown_field_is_reported_with_the_existing_ones(self) -> None:
         self.refused("brightness", "lamps", "loop", arguments=("--set", "brightness=3"))
 
     def test_a_field_of_another_type_is_named(self) -> None:
@@ -164,7 +164,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("nowhere.json", last_error(result))
 
-    def test_a_jvm_that_is_none_is_named(self) -> None:
+    def test_an_invalid_jvm_is_reported(self) -> None:
         self.change("lamps.json", '"jvm": {', '"jvm": { "location": "Folder", "home": "/nowhere/jdk",')
         self.refused("lamps.json:11", "'jvm.home' is refused", "--trust-jvm")
         self.refused("/nowhere/jdk", arguments=("--trust-jvm",))
@@ -190,7 +190,7 @@ class AForeignProject(Project):
         self.change("lamps.json", '"maximumHeapMb"', '"maximumHeep"')
         self.refused("jvm.maximumHeep", "maximumHeapMb")
 
-    def test_a_jar_that_is_none_is_named(self) -> None:
+    def test_an_invalid_jar_is_reported(self) -> None:
         with open(self.path("project", "broken.jar"), "w") as file:
             file.write("this is no jar")
         self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')

@@ -50,7 +50,7 @@ def project():
 
 
 @pytest.mark.quick
-class TheReadmesProject(Folder):
+class ReadmeTest(Folder):
     def test_it_has_at_most_25_lines_of_its_authors(self) -> None:
         # All lines but empty ones: imports and braces count.
         lines = [line for block in project() for line in block.splitlines() if line.strip()]

@@ -14,7 +14,7 @@ RUNNER = os.path.join(BUILD, "csharp/Collektive.TestRunner.exe")
 
 
 @unittest.skipUnless(os.path.exists(RUNNER), "this system has no package of NUnit")
-class TheTestRunner(Folder):
+class TestRunnerTest(Folder):
     def run_fixture(self, test, *options):
         """Runs a fixture with this test: exit code and output."""
         source = """

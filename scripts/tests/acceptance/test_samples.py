@@ -8,7 +8,7 @@ import replay
 from command import SAMPLE, Folder, collektive
 
 
-class TheSamples(Folder):
+class SamplesTest(Folder):
     """Each sample's scenario as it is, without its replay."""
 
     def rows(self, sample, **changes):

@@ -50,7 +50,7 @@ def run(commands, folder):
 
 
 @pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
-def test_a_tutorial_does_what_it_tells(page, folder) -> None:
+def test_tutorials_work_as_written(page, folder) -> None:
     told, printed = blocks(page), ""
     assert any(block.language == "sh" for block in told)
     for block in told:

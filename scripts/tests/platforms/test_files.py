@@ -69,7 +69,7 @@ class MachO:
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-def test_the_library_of_macos_says_what_it_is(platform) -> None:
+def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform) -> None:
     file = MachO(library(platform))
     processor, system = MAC[platform]
     assert file.processor == processor

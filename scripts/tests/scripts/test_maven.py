@@ -76,7 +76,7 @@ def test_modules_are_compiled_when_they_or_what_they_see_changed(modules: Module
     assert modules.build() == {"LowerTestKt"}, "no other module sees tests"
 
 
-def test_an_error_is_found_again_until_it_is_mended(modules: Modules) -> None:
+def test_an_error_is_reported_until_it_is_fixed(modules: Modules) -> None:
     modules.build()
     modules.edit(LOWER, "ordinary", "renamed")
     modules.edit("lower/src/test/kotlin/LowerTest.kt", "ordinary", "renamed")
