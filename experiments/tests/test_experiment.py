@@ -1,4 +1,4 @@
-"""Experiment files: what is wrong is an error with its line, before anything starts."""
+"""Tests experiment files: errors have a line and are reported before the first run."""
 import json
 from pathlib import Path
 

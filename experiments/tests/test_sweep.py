@@ -1,4 +1,4 @@
-"""Whole sweeps, and what may befall them."""
+"""Tests whole sweeps, including crashes, full disks and invalid input."""
 import json
 import os
 import re
@@ -16,11 +16,11 @@ from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
 from collektive_experiments import compare, load
 
 MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
-"""Long enough to be disturbed."""
+"""Returns runs that take long enough to be disturbed."""
 
 
 def await_runs(project: Project, count: int, out: str = "out") -> None:
-    """Waits until so many runs have ended."""
+    """Waits until a number of runs have ended."""
     end = time.monotonic() + 60
     runs = project.folder / out / "runs"
     while not runs.is_dir() or sum(not name.endswith(".part") for name in os.listdir(runs)) < count:
@@ -29,7 +29,7 @@ def await_runs(project: Project, count: int, out: str = "out") -> None:
 
 
 def workers(project: Project) -> list[int]:
-    """Ids of the processes that run scenarios of the project."""
+    """Returns the ids of processes that run scenarios of the project."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -197,7 +197,7 @@ def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: P
     disk.mkdir()
     keep = project.folder / "out"
     bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
-    # Copies of inputs, and runs of 0.1 MB, of which only some have room.
+    # The disk has space for the inputs and some of the runs, which take 0.1 MB each.
     size = f"{bundle // 1024 + 2500}k"
     script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
     nodes = {"fields": ["position"], "interval": 0.1}
@@ -276,7 +276,7 @@ def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
     assert "#SBATCH --cpus-per-task=2\n" in text
     for index in (0, 1, 3):
         subprocess.run([script], check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": str(index)})
-    # A task that never ran is made up for.
+    # Runs of a missing task are repeated.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
     assert "3 of 4 runs are already complete" in resumed.stderr

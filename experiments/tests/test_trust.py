@@ -1,4 +1,4 @@
-"""Runs of a sweep do not influence each other, and a sweep changes nothing but its own results."""
+"""Tests that runs of a sweep are independent, and that a sweep changes only its own results."""
 import json
 import os
 import re

@@ -1,4 +1,4 @@
-"""Commands and options that are unknown or make no sense are refused by name."""
+"""Tests errors about unknown and invalid commands and options."""
 import tempfile
 import unittest
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What users read when something is wrong with what they gave, or with where they stand."""
+"""Tests messages about invalid input and environments."""
 import os
 import subprocess
 
@@ -46,7 +46,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("stopped at tick 1: all its rounds failed; the messages are above (--keep-going goes on)", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
-        # A full heap names the setting to raise, inlined code the line of its call.
+        # The message about a full heap contains the setting, and errors in inlined code the line of the call.
         told = result.stderr + result.stdout
         self.assertRegex(told, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
         self.assertRegex(told, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")

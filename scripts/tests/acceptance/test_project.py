@@ -1,4 +1,4 @@
-"""A project outside the clone, with its own schema, Kotlin, C# and scenario, runs by one command."""
+"""Tests a project outside the clone with its own schema, Kotlin, C# and scenario."""
 import csv
 import os
 import shutil
@@ -9,13 +9,13 @@ from command import Project, collektive, jdk, last_error
 
 
 class ProjectTest(Project):
-    """It is run by one command."""
+    """Runs the project with one command."""
 
     def run_it(self, *arguments):
         return collektive("run", "project/lamps.json", "--out", self.path("out"), "--overwrite", *arguments, cwd=self.folder)
 
     def refused(self, *words, arguments=()):
-        """Runs it, and expects one clear error with all the words."""
+        """Runs the project, and expects one error that contains all words."""
         result = self.run_it(*arguments)
         self.assertNotEqual(result.returncode, 0)
         for word in words:
@@ -27,7 +27,7 @@ class ProjectTest(Project):
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
         manifest = self.manifest(self.path("out"))
-        # Ten lamps in a row: after ten rounds the last one's brightness has reached all; each hears its neighbours.
+        # Ten lamps in a row: after ten rounds, the brightness of the last one has reached all.
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
@@ -50,7 +50,7 @@ class ProjectTest(Project):
             digests |= {manifest["digest"], *manifest["inputs"].values()}
             if edit:
                 self.change(*edit)
-        # Of four runs, and of three versions of what was edited once.
+        # Of four runs and three versions of the edited files.
         self.assertEqual(len(digests), 4 + 3 * 2)
 
     def test_fields_can_be_set_on_the_command_line(self) -> None:
@@ -72,7 +72,7 @@ class ProjectTest(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         # Two rounds of each lamp in ten ticks, and 18 links.
         self.assertEqual(self.messages()["sent"], 2 * 18)
-        # All lamps count, though none was due in the last tick.
+        # All lamps count, although none was due in the last tick.
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
 
     def test_its_network_decides_what_arrives(self) -> None:

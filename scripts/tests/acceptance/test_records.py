@@ -25,7 +25,7 @@ def with_another_jar(record):
 
 
 class Records(Project):
-    """Recorded runs of the foreign project."""
+    """Tests recorded runs of the project."""
 
     def setUp(self) -> None:
         super().setUp()

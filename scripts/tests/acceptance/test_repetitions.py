@@ -1,11 +1,11 @@
-"""A run is repeated from its manifest alone."""
+"""Tests repeating a run from its manifest."""
 import os
 
 from command import Project, collektive, last_error
 
 
 class Repetitions(Project):
-    """A run is repeated from its manifest alone."""
+    """Tests repeating a run from its manifest."""
 
     def setUp(self) -> None:
         super().setUp()

@@ -1,4 +1,4 @@
-"""A signal to a command ends all of it: nothing goes on behind the user's back, and the exit code tells of it."""
+"""Tests that a signal to a command ends all its processes and sets the exit code."""
 import os
 import signal
 import subprocess

@@ -1,4 +1,4 @@
-"""The native libraries as files: what each exports, needs and says of itself. Those of macOS cannot be loaded here."""
+"""Tests exports, dependencies and headers of the native libraries. Libraries for macOS cannot be loaded here."""
 import os
 import re
 import struct
@@ -9,7 +9,7 @@ import pytest
 from build.places import ROOT
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
-# Those that were built.
+# The built libraries.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
 MAC = {"mac-x64": (0x01000007, (10, 13)), "mac-arm64": (0x0100000C, (11, 0))}
 LINUX = {"linux-x64": "X86-64", "linux-arm64": "AArch64"}
@@ -21,7 +21,7 @@ def library(platform):
 
 
 def functions():
-    """Those of the public header."""
+    """Returns the functions of the public header."""
     with open(os.path.join(ROOT, "native-shim/include/collektive_shim.h")) as file:
         return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M))
 
@@ -45,7 +45,7 @@ class MachO:
             at += size
 
     def command(self, *kinds):
-        """The first command of these kinds; None when there is none."""
+        """Returns the first load command of these kinds, or None."""
         return next((body for kind, body in self.commands if kind in kinds), None)
 
     def install_name(self):
@@ -77,7 +77,7 @@ def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform
     assert file.install_name() == "@rpath/libcollektive_shim.dylib"
     # Names with an underscore are the linker's own.
     assert {name for name in file.exports() if not name.startswith("_")} == functions()
-    # The system's loader takes no unsigned code on Apple's own processors.
+    # On Apple silicon, macOS loads only signed code.
     assert (file.command(0x1D) is not None) == (platform == "mac-arm64")
 
 

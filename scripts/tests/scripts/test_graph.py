@@ -1,4 +1,4 @@
-"""The build graph: builds what changed, starts over after an interruption, and does nothing otherwise."""
+"""Tests that the build graph builds only changes and recovers from interruptions."""
 import time
 
 import pytest

@@ -1,4 +1,4 @@
-"""The lock on the outputs of a checkout: commands that change them wait for all others, and report that."""
+"""Tests the lock on build outputs: commands that change them wait for others, with a message."""
 import os
 import select
 import subprocess

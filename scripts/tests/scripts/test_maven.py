@@ -1,4 +1,4 @@
-"""The build of the JVM side compiles what changed, and what sees the change."""
+"""Tests that the JVM build compiles changed modules and those that see the change."""
 import os
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""What the package says of the files of each platform."""
+"""Tests the metadata of native libraries and JVM packages."""
 import os
 
 import pytest

@@ -1,4 +1,4 @@
-"""Signals to a command reach all of its processes, and no process is left when it ends."""
+"""Tests that signals reach all processes of a command, and that none is left when it ends."""
 import signal
 import time
 from pathlib import Path
@@ -26,7 +26,7 @@ def child_of(checkout: Checkout) -> int:
 
 
 def ends(pid: int) -> bool:
-    """Waits until a process is gone, which may be waited for by nobody."""
+    """Waits until a process has ended, also if its parent does not wait for it."""
     end = time.monotonic() + 20
     while time.monotonic() < end:
         status = Path(f"/proc/{pid}/stat")

@@ -1,4 +1,4 @@
-"""Suites that end in all ways, and what `./collektive test` makes of their results."""
+"""Tests how `./collektive test` reports suites that pass, fail, hang or crash."""
 import subprocess
 import sys
 import textwrap
