@@ -38,7 +38,7 @@ class Project:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=os.environ, start_new_session=True)
 
     def sweep(self, *words: str, out: str = "out", **keys: Any) -> subprocess.CompletedProcess[str]:
-        """Does a whole sweep; two minutes at the most."""
+        """Runs a sweep, for at most two minutes."""
         process = self.start(*words, out=out, **keys)
         try:
             output, errors = process.communicate(timeout=120)
@@ -68,7 +68,7 @@ def project(tmp_path: Path) -> Project:
 
 @pytest.fixture(scope="session")
 def lamps(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """A sweep of eight runs in `out`, which tests only read."""
+    """A sweep of eight runs in `out`. Tests must not change it."""
     swept = Project(tmp_path_factory.mktemp("lamps"))
     result = swept.sweep("--csv", **EIGHT)
     assert result.returncode == 0, result.stderr

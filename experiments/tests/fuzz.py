@@ -79,7 +79,7 @@ class Case:
         return math.prod(len(values) for values in self.root["vary"].values()) * max([1, *(len(values) for values in self.root["zip"].values())])
 
     def grow(self) -> bool:
-        """Adds a value to a key, as `--resume` allows; returns whether it did."""
+        """Adds a value to a key, as `--resume` allows. Returns whether one was added."""
         for key, values in self.root["vary"].items():
             more = [value for value in self._distinct(key) if identity(value) not in map(identity, values)]
             if more and self._count() // len(values) * (len(values) + 1) <= MAX_RUNS:
@@ -106,7 +106,7 @@ class Case:
 
 
 def metrics_at(settings: dict[str, Any], second: float) -> dict[str, float]:
-    """The scene's metrics: what FuzzScene.cs computes."""
+    """Computes the scene's metrics like FuzzScene.cs."""
     names = settings["fields.names"].split("|")
     offset = second + len(settings["fields.label"].encode("utf-16-le")) // 2 + 100 * settings["fields.flag"] + settings["fields.place"][0]
     values = {name: settings["fields.slope"] * (index + 1) + offset for index, name in enumerate(names)}

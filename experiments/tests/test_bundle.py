@@ -1,4 +1,4 @@
-"""What a sweep copies of a project, and what it refuses to copy."""
+"""Tests which files of a project a sweep copies."""
 import json
 
 from conftest import Project

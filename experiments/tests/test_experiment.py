@@ -1,4 +1,4 @@
-"""Experiment files: what is wrong is an error with its line, before anything starts."""
+"""Tests experiment files: errors have a line and are reported before the first run."""
 import json
 import os
 from pathlib import Path
@@ -45,7 +45,7 @@ def write(folder: Path, text: str) -> str:
     (2, '{"version": 1,\n"set": ' + "[" * 100_000, "not valid JSON: more than 64 levels"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"seed": "1-' + "9" * 5000 + '"}}', "is no range"),
 ])
-def test_what_is_wrong_is_named_with_its_line(tmp_path: Path, line: int, text: str, message: str) -> None:
+def test_errors_have_a_line(tmp_path: Path, line: int, text: str, message: str) -> None:
     with pytest.raises(ExperimentError) as error:
         read(write(tmp_path, text))
     assert f"experiment.json:{line}: " in str(error.value)
@@ -107,5 +107,5 @@ def test_two_configurations_never_share_a_folder(one: dict[str, object], other: 
     assert not named(other).startswith(named(one))
 
 
-def test_equal_settings_share_a_folder_whatever_their_order() -> None:
+def test_the_order_of_settings_does_not_change_the_folder() -> None:
     assert name_of({"a": 1}, {"a": 1, "b": 2.0}) == name_of({"a": 1}, {"b": 2, "a": 1.0})

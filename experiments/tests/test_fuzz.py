@@ -1,4 +1,4 @@
-"""Short runs of the fuzzer of experiments, and single failing calls."""
+"""Short runs of the experiment fuzzer, and single failing calls."""
 import random
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The local pool, with workers that only count."""
+"""Tests the local pool with fake workers."""
 import queue
 import threading
 from typing import Any, cast
@@ -13,7 +13,7 @@ from collektive_experiments.worker import Outcome
 
 
 class FakeWorker:
-    """Ends its run when told to, or when it is killed."""
+    """A worker whose run ends on request or when it is killed."""
 
     def __init__(self, *_: Any):
         self.began = threading.Event()

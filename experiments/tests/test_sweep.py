@@ -1,4 +1,4 @@
-"""Whole sweeps, and what may befall them."""
+"""Tests whole sweeps, including crashes, full disks and invalid input."""
 import fcntl
 import json
 import os
@@ -19,11 +19,11 @@ from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
-"""Long enough to be disturbed."""
+"""Returns runs that take long enough to be disturbed."""
 
 
 def await_runs(project: Project, count: int, out: str = "out") -> None:
-    """Waits until so many runs have ended."""
+    """Waits until a number of runs have ended."""
     end = time.monotonic() + 60
     runs = project.folder / out / "runs"
     while not runs.is_dir() or sum(not name.endswith(".part") for name in os.listdir(runs)) < count:
@@ -32,7 +32,7 @@ def await_runs(project: Project, count: int, out: str = "out") -> None:
 
 
 def workers(project: Project) -> list[int]:
-    """Ids of the processes that run scenarios of the project."""
+    """Returns the ids of processes that run scenarios of the project."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -132,7 +132,7 @@ def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
     assert not os.listdir(tmp_path / "out/runs")
 
 
-def test_a_dry_run_tells_how_many_runs_there_are(project: Project) -> None:
+def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     result = project.sweep("--dry-run", **MANY)
     assert result.returncode == 0, result.stderr
     assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
@@ -156,7 +156,7 @@ def test_first_runs_that_all_fail_in_the_same_way_end_the_sweep_unless_it_keeps_
     assert list(project.table()["status"]) == ["failed"] * 8
 
 
-def test_a_run_that_fails_crashes_or_hangs_is_told_and_the_others_are_done(project: Project) -> None:
+def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(project: Project) -> None:
     scene = project.folder / "project/scene/Lamps.cs"
     # 1: an exception; 2: the process dies; 3: it hangs.
     scene.write_text(scene.read_text().replace("public bool loop;", "public bool loop;\n        public int fate;").replace(
@@ -217,7 +217,7 @@ def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: P
     disk.mkdir()
     keep = project.folder / "out"
     bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
-    # Copies of inputs, and runs of 0.1 MB, of which only some have room.
+    # The disk has space for the inputs and some of the runs, which take 0.1 MB each.
     size = f"{bundle // 1024 + 2500}k"
     script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
     nodes = {"fields": ["position"], "interval": 0.1}
@@ -302,7 +302,7 @@ def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
         fcntl.flock(log, fcntl.LOCK_EX)
         twice = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": "2"})
         assert (twice.returncode, "task 2 of" in twice.stderr) == (1, True), twice.stderr
-    # A task that never ran is made up for.
+    # Runs of a missing task are repeated.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
     assert "3 of 4 runs are already complete" in resumed.stderr

@@ -1,4 +1,4 @@
-"""Runs of a sweep do not influence each other, and a sweep changes nothing but its own results."""
+"""Tests that runs of a sweep are independent, and that a sweep changes only its own results."""
 import gc
 import json
 import os
@@ -115,7 +115,7 @@ PRINTED = """
 CLOSED = "new System.IO.FileStream(new Microsoft.Win32.SafeHandles.SafeFileHandle((System.IntPtr)1, true), System.IO.FileAccess.Write).Dispose();"
 
 
-def test_a_script_that_prints_an_answer_is_not_believed(project: Project) -> None:
+def test_a_script_cannot_fake_a_response(project: Project) -> None:
     change_scene(project, PRINTED + "System.Diagnostics.Process.GetCurrentProcess().Kill();")
     result = project.sweep(vary={"seed": [1]})
     assert result.returncode == 1
@@ -260,6 +260,6 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
     assert "has no complete run to plot" in capsys.readouterr().err
 
 
-def test_a_tables_folder_that_is_no_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_not_a_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
     assert "is not a folder of a sweep" in capsys.readouterr().err

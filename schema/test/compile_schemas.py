@@ -1,4 +1,4 @@
-"""Compiles both sides' code of schemas, and says how each side's programs of the tests are run."""
+"""Compiles generated C# and Kotlin, and returns the command lines of the test programs."""
 import shutil
 import subprocess
 import sys
@@ -12,24 +12,24 @@ from build.jdk import find_jdk
 from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, JVM, LIBRARY_JAR, ROOT
 
 JAVA = str(find_jdk() / "bin/java")
-# The tests of the generator and of frames have the programs.
+# The programs are part of the tests of generator and frames.
 GENERATE_ALL = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateAll", str(FLATC),
                  str(ROOT / "schema")]
 REFERENCES = [f"-r:{CSHARP}/Collektive.FlatBuffers.dll", f"-r:{CSHARP}/Collektive.Bridge.dll"]
 
 
 def round_trip_csharp(program: Path = CSHARP / "RoundTrip.exe") -> list[str]:
-    """Returns the command line of the C# half, which uses the schemas beside it."""
+    """Returns the command line of the C# program."""
     return [str(word) for word in managed.command("mono-sgen", program)]
 
 
 def round_trip_kotlin(classes: Path) -> list[str]:
-    """Returns the command line of the Kotlin half."""
+    """Returns the command line of the Kotlin program."""
     return [JAVA, "-cp", f"{classes}:{JVM}/frames/target/test-classes:{HOST_JAR}", "org.collektive.frames.data.RoundTrip"]
 
 
 def compile_test_schemas() -> Path:
-    """Returns the classes of the test schemas, among them what the tests of frames compare with."""
+    """Returns the folder with classes of the test schemas."""
     classes = BUILD / "roundtrip"
     generated = classes / "generated"
     shutil.rmtree(classes, ignore_errors=True)
@@ -42,7 +42,7 @@ def compile_test_schemas() -> Path:
 
 
 def compile_generated(folder: Path) -> str:
-    """Compiles the code that fuzz.py has generated in a folder; returns the compilers' messages if they refuse it, else nothing."""
+    """Compiles the code that fuzz.py has generated in a folder. Returns the compilers' errors, or an empty text."""
     try:
         sources = csharp.sources([folder / "csharp"])
         _run(csharp.command(folder / "TestSchemas.dll", sources, [*csharp.symbols(), *REFERENCES]))

@@ -1,6 +1,6 @@
-"""Random schemas: each is refused with its line, or compiles on both sides and its data come through.
+"""Fuzzes schemas: each is rejected with a line, or compiles on both sides, which exchange equal data.
 
-As a program: `fuzz.py SECONDS SEED`, by `./collektive test --fuzz schemas`. test_fuzz.py runs a short batch and what was found before.
+`./collektive test --fuzz schemas` runs `fuzz.py SECONDS SEED`. test_fuzz.py runs a short batch and the corpus.
 """
 import os
 import random
@@ -25,7 +25,7 @@ SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "u
 PLAIN = ["Alpha", "Beta", "Gamma", "Delta", "Omega", "Robot", "Wheel", "Arm", "Goal", "Area", "Point", "Track", "Zone", "Lamp"]
 FIELDS = ["speed", "angle", "home", "target", "label", "size", "mode", "path", "name", "id", "value", "time", "heading", "neighbours",
           "battery", "load", "temperature", "camelCase", "two_words", "x", "y", "z", "w", "count"]
-# Names that mean something in a language, in a runtime or in generated code.
+# Names with a meaning in a language, a runtime or generated code.
 HOSTILE_TYPES = ["Table", "String", "Struct", "List", "Int", "Object", "System", "Type", "Row", "Offset", "Span", "ByteBuffer", "when", "class",
                  "_", "__", "record", "Any", "Unit", "Companion", "DataSchema", "View", "Bridge", "Draft", "Enum", "Nullable", "Schema", "UserSchema",
                  "AlphaValue", "BetaT", "alpha", "Exception", "Integer", "Boolean", "Math", "KeyValuePair", "Collektive", "Google", "var", "dynamic",
@@ -47,7 +47,7 @@ HOSTILE_COMMENTS = ["*/ int evil; /*", "\\u002a\\u002f int evil; /*", "/ int evi
 
 
 class RandomSchema:
-    """One schema file, of which few names and comments are hostile."""
+    """A random schema file with some reserved names and comments."""
 
     def __init__(self, source: random.Random, root: str) -> None:
         self.random = source
@@ -89,7 +89,7 @@ class RandomSchema:
         for _ in range(r.randint(1, 7)):
             name = self.pick(FIELDS, HOSTILE_FIELDS)
             plain = name.replace("_", "").lower()
-            # The rules about names that differ by `_` or capitals only have their own tests; most schemas must pass.
+            # Avoids names that differ only in `_` or case, which would reject most schemas and have their own tests.
             if plain in names and r.random() > self.hostile:
                 continue
             names.add(plain)
@@ -134,7 +134,7 @@ class RandomSchema:
             flags = " (bit_flags)" if r.random() < 0.2 else ""
             out.append(f"{self.comment()}enum {name} : {r.choice(['ubyte', 'ushort', 'uint'] if flags else ['byte', 'ubyte', 'short', 'int', 'ulong'])}"
                        f"{flags} {{ {', '.join(values)} }}\n")
-            # A default of 0 must be a value.
+            # The default 0 must be a value of the enum.
             if not flags:
                 enums.append(name)
         for _ in range(r.randint(0, 3)):
@@ -144,7 +144,7 @@ class RandomSchema:
             structs.append(name)
         names = [self.type_name() for _ in range(r.randint(0, 4))]
         for name in names:
-            # Tables may contain each other.
+            # Tables may be recursive.
             out.append(f"{self.comment()}table {name} {{\n{self.fields(structs, names, enums, True)}}}\n")
         tables = names
         if r.random() < 0.1 and tables:
@@ -165,10 +165,10 @@ class RandomSchema:
 
 
 def write_batch(folder: str, seed: int, count: int) -> None:
-    """Writes random schemas to `cases`, each in a folder that is named as its namespace."""
+    """Writes random schemas to `cases`, each in a folder named after its namespace."""
     source = random.Random(seed)
     for i in range(count):
-        # One has a hostile namespace, none of the corpus; the others cannot have the same.
+        # At most one schema has a reserved namespace, because namespaces must be unique.
         root = source.choice([name for name in HOSTILE_NAMESPACES if name not in os.listdir(CORPUS)]) if i == 0 else f"case{i}"
         schema = RandomSchema(source, root)
         case = os.path.join(folder, "cases", root)
@@ -178,7 +178,7 @@ def write_batch(folder: str, seed: int, count: int) -> None:
 
 
 def run(folder: str, records: int = 20) -> tuple[int, int, list[Finding]]:
-    """Runs all schemas of `cases`. Returns how many were made and refused, and what went wrong."""
+    """Runs all schemas of `cases`. Returns the numbers of accepted and rejected ones, and the failures as (case, text)."""
     each = subprocess.run([*compile_schemas.GENERATE_ALL, folder], capture_output=True, text=True)
     outcomes = [line.split("\t") for line in each.stdout.splitlines()]
     findings = []
@@ -217,7 +217,7 @@ def compile_and_compare(folder: str, made: list[str], records: int) -> list[Find
 
 
 def batch(folder: str, seed: int, count: int) -> tuple[int, int, list[Finding]]:
-    """Runs random schemas, and those of `corpus` that once found a defect."""
+    """Runs random schemas and the corpus of earlier findings."""
     shutil.rmtree(folder, ignore_errors=True)
     write_batch(folder, seed, count)
     shutil.copytree(CORPUS, os.path.join(folder, "cases"), dirs_exist_ok=True)

@@ -1,4 +1,4 @@
-"""A short batch of random schemas, the same each time, with all that once found a defect."""
+"""Runs a short, reproducible batch of random schemas and the corpus."""
 from pathlib import Path
 
 import fuzz

@@ -1,6 +1,6 @@
-"""Random data of the test schemas from C# to Kotlin and back: each side prints what it wrote, the other compares what it read.
+"""Sends random data of the test schemas from C# to Kotlin and back, and compares written and read data.
 
-Run by `./collektive test roundtrip`, which builds the C# half.
+`./collektive test roundtrip` builds the programs and runs this test.
 """
 import functools
 import re

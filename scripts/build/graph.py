@@ -42,7 +42,7 @@ def _arguments() -> list[str]:
         f"-DCMAKE_CXX_FLAGS={prefix_map}",
         f"-DCOLLEKTIVE_JAVA_HOME={jdk.find_jdk()}",
         f"-DCOLLEKTIVE_TEST_JDKS={';'.join(map(str, jdk.test_jdks()))}",
-        # Not that of a virtual environment, which may start a command, too.
+        # The system's Python, because a command may run in a virtual environment.
         f"-DCOLLEKTIVE_PYTHON={Path(sys.executable).resolve()}",
         f"-DCOLLEKTIVE_NUNIT={NUNIT if NUNIT.exists() else ''}",
     ]

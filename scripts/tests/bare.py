@@ -1,4 +1,4 @@
-"""The demo and the quick tests in fresh roots of distributions, which debootstrap makes and which are removed again."""
+"""Runs the demo and the quick tests in fresh roots of distributions, created by debootstrap and removed afterwards."""
 import hashlib
 import os
 import re
@@ -17,7 +17,7 @@ from tests import bare_demo
 
 # Names, and debootstrap's suites.
 ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble"}
-# Debian has no package of Ubuntu's keys. This file is taken from Ubuntu's archive.
+# Debian has no package with Ubuntu's keys, so they come from Ubuntu's archive.
 UBUNTU_KEYRING_SHA256 = "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8"
 # Variables that tell clients how to reach registries.
 CLIENT_VARIABLES = re.compile(r"(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)|"

@@ -1,4 +1,4 @@
-"""Feeds inputs of any kind to all code that reads what others wrote.
+"""Fuzzes all code that reads untrusted input.
 
 `fuzz.py SECONDS RESULTS.xml` fuzzes scenario files, for the suite fuzz; `fuzz.py --each [NAME]... [MINUTES [SEED]]` runs all fuzzers, or those named,
 for so long each. Corpora are kept in the repository: the suites replay them, and each input that showed a defect is one of their cases. What
@@ -36,7 +36,7 @@ def fuzz_schemas(seconds: int, seed: int) -> list[str | Path]:
 def jazzer(name: str, target: str, module: str) -> Callable[[int, int], list[str | Path]]:
     """Returns a function that returns the command line of a fuzzer of the JVM side, to be run in its module's folder."""
     def command(seconds: int, seed: int) -> list[str | Path]:
-        # Before all others: another jar has some of its classes without all of their functions.
+        # First on the class path, because another jar contains older versions of some classes.
         compiler = next((HOST / "fuzz").glob("kotlin-compiler-embeddable-*.jar"))
         classes = f"target/test-classes:target/classes:{HOST}/test-classes:{HOST}/classes:{compiler}:{HOST}/fuzz/*"
         return [jdk.find_jdk() / "bin/java", "-Xmx768m", "-XX:+EnableDynamicAgentLoading", f"-Dcollektive.root={ROOT}", f"-Dcollektive.flatc={FLATC}",
@@ -93,7 +93,7 @@ def run_each(words: list[str]) -> None:
 
 
 def prepare(names: list[str]) -> None:
-    """Builds what only these fuzzers need: Jazzer with all that it finds classes in, the shim under sanitizers, packages from PyPI."""
+    """Builds Jazzer's class path and the shim under sanitizers, and fetches packages from PyPI."""
     if "shim" in names:
         graph.build("sanitized")
     if "experiments" in names:

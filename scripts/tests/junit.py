@@ -1,4 +1,4 @@
-"""Test results in JUnit's XML, which all suites write."""
+"""Reads and writes test results in JUnit XML."""
 import itertools
 import os
 import re

@@ -1,4 +1,4 @@
-"""Tests pages in a browser: `pages.py page RESULTS` those of replays, `pages.py site RESULTS` the documentation's site."""
+"""Tests pages in a browser: `pages.py page RESULTS` tests replay pages, `pages.py site RESULTS` the documentation site."""
 import os
 import subprocess
 import sys

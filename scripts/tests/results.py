@@ -1,4 +1,4 @@
-"""Adds up the results of suites, which they write as JUnit XML."""
+"""Adds up the JUnit XML results of suites."""
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path

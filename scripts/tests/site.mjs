@@ -1,5 +1,5 @@
-// Looks at the site in headless Chromium: node [TEST OPTIONS] site.mjs SITE PICTURES
-// Every page at three widths, some of them in the dark too. Pictures of a few go to PICTURES.
+// Checks the site in headless Chromium: node [TEST OPTIONS] site.mjs SITE PICTURES
+// Checks every page at three widths, some also in the dark theme. Writes screenshots of a few to PICTURES.
 import assert from 'node:assert/strict';
 import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -28,7 +28,7 @@ async function open(page, options = {}) {
   return { tab, complaints, close: () => context.close() };
 }
 
-/** What is wider than the window, or is cut without a way to scroll to it, once the theme's animations are over. */
+/** Returns elements that are wider than the window or cannot be scrolled into view, after the theme's animations. */
 async function overflowing(tab) {
   let found = [];
   for (let tries = 0; tries < 20 && (tries === 0 || found.length > 0); tries++) {

@@ -1,4 +1,4 @@
-"""Checks whether memory, threads or descriptors grow while nodes come, fail and go: `soak.py MINUTES [results=FILE.xml]`."""
+"""Checks whether memory, threads or descriptors grow while nodes join, fail and leave: `soak.py MINUTES [results=FILE.xml]`."""
 import sys
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Tries races between threads of the JVM side with jcstress: `stress.py RESULTS.xml OPTION...`."""
+"""Tests races between threads of the JVM side with jcstress: `stress.py RESULTS.xml OPTION...`."""
 import sys
 from pathlib import Path
 

@@ -4,7 +4,7 @@ import java.lang.classfile.attribute.ModuleHashesAttribute;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** {@code RemoveModuleHashes FOLDER...}: lets the modules in these folders be linked into another image, by forgetting what they were linked with. */
+/** {@code RemoveModuleHashes FOLDER...}: removes the hashes of linked modules, so that the modules in these folders can be linked into another image. */
 class RemoveModuleHashes {
     public static void main(String[] folders) throws Exception {
         for (String folder : folders) {

@@ -138,7 +138,7 @@ class ValidatorTest(unittest.TestCase):
         self.change(SCENE, "!u!104 &2", "!u!104 &1")
         self.assert_problem(SCENE, "used twice")
 
-    def test_finds_text_that_is_no_yaml(self) -> None:
+    def test_finds_invalid_yaml(self) -> None:
         self.change(NODE, "^  m_Layer: 0", "  m_Layer 0")
         self.assert_problem(NODE, "could not find expected ':'")
 
@@ -166,7 +166,7 @@ class ValidatorTest(unittest.TestCase):
         self.change(ASMDEF, '"name": "Collektive.Unity"', '"name": "Collektive.Units"')
         self.assert_problem(ASMDEF, "Collektive.Units")
 
-    def test_finds_a_plugin_that_nobody_brings(self) -> None:
+    def test_finds_a_missing_plugin(self) -> None:
         self.change(ASMDEF, "Collektive.FlatBuffers.dll", "FlatBuffers.dll")
         self.assert_problem(ASMDEF, "FlatBuffers.dll")
 

@@ -1,4 +1,4 @@
-"""The code blocks of the README and of the site's pages, and which test each kind of them has."""
+"""Finds the code blocks of pages, and assigns each to the test of its kind."""
 import glob
 import os
 import re
@@ -27,7 +27,7 @@ class Block:
 
     @property
     def kind(self):
-        """What tests it; "" when nothing does."""
+        """The kind of test, or an empty text."""
         kinds = {
             "story": self.page in STORIES and (self.title or self.language in ("sh", "text")),  # test_stories.py
             "project": self.page in PROJECTS and self.language in ("fbs", "kotlin", "csharp"),  # test_readme.py and test_pages.py

@@ -1,4 +1,4 @@
-"""Uses ./collektive as its users do; shared by the acceptance tests."""
+"""Runs ./collektive for the acceptance tests."""
 import atexit
 import contextlib
 import json
@@ -17,10 +17,10 @@ from build.places import COLLEKTIVE, ROOT
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
-# Of all tests of this process: what one has compiled, the next one finds again at the same place.
+# Shared by all tests of this process, so that compiled code is reused.
 WORK = tempfile.mkdtemp(prefix="collektive-test-")
 atexit.register(shutil.rmtree, WORK, ignore_errors=True)
-# Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+# Background jobs of shells ignore SIGINT, and children inherit that unless this process has a handler.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -29,13 +29,13 @@ def collektive(*arguments, cwd=None):
 
 
 def last_error(result):
-    """The error line of a failed command."""
+    """Returns the error line of a failed command."""
     lines = [line for line in result.stderr.splitlines() if line.startswith("collektive: ")]
     return lines[-1] if lines else result.stderr
 
 
 def processes(*words):
-    """Command lines, by process id, of the processes that have all these words in theirs."""
+    """Returns the command lines that contain all words, by process id."""
     found = {}
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -71,7 +71,7 @@ class Folder(unittest.TestCase):
         self.addCleanup(self.end_processes)
 
     def end_processes(self) -> None:
-        """What a failed test left running would go on beside the others."""
+        """Kills processes that a failed test left running."""
         for pid in processes(self.folder + "/"):
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
@@ -80,7 +80,7 @@ class Folder(unittest.TestCase):
         return os.path.join(self.folder, *parts)
 
     def await_that(self, holds) -> None:
-        """Waits until holds() is true; a minute at the most."""
+        """Waits until holds() is true, for at most a minute."""
         end = time.monotonic() + 60
         while not holds():
             self.assertLess(time.monotonic(), end, "it does not come true")
@@ -99,7 +99,7 @@ class Project(Folder):
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
 
     def programs_jar(self):
-        """The jar that a run has made of the programs as they are now."""
+        """Returns the jar of the current programs, which a run has built."""
         project = Path(self.path("project"))
         return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"))
 

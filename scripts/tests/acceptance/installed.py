@@ -11,7 +11,7 @@ HEADLESS = ROOT / "unity/Headless~"
 
 
 def compile_project(project: Path) -> None:
-    """Compiles the package that lies in Packages/ of a project, its samples and a player for it, into bin/ there.
+    """Compiles the package in Packages/ of a project, its samples and a player into bin/.
 
     The stand-in of Unity with its physics and the player come from this checkout.
     """

@@ -1,4 +1,4 @@
-"""Runs of one project at the same time share what is compiled and the JVM's archive of classes: none damages what another reads."""
+"""Tests that simultaneous runs of one project safely share compiled code and the JVM's class archive."""
 import json
 import os
 import subprocess
@@ -11,7 +11,7 @@ RUNS = 3
 HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
 
 
-class AtOnce(Project):
+class SimultaneousCommandsTest(Project):
     def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self) -> None:
         with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
             file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")
@@ -32,7 +32,7 @@ class AtOnce(Project):
         files = [os.path.join(place, name) for place, _, names in os.walk(home) for name in names]
         archives = [file for file in files if file.endswith(".jsa")]
         self.assertEqual(len(archives), 1, files)
-        # The JVM itself checks every byte of it.
+        # The JVM verifies the archive's checksum.
         java = [os.path.join(jdk(), "bin/java"), "-Xshare:on", "-XX:+VerifySharedSpaces", f"-XX:SharedArchiveFile={archives[0]}", "-XX:+UseSerialGC"]
         checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)

@@ -1,4 +1,4 @@
-"""Each code block of the README and the site has a test: of its kind in blocks.py, here or in the file that is named there."""
+"""Tests that each code block of pages has a test, here or in the file that blocks.py names."""
 import os
 import re
 import shlex
@@ -9,9 +9,9 @@ from command import collektive
 
 from build.places import ROOT
 
-# Blocks that no test runs or compiles, and why.
+# Blocks without a test, and the reason.
 EXEMPT = {("docs/performance.md", "text"): "a report of measurements; the tutorial on profiling runs the command, and its test looks at the lines"}
-# Options of Unity's players that the pages use.
+# Options of Unity's players in pages.
 UNITY = {"-batchmode", "-nographics"}
 DESCRIPTORS = {"void": "V", "boolean": "Z", "int": "I", "long": "J", "byte[]": "[B", "String": "Ljava/lang/String;", "ByteBuffer": "Ljava/nio/ByteBuffer;"}
 
@@ -28,17 +28,17 @@ def test_each_block_has_a_test() -> None:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_no_block_is_written_so_that_tests_overlook_it(page) -> None:
+def test_no_code_block_is_overlooked(page) -> None:
     assert len(re.findall(r"(?m)^ *(?:```|~~~)", text(page))) == 2 * len(blocks(page))
 
 
 def commands():
-    """Where each line of commands stands, and its words."""
+    """Returns the place and the words of each command line."""
     found = []
     for block in of_kind("command"):
         lines = block.text.replace("\\\n", " ").splitlines()
         for line in lines:
-            # A console's lines without a prompt are commands, too, unless others have one.
+            # If a block has no prompts, all lines are commands.
             if line.startswith("$ ") or not any(other.startswith("$ ") for other in lines):
                 found.append((block.place, shlex.split(line.removeprefix("$ "), comments=True)))
     return found
@@ -61,7 +61,7 @@ def test_a_command_that_is_not_run_has_options_that_exist(place, words) -> None:
 
 
 def player_options():
-    """Options that PlayerArguments gives to the settings that are numbers, texts or choices."""
+    """Returns the command line options of players, which PlayerArguments derives from settings."""
     fields = re.findall(r"(?m)^ +public (?!.*\()([\w<>]+) (\w+)(?: =|;)", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
     prefix = re.search(r'Prefix = "([^"]+)"', text("unity/Runtime/Unity/Manager/PlayerArguments.cs"))[1]
     return {prefix + name for kind, name in fields if not kind.startswith("List")}

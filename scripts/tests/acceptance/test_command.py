@@ -1,4 +1,4 @@
-"""Commands and options that are unknown or make no sense are refused by name."""
+"""Tests errors about unknown and invalid commands and options."""
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,7 +10,7 @@ from build.places import ROOT
 
 
 @pytest.mark.quick
-class TheCommand(unittest.TestCase):
+class CommandTest(unittest.TestCase):
     def test_each_command_has_help(self) -> None:
         whole = collektive("--help")
         self.assertEqual(whole.returncode, 0)
@@ -37,8 +37,8 @@ class TheCommand(unittest.TestCase):
             self.assertTrue(Path(other, "sitemap.xml").exists())
 
 
-class TheTests(unittest.TestCase):
-    def test_a_fault_that_nobody_knows_is_named(self) -> None:
+class TestCommandTest(unittest.TestCase):
+    def test_an_unknown_fault_is_reported(self) -> None:
         result = collektive("test", "--faults", "no", "such fault")
         self.assertEqual(result.returncode, 2)
         self.assertIn("'no such fault'", last_error(result))
@@ -51,7 +51,7 @@ class TheTests(unittest.TestCase):
 
 
 @pytest.mark.quick
-class BadDemos(Folder):
+class InvalidDemoOptionsTest(Folder):
     def test_numbers_that_make_no_sense_are_refused_and_earlier_results_are_kept(self) -> None:
         manifest = Path(self.path("out", "manifest.json"))
         manifest.parent.mkdir()

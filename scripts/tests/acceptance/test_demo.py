@@ -1,4 +1,4 @@
-"""The case study, run as the README says, and runs that must be equal."""
+"""Tests the case study of the README, and reproducibility."""
 import csv
 import json
 import os
@@ -11,8 +11,8 @@ from command import HERE, SAMPLE, Folder, collektive
 
 
 @pytest.mark.alone
-class TheDemo(Folder):
-    """One whole demo, looked at from all sides: it takes a while."""
+class DemoTest(Folder):
+    """Checks the results of one whole demo."""
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -24,12 +24,12 @@ class TheDemo(Folder):
         with open(os.path.join(cls.out, "manifest.json")) as file:
             cls.whole = json.load(file)
 
-    def test_the_manifest_tells_what_was_run(self) -> None:
+    def test_the_manifest_describes_the_run(self) -> None:
         self.assertEqual(self.whole["nodes"], 500)
         self.assertEqual(self.whole["scenario"]["seconds"], 60)
         self.assertEqual(self.whole["scenario"]["seed"], 1)
         self.assertEqual(self.whole["scenario"]["program"], "gradient-ascent")
-        # Those that the scenario file does not name have their defaults.
+        # Other keys have their defaults.
         self.assertEqual(self.whole["scenario"]["fields"],
                          {"nodes": 500, "range": 3, "bodyRadius": 0.25, "source": [25, 0, 0], "obstacles": True, "fieldScale": 1})
         self.assertEqual(self.whole["ticks"], 1200)
@@ -57,7 +57,7 @@ class TheDemo(Folder):
             phases = [float(row[name + "_ms"]) for name in ("sense", "rules", "step", "act", "physics", "other")]
             self.assertAlmostEqual(sum(phases), float(row["tick_ms"]), places=3, msg=row["second"])
             self.assertGreater(min(phases), 0, row)
-        # Beside the ticks a run makes its page at the end.
+        # A run writes its page after the ticks.
         seconds = sum(float(row["tick_ms"]) for row in rows) * 20 / 1000
         self.assertLess(0.8 * self.whole["wall_seconds"], seconds)
         self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
@@ -82,7 +82,7 @@ class TheDemo(Folder):
         self.assertEqual(len(frames[-1][1]), 500)
 
     def test_it_is_fast_enough(self) -> None:
-        # The targets are 2 and 33 ms on a machine of two cores that does nothing else; a busy one may take twice as long.
+        # The targets are 2 and 33 ms on two idle cores. A busy machine may take twice as long.
         self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
         self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
 
@@ -97,7 +97,7 @@ class TheDemo(Folder):
 
 
 def crosses(start, end, box):
-    """Whether the straight way between two ground points meets a box (seen from above)."""
+    """Returns whether a line between two ground points crosses a box, seen from above."""
     low, high = 0.0, 1.0
     for axis, (a, b) in enumerate(zip(start, end)):
         centre, size = box["centre"][2 * axis], box["size"][2 * axis]
@@ -121,7 +121,7 @@ class Repeatability(Folder):
         self.assertNotEqual(digests[0], digests[2])
 
     def test_threads_and_processes_change_nothing(self) -> None:
-        """Bodies that crowd around the source, where each pushes many others."""
+        """Tests bodies that crowd around the source and push each other."""
         with open(os.path.join(SAMPLE, "scenario.json")) as file:
             scenario = json.load(file)
         for key in ("scripts", "schema", "programs"):
@@ -147,7 +147,7 @@ class Repeatability(Folder):
         self.assertEqual(self.without_clock("a"), self.without_clock("b"))
 
     def without_clock(self, out):
-        """What of a run's results depends on its inputs alone, as headless.md tells."""
+        """Returns the results of a run without the times that headless.md lists."""
         def is_clock(key):
             return "_ms" in key or key == "wall_seconds"
         with open(self.path(out, "metrics.csv")) as file:

@@ -1,4 +1,4 @@
-"""However a run ends, exit code 0 means that the ticks asked for were done."""
+"""Tests that exit code 0 means that all ticks were done."""
 import csv
 import os
 import socket
@@ -12,7 +12,7 @@ from build.places import COLLEKTIVE
 
 
 class WholeRuns(Project):
-    """Exit code 0 means that the ticks asked for were done."""
+    """Tests the ends of runs."""
 
     SCRIPT = """
         private void Update()
@@ -131,7 +131,7 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, expected, result.stderr)
 
     def fails_at_tick_4(self, code):
-        """The messages of a run whose script has that code at tick 4, and which is not complete."""
+        """Runs a script with this code at tick 4, expects an incomplete run, and returns its messages."""
         result = self.at_tick_4(code)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")

@@ -1,4 +1,4 @@
-"""Code of the pages that is no file of a tutorial compiles, too: each piece in a place that gives it what the text around it speaks of."""
+"""Compiles code fragments of pages, each with the declarations that it needs."""
 import glob
 import json
 import os
@@ -13,7 +13,7 @@ from build import inputs, projects
 from build.places import ROOT
 
 USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
-# What stands around members, and around statements.
+# Code around members and statements.
 CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
 SCENE = "public sealed class Users : SceneBuilder\n{\n    protected override void Build(SimulationManager manager)\n    {\n    }\n\n%s\n}"
 METHOD = CLASS % ("    private void Show(ActuatorData data, ulong ageInTicks) { }\n\n"
@@ -34,7 +34,7 @@ import swarm.SensorData
 
 
 def fragments(language):
-    """Where each code block of the package's pages that is no file of a tutorial begins, and its code."""
+    """Yields place and code of each code block that is not a file of a tutorial."""
     return [(block.place, block.text) for block in of_kind("fragment") if block.language == language]
 
 

@@ -1,4 +1,4 @@
-"""What users read when something is wrong with what they gave, or with where they stand."""
+"""Tests messages about invalid input and environments."""
 import os
 import subprocess
 
@@ -30,7 +30,7 @@ class Messages(Project):
         self.assertIn("there was no node in any tick: the scene builder must make GameObjects with the component Node", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "there was no node in any tick")
 
-    def test_programs_without_a_mark_are_told_how_to_mark_them(self) -> None:
+    def test_programs_without_a_runtime_mark_are_rejected_with_the_solution(self) -> None:
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
         self.assertIn('the jars contain no programs: annotate the function with @Program("brightest")', last_error(self.run_it()))
 
@@ -46,7 +46,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("stopped at tick 1: all its rounds failed; the messages are above (--keep-going goes on)", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
-        # A full heap names the setting to raise, inlined code the line of its call.
+        # The message about a full heap contains the setting, and errors in inlined code the line of the call.
         told = result.stderr + result.stdout
         self.assertRegex(told, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
         self.assertRegex(told, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
@@ -82,7 +82,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out 雪"))["folder"], odd)
 
-    def test_what_the_shell_does_not_give_is_said_or_done_without(self) -> None:
+    def test_unusual_shell_environments_work_or_are_reported(self) -> None:
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
         self.assertIn("the stack of processes is limited to 64 KB, and the tools need 1024: ulimit -s 8192", small.stderr)

@@ -1,4 +1,4 @@
-"""A folder of outputs is of one run, and its manifest says whether it is complete."""
+"""Tests output folders: each belongs to one run, and the manifest contains the outcome."""
 import json
 import os
 import shutil
@@ -45,7 +45,7 @@ class Outputs(Project):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("has results of a run: manifest.json, metrics.csv, replay.html, run.clkrec; name another folder", last_error(refused))
         self.assertEqual(self.contents(), before)
-        # What is not asked for any more does not stay either.
+        # Outputs that are no longer requested are removed.
         self.change("lamps.json", '"replay": true, "record": true', '"replay": false')
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
@@ -57,7 +57,7 @@ class Outputs(Project):
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 
-    def test_a_killed_run_leaves_its_rows_and_a_manifest_that_says_so(self) -> None:
+    def test_a_killed_run_leaves_its_rows_and_an_incomplete_manifest(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
@@ -76,7 +76,7 @@ class Outputs(Project):
     def test_links_in_the_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
-        # At the moment of the tables' creation.
+        # When the tables are created.
         links = " ".join(f'System.Diagnostics.Process.Start("ln", "-sf {self.path("outside")} {self.path("out", name)}").WaitForExit();' for name in names)
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", f"Build(SimulationManager manager)\n        {{\n            {links}")
         with open(self.path("outside"), "w") as file:

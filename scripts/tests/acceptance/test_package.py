@@ -1,4 +1,4 @@
-"""The package, unpacked into a project of its own."""
+"""Tests the package, installed in a project."""
 import hashlib
 import json
 import os
@@ -18,7 +18,7 @@ from build.places import BUILD, ROOT
 
 
 class InstalledProject:
-    """A project of a user who installed the package from its tarball, with a player for it."""
+    """A project with the package installed from its tarball, and a player."""
 
     def __init__(self, archive) -> None:
         self.folder = tempfile.mkdtemp(prefix="collektive-project-")
@@ -34,7 +34,7 @@ class InstalledProject:
             json.dump(scenario, file)
 
     def play(self, hidden=(), **environment):
-        """Runs its scene with these variables alone, and with nothing in the hidden folders."""
+        """Runs the scene with only these environment variables, and with empty hidden folders."""
         command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
                    "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"]
         if hidden:
@@ -53,7 +53,7 @@ class InstalledProject:
 
 
 class Packaged(unittest.TestCase):
-    """A tarball made with OPTIONS, and a project that has it installed."""
+    """A tarball built with OPTIONS, and a project with it."""
     OPTIONS = ()
 
     @classmethod
@@ -70,7 +70,7 @@ class Packaged(unittest.TestCase):
 
 
 @pytest.mark.xdist_group("package")
-class ThePackage(Packaged):
+class PackageTest(Packaged):
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
 
@@ -125,12 +125,12 @@ class ThePackage(Packaged):
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
     def test_its_assembly_does_not_depend_on_where_it_was_built(self) -> None:
-        # Symbols have the paths of the sources, and the assembly would have the symbols' id.
+        # Symbols contain paths of sources, and the assembly contains the id of its symbols.
         with open(os.path.join(self.root, "unity/Runtime/Plugins/Collektive.FlatBuffers.dll"), "rb") as file:
             self.assertNotIn(b".pdb", file.read())
 
     def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self) -> None:
-        # No file of the project and no variable says where the clone is.
+        # The project and the environment do not refer to the clone.
         self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, self.project.folder], capture_output=True, text=True).stdout, "")
         result = self.project.play(JAVA_HOME=jdk())
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
@@ -149,14 +149,14 @@ class ThePackage(Packaged):
 
 
 @pytest.mark.xdist_group("package with a JVM")
-class ThePackageWithAJvm(Packaged):
+class JvmPackageTest(Packaged):
     OPTIONS = ("--jre",)
 
     @property
     def home(self):
         return os.path.join(self.root, "unity/Jvm~/linux-x64")
 
-    def test_it_is_told_from_the_one_without(self) -> None:
+    def test_its_name_differs_from_the_package_without_a_jvm(self) -> None:
         self.assertRegex(os.path.basename(self.archive), r"^org\.collektive\.unity-[0-9.]+-jre\.tgz$")
 
     def test_its_jvm_is_whole_with_archive_licences_debugger_and_recorder(self) -> None:

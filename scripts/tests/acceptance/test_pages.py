@@ -1,4 +1,4 @@
-"""What the pages tell a user to type works."""
+"""Tests the commands and code of pages."""
 import json
 import os
 import re
@@ -43,7 +43,7 @@ import org.collektive.api.Program
 """
 
     def test_its_example_runs(self) -> None:
-        """The schema, the Kotlin and the C# of the page, in the scene above."""
+        """Tests the page's schema, Kotlin and C# in the scene above."""
         schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
         os.makedirs(self.path("programs"))
         os.makedirs(self.path("scene"))

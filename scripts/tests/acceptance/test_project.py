@@ -1,4 +1,4 @@
-"""A project outside the clone, with its own schema, Kotlin, C# and scenario, runs by one command."""
+"""Tests a project outside the clone with its own schema, Kotlin, C# and scenario."""
 import csv
 import os
 import shutil
@@ -8,14 +8,14 @@ import pytest
 from command import Project, collektive, jdk, last_error
 
 
-class AForeignProject(Project):
-    """It is run by one command."""
+class ProjectTest(Project):
+    """Runs the project with one command."""
 
     def run_it(self, *arguments):
         return collektive("run", "project/lamps.json", "--out", self.path("out"), "--overwrite", *arguments, cwd=self.folder)
 
     def refused(self, *words, arguments=()):
-        """Runs it, and expects one clear error with all the words."""
+        """Runs the project, and expects one error that contains all words."""
         result = self.run_it(*arguments)
         self.assertNotEqual(result.returncode, 0)
         for word in words:
@@ -27,11 +27,11 @@ class AForeignProject(Project):
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
         manifest = self.manifest(self.path("out"))
-        # Ten lamps in a row: after ten rounds the last one's brightness has reached all; each hears its neighbours.
+        # Ten lamps in a row: after ten rounds, the brightness of the last one has reached all.
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
-    def test_an_edit_counts_wherever_a_link_or_an_include_leads(self) -> None:
+    def test_edits_behind_links_and_includes_are_detected(self) -> None:
         os.rename(self.path("project", "scene"), self.path("elsewhere"))
         os.symlink(self.path("elsewhere"), self.path("project", "scene"))
         os.makedirs(self.path("project", "programs", "target", ".git"))
@@ -50,7 +50,7 @@ class AForeignProject(Project):
             digests |= {manifest["digest"], *manifest["inputs"].values()}
             if edit:
                 self.change(*edit)
-        # Of four runs, and of three versions of what was edited once.
+        # Of four runs and three versions of the edited files.
         self.assertEqual(len(digests), 4 + 3 * 2)
 
     def test_fields_can_be_set_on_the_command_line(self) -> None:
@@ -72,7 +72,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         # Two rounds of each lamp in ten ticks, and 18 links.
         self.assertEqual(self.messages()["sent"], 2 * 18)
-        # All lamps count, though none was due in the last tick.
+        # All lamps count, although none was due in the last tick.
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
 
     def test_its_network_decides_what_arrives(self) -> None:
@@ -98,7 +98,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("10 ticks of 10 nodes and 18 links; 10 rounds failed", result.stdout)
 
-    def test_no_start_waits_for_the_events_of_a_recorder_that_nobody_asked_for(self) -> None:
+    def test_starts_do_not_wait_for_events_without_a_recording(self) -> None:
         self.change("lamps.json", '"-Xss2m"', '"-Xlog:class+load:file=classes.txt"')
         result = self.run_it("--trust-jvm")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -154,7 +154,7 @@ class AForeignProject(Project):
         self.change("lamps.json", "light.fbs", "dark.fbs")
         self.refused("schema", "dark.fbs")
 
-    def test_an_unknown_program_is_named_with_those_that_there_are(self) -> None:
+    def test_an_unknown_program_is_reported_with_the_existing_ones(self) -> None:
         self.change("lamps.json", '"brightest"', '"darkest"')
         self.refused("darkest", "brightest")
 
@@ -162,7 +162,7 @@ class AForeignProject(Project):
         self.change("lamps.json", "Lamps.LampScene", "Lamps.Nonesuch")
         self.refused("Lamps.Nonesuch", "SceneBuilder")
 
-    def test_an_unknown_field_is_named_with_those_that_there_are(self) -> None:
+    def test_an_unknown_field_is_reported_with_the_existing_ones(self) -> None:
         self.refused("brightness", "lamps", "loop", arguments=("--set", "brightness=3"))
 
     def test_a_field_of_another_type_is_named(self) -> None:
@@ -173,7 +173,7 @@ class AForeignProject(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("nowhere.json", last_error(result))
 
-    def test_a_jvm_that_is_none_is_named(self) -> None:
+    def test_an_invalid_jvm_is_reported(self) -> None:
         self.change("lamps.json", '"jvm": {', '"jvm": { "location": "Folder", "home": "/nowhere/jdk",')
         self.refused("lamps.json:11", "'jvm.home' is refused", "--trust-jvm")
         self.refused("/nowhere/jdk", arguments=("--trust-jvm",))
@@ -199,7 +199,7 @@ class AForeignProject(Project):
         self.change("lamps.json", '"maximumHeapMb"', '"maximumHeep"')
         self.refused("jvm.maximumHeep", "maximumHeapMb")
 
-    def test_a_jar_that_is_none_is_named(self) -> None:
+    def test_an_invalid_jar_is_reported(self) -> None:
         with open(self.path("project", "broken.jar"), "w") as file:
             file.write("this is no jar")
         self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')

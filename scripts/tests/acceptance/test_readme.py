@@ -1,11 +1,11 @@
-"""The project of the README is complete as it is written there, and short."""
+"""Tests that the project in the README is complete and short."""
 import os
 
 import pytest
 from blocks import of_kind
 from command import Folder, collektive
 
-# The scene, which an editor's user would make by hand: ten nodes in a row, of which the first six sense more than 90.
+# Ten nodes in a row, of which the first six sense more than 90. In Unity, a user builds the scene in the editor.
 SCENE = """
 using System.Collections.Generic;
 using Collektive.Unity;
@@ -45,12 +45,12 @@ SCENARIO = """{
 
 
 def project():
-    """The code of the section "Example": schema, program, sensor, actuator."""
+    """Returns schema, program, sensor and actuator of the section "Example"."""
     return [block.text for block in of_kind("project") if block.page == "README.md"]
 
 
 @pytest.mark.quick
-class TheReadmesProject(Folder):
+class ReadmeTest(Folder):
     def test_it_has_at_most_25_lines_of_its_authors(self) -> None:
         # All lines but empty ones: imports and braces count.
         lines = [line for block in project() for line in block.splitlines() if line.strip()]
@@ -68,5 +68,5 @@ class TheReadmesProject(Folder):
                 file.write(text)
         result = collektive("run", "swarm.json", "--out", self.path("out"), cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
-        # Nodes at 4.5 m to 9.5 m sense more than 90; the last one lies at 13.5 m, four links on.
+        # Nodes at 4.5 m to 9.5 m sense more than 90. The last one is at 13.5 m, four links further.
         self.assertEqual(self.manifest(self.path("out"))["end"], {"farthest": 4, "coloured": 1})

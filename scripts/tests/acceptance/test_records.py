@@ -25,7 +25,7 @@ def with_another_jar(record):
 
 
 class Records(Project):
-    """Recorded runs of the foreign project."""
+    """Tests recorded runs of the project."""
 
     def setUp(self) -> None:
         super().setUp()
@@ -77,7 +77,7 @@ class Records(Project):
         result = collektive("replay", elsewhere, "--programs", self.programs_jar())
         self.assertEqual(result.returncode, 0, result.stderr)
 
-    def test_a_damaged_record_says_where_and_is_replayed_up_to_there(self) -> None:
+    def test_a_damaged_record_is_replayed_up_to_the_reported_position(self) -> None:
         with open(self.a, "rb") as file:
             data = file.read()
         with open(self.a, "wb") as file:
@@ -87,7 +87,7 @@ class Records(Project):
         self.assertRegex(last_error(result), r"damaged at byte \d+, after tick 9")
         self.assertIn("9 ticks replayed, all digests equal the record", result.stdout)
 
-    def test_what_is_no_record_is_refused(self) -> None:
+    def test_a_file_that_is_not_a_record_is_rejected(self) -> None:
         for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
             result = collektive(*arguments)
             self.assertEqual(result.returncode, 2, arguments)

@@ -1,11 +1,11 @@
-"""A run is repeated from its manifest alone."""
+"""Tests repeating a run from its manifest."""
 import os
 
 from command import Project, collektive, last_error
 
 
 class Repetitions(Project):
-    """A run is repeated from its manifest alone."""
+    """Tests repeating a run from its manifest."""
 
     def setUp(self) -> None:
         super().setUp()
@@ -44,7 +44,7 @@ class Repetitions(Project):
         self.assertIn("--folder", last_error(result))
         self.assertEqual(self.repeat("--folder", self.path("moved")).returncode, 0)
 
-    def test_what_is_no_manifest_is_refused(self) -> None:
+    def test_a_file_that_is_not_a_manifest_is_rejected(self) -> None:
         for path, word in [(self.path("nowhere.json"), "no file"), (self.path("project", "lamps.json"), "is not the manifest of a run")]:
             result = collektive("repeat", path)
             self.assertEqual(result.returncode, 1)

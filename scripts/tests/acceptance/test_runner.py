@@ -1,4 +1,4 @@
-"""The runner of the C# tests."""
+"""Tests the runner of the C# tests."""
 import os
 import subprocess
 import textwrap
@@ -14,9 +14,9 @@ RUNNER = os.path.join(BUILD, "csharp/Collektive.TestRunner.exe")
 
 
 @unittest.skipUnless(os.path.exists(RUNNER), "this system has no package of NUnit")
-class TheTestRunner(Folder):
+class TestRunnerTest(Folder):
     def run_fixture(self, test, *options):
-        """Runs a fixture with this test: exit code and output."""
+        """Runs a fixture with one test. Returns exit code and output."""
         source = """
             using NUnit.Framework;
 

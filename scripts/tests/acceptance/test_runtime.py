@@ -33,7 +33,7 @@ class Runtimes(Project):
         repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB))
         repack(LIBRARY, self.jar("stdlib"), lambda name: name.startswith(STDLIB) or "stdlib" in name)
         repack(PLUGIN[0], self.path("project", "plugin.jar"))
-        # Something of the standard library and of the links.
+        # Uses the standard library and links.
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     "val mine = sensors.brightness() + 0f * (hopDistanceTo(localId == 0) + with(device) { distances() }.local.value.toInt())")
         self.change("programs/Brightest.kt", "(sensors: SensorData)", "(sensors: SensorData, device: Device)")
@@ -137,7 +137,7 @@ class Runtimes(Project):
         self.use_jar(marked)
         self.refused("programs.jar was compiled with different jars than those of the Collektive runtime of " + self.path("project", "collektive"))
 
-        # A jar of another tool has no mark.
+        # A jar of another tool does not name its runtime.
         repack(marked, self.path("project", "programs.jar"), lambda name: name != "META-INF/MANIFEST.MF")
         self.refused("links to it.unibo.collektive.stdlib.", "which the Collektive runtime of", "one of its jars is missing or of another version")
 
@@ -158,7 +158,7 @@ class Runtimes(Project):
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
         self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
-        # As a plugin for a compiler with another interface.
+        # Like a plugin for another version of the compiler.
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be made for another version of it")
 

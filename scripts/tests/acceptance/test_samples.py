@@ -1,4 +1,4 @@
-"""Each sample's scenario does what its page says."""
+"""Tests that each sample behaves as its page describes."""
 import csv
 import json
 import os
@@ -8,8 +8,8 @@ import replay
 from command import SAMPLE, Folder, collektive
 
 
-class TheSamples(Folder):
-    """Each sample's scenario as it is, without its replay."""
+class SamplesTest(Folder):
+    """Runs each sample's scenario without its replay."""
 
     def rows(self, sample, **changes):
         """The metrics of each second, with these keys of the scenario changed."""
@@ -29,7 +29,7 @@ class TheSamples(Folder):
             return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
 
     def under_each_schedule(self, sample, **changes):
-        """Each schedule with the metrics; under the asynchronous one a quarter of the nodes is due in a tick."""
+        """Yields each schedule with the metrics. With the asynchronous one, a quarter of the nodes is due in a tick."""
         for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
             yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
             shutil.rmtree(self.path("samples"))
@@ -43,7 +43,7 @@ class TheSamples(Folder):
             self.assertEqual(rows[-1]["connected"], 1, schedule)
             self.assertTrue(90 <= rows[-1]["length"] <= 125, schedule)
             _, frames = replay.read(self.path("out", "replay.html"))
-            # Every frame shows the whole channel, whoever was due in its tick.
+            # Every frame shows the whole channel, also nodes that were not due.
             shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
             self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
 
@@ -83,7 +83,7 @@ class TheSamples(Folder):
         for row in before, after:
             self.assertEqual(row["connected"], 1)
             self.assertLess(row["channel_nodes"], 200, "of 600")
-        # The straight way has 90 m, the one around the near ends of the walls 98 m, and around the far ends 107 m.
+        # The straight path is 90 m long, the path around the near ends of the walls 98 m, and around the far ends 107 m.
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
 

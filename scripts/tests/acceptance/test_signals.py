@@ -1,4 +1,4 @@
-"""A signal to a command ends all of it: nothing goes on behind the user's back, and the exit code tells of it."""
+"""Tests that a signal to a command ends all its processes and sets the exit code."""
 import os
 import signal
 import subprocess
@@ -45,7 +45,7 @@ class Signals(Project):
                 self.assertGreater(self.manifest(self.path("out"))["ticks"], 0)
                 os.remove(self.path("out", "metrics.csv"))
 
-    def test_a_scene_that_is_being_built_is_given_up(self) -> None:
+    def test_a_signal_cancels_the_build_of_a_scene(self) -> None:
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
                     "            System.Threading.Thread.Sleep(60000);")
         for number in CODES:

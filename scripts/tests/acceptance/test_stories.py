@@ -1,4 +1,4 @@
-"""The tutorials are told as they are done: their files are written, their commands run, and these print what the page shows.
+"""Follows the tutorials: writes their files, runs their commands, and compares the output with the page.
 
 A block with a title is a file of the reader's project; a later block of the same title replaces it. Lines of a block `sh` are commands. A block
 `text` below them shows lines of what they print, in order; `...` stands for anything.
@@ -16,12 +16,12 @@ from command import WORK
 
 from build.places import ROOT
 
-# These say by a code of 1 that two runs differ.
+# These exit with 1 if two runs differ.
 COMPARE = ("collektive diff ", "collektive replay ")
 
 
 def missing(shown, printed):
-    """The first line that should have been printed after the lines before it, or None."""
+    """Returns the first expected line that is missing in the output, or None."""
     at = 0
     for line in filter(None, map(str.strip, shown.splitlines())):
         found = re.compile(re.escape(line).replace(r"\.\.\.", ".*")).search(printed, at)
@@ -39,7 +39,7 @@ def folder():
 
 
 def run(commands, folder):
-    """What the commands print; each must succeed."""
+    """Runs commands, which must succeed, and returns their output."""
     printed = ""
     environment = {**os.environ, "PATH": f"{ROOT}:{os.environ['PATH']}"}
     for command in commands.splitlines():
@@ -50,7 +50,7 @@ def run(commands, folder):
 
 
 @pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
-def test_a_tutorial_does_what_it_tells(page, folder) -> None:
+def test_tutorials_work_as_written(page, folder) -> None:
     told, printed = blocks(page), ""
     assert any(block.language == "sh" for block in told)
     for block in told:
@@ -69,7 +69,7 @@ def test_a_tutorial_does_what_it_tells(page, folder) -> None:
 
 
 def see_neighbours(page) -> None:
-    """The replay of nodes that answer no numbers is coloured by how many neighbours they have."""
+    """Counts neighbours, which colour the replay of nodes without numbers in their answers."""
     _, nodes, links = replay.read(page)[1][-1]
     for node, (*_, value) in nodes.items():
         assert value == pytest.approx(sum(node in link for link in links), abs=0.01)

@@ -116,7 +116,7 @@ def main() -> None:
     arguments = parser.parse_args()
     runs, kinds = arguments.runs, arguments.kinds
     places = files.everywhere()
-    # Jobs of scripts ignore SIGINT, and hand that down to the runs. One with a handler begins with the default.
+    # Background jobs of shells ignore SIGINT, and children inherit that unless this process has a handler.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes each fault of faults.json happen in a process of its own and prints what comes of it: a table, and "N passed, N failed".
+"""Causes each fault of faults.json in a separate process, and prints a table and "N passed, N failed".
 
 faults.py [--all] [WORDS]... [--results FILE.xml]; --all: on every runtime and JVM, else on Mono and the newest JVM alone. With WORDS only faults with
 these words in their name; FILE gets the results as JUnit XML.
@@ -29,7 +29,7 @@ ORDER = ["next tick", "next session", "next start", "restart"]
 
 
 class Trial:
-    """The files of one fault in a folder of its own."""
+    """The files of one fault in a separate folder."""
 
     def __init__(self, fault: dict[str, Any], places: dict[str, Any], runtime: str, jdk: str, folder: str) -> None:
         self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
@@ -45,13 +45,13 @@ class Trial:
         return self.path(name)
 
     def home(self, kind: str) -> str:
-        """The JVM with one thing wrong: links to the real one around it."""
+        """Returns a JVM with one invalid file and links to the other files."""
         if kind == "missing":
             return "/nowhere/jvm"
         home = self.path("home")
         wrong = {"no-libjvm": "lib/server/libjvm.so", "cut-libjvm": "lib/server/libjvm.so", "no-modules": "lib/modules",
                  "cut-modules": "lib/modules", "old": "release"}[kind]
-        # The real files but the wrong one: programs find their JVM by the place of the file, not of the link.
+        # Copies these files, because programs find their JVM by the resolved path.
         for where, folders, names in os.walk(self.jdk):
             inside = os.path.relpath(where, self.jdk)
             if inside.split(os.sep)[0] in ("jmods", "include", "man", "demo", "legal", "docs"):
@@ -99,7 +99,7 @@ class Trial:
         fault = self.fault
         words = [self.runtime, "--debug", self.places["program"], "home=" + self.jdk, "host=" + self.places["host"], "jar=" + self.places["jar"]]
         words += [f"bad-{what}=" + getattr(self, what)(fault[what]) for what in ("home", "host", "jar") if what in fault]
-        # What ends a session is a tick that does not end: that costs its limit.
+        # Faults that end a session are ticks that do not end, so they take the step limit.
         words += ["limit=" + str(fault.get("limit", 1500 if fault["works"] == "next session" else 30000))]
         words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
         return words + ["option=" + option for option in fault.get("options", [])]
@@ -108,7 +108,7 @@ class Trial:
         resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
     def run(self) -> tuple[str, str, str]:
-        """Returns what is wrong ("" for nothing), the line that the user reads, and the whole output."""
+        """Returns the failure or an empty text, the line that the user sees, and which parts still work."""
         environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

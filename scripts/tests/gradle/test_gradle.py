@@ -1,4 +1,4 @@
-"""Gradle builds and tests the modules, does nothing twice, and its jars contain the same as Maven's."""
+"""Tests that Gradle builds and tests the modules incrementally, with the same jars as Maven."""
 import os
 import re
 import shutil

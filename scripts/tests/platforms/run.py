@@ -11,12 +11,12 @@ from build.console import Failure
 from build.places import ROOT
 from tests import junit
 
-# Tests that wait, or that repeat others: an emulated JVM takes seconds to start.
+# Omits slow and repeating tests, because an emulated JVM takes seconds to start.
 LEFT_OUT = "slow|repeats"
 
 
 def run(results: Path, names: list[str]) -> int:
-    """Returns the exit code. The notes say what cannot be run here."""
+    """Runs the tests and returns the exit code. Notes list the tests that cannot run here."""
     notes = results / "notes"
     lock.shared()
     try:
@@ -62,7 +62,7 @@ def run_shim(name: str, results: Path) -> int:
 
 
 def describe(name: str, report: Path) -> list[str]:
-    """Returns how many tests ran, and why each of the others was skipped."""
+    """Returns the number of executed tests, and the reasons for skipped ones."""
     skipped = junit.read_skipped(str(report))
     ran = len(junit.read(str(report)))
     return [f"{name}: {ran} tests ran, {len(skipped)} were skipped\n", *(f"  {test}: {reason}\n" for test, reason in skipped.items())]

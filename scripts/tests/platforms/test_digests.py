@@ -1,4 +1,4 @@
-"""The case study's recorded frames on the JVM of each platform that can be run here."""
+"""Replays the case study's record on the JVM of each platform that can run here."""
 import json
 import os
 import subprocess
@@ -11,7 +11,7 @@ from build.places import BUILD, COLLEKTIVE, ROOT
 
 TOOLS = os.path.join(ROOT, "jvm-host/tools/target/collektive-tools.jar")
 HOST = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
-# By platform: the words that run its java here.
+# The command that runs java, by platform.
 JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
 
 

@@ -1,4 +1,4 @@
-"""What ./collektive package --all publishes: its size, and that it can be made again. Needs the native libraries of all platforms."""
+"""Tests the size and reproducibility of ./collektive package --all. Needs the native libraries of all platforms."""
 import hashlib
 import os
 import tarfile
@@ -10,7 +10,7 @@ from build import package
 from build.jdk import feature_version, find_jdk
 from build.places import BUILD
 
-# Those that were built.
+# The built libraries.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
 MEGABYTE = 1_000_000
 

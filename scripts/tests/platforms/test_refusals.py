@@ -1,4 +1,4 @@
-"""What a start with a JVM of another platform, or at an unlucky path, tells: the native libraries that can be run here, and real JVMs."""
+"""Tests errors about JVMs of another platform or at an unsupported path, with real JVMs."""
 import json
 import os
 import subprocess
@@ -9,16 +9,21 @@ import pytest
 from build.places import BUILD
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
-# By platform that can be run here: the words that run its java.
+# The command that runs java, by platform that can run here.
 JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
 NAMES = {"win-x64": "Windows on x86_64", "linux-x64": "Linux on x86_64", "linux-arm64": "Linux on aarch64"}
 HERE = os.environ["COLLEKTIVE_JDK"]
-# In the code page of no Windows, as one of its characters is Japanese and one German.
+# No Windows code page contains both a Japanese and a German character.
 FOREIGN = "Programmgröße 場"
 
 
+<<<<<<< HEAD
 def start(platform: str, home: str, case: str = "options_that_make_the_jvm_talk", **variables: str) -> tuple[int, str]:
     """Starts a JVM by the platform's native library: the exit code, 0 for a start, and what it tells."""
+=======
+def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
+    """Starts a JVM with the platform's native library. Returns the exit code, 0 for success, and the output."""
+>>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}
     result = subprocess.run([*JAVA[platform][:-1], program, case], env=environment, cwd=os.path.dirname(program), stdout=subprocess.PIPE,
@@ -26,14 +31,24 @@ def start(platform: str, home: str, case: str = "options_that_make_the_jvm_talk"
     return result.returncode, result.stdout.decode(errors="replace")
 
 
+<<<<<<< HEAD
 def home_of(platform: str) -> str:
     """The same as the suite of the library's own tests has: on arm64 with a command that runs here."""
+=======
+def home_of(platform):
+    """Returns the JRE that the library's own tests use."""
+>>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     made = os.path.join(CROSS, "jre-" + platform)
     return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
 
 
+<<<<<<< HEAD
 def without_release(home: str, folder: Path) -> str:
     """The same JVM, which no longer says of what platform it is."""
+=======
+def without_release(home, folder):
+    """Copies the JVM without its file release, which names the platform."""
+>>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     made = os.path.join(folder, "home")
     os.mkdir(made)
     for name in os.listdir(home):

@@ -1,4 +1,4 @@
-"""The scripts in a folder of their own, so that tests can lock, build and remove its outputs."""
+"""A copy of the scripts whose outputs tests can lock, build and remove."""
 import os
 import shutil
 import signal
@@ -46,7 +46,7 @@ class Checkout:
         (self.root / "gate").touch()
 
     def close_gate(self) -> None:
-        """Lets `wait_at_gate` wait until the gate was open for writing, and is closed again."""
+        """Makes `wait_at_gate` wait until the gate has been opened and closed."""
         (self.root / "gate").unlink()
         os.mkfifo(self.root / "gate")
 
@@ -68,7 +68,7 @@ class Checkout:
 
     @staticmethod
     def kill(process: subprocess.Popen[str]) -> None:
-        """Kills a program with all that it started."""
+        """Kills a program and its children."""
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 

@@ -7,5 +7,5 @@ from checkout import Checkout
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Checkout:
-    """A checkout of its own."""
+    """Returns a separate checkout."""
     return Checkout(tmp_path)

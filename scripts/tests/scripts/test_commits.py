@@ -1,4 +1,4 @@
-"""The check of commits, which pull requests run."""
+"""Tests the check of commit subjects."""
 import subprocess
 import sys
 from pathlib import Path

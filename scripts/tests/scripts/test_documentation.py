@@ -1,4 +1,4 @@
-"""Every public member has documentation: of the Kotlin modules with a public API, of the C header. For C# the build counts them (check_documentation)."""
+"""Tests that every public member of Kotlin modules and the C header has documentation. The build checks C#."""
 import glob
 import os
 import re
@@ -9,7 +9,7 @@ import pytest
 from build.places import ROOT
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"dsl", "stdlib"})
-# Explicit API mode: what is public says so. An override has the documentation of what it overrides, a companion that of its class.
+# Public declarations have a modifier (explicit API mode). Overrides and companions inherit documentation.
 PUBLIC = re.compile(r"^\s*(?:@\w+(?:\([^)]*\))?\s+)*(?:public|protected)\s(?!(?:final |open )?override\b|companion object)")
 NAME = re.compile(r"\b(?:val|var|fun|class|interface|object|typealias)\s+(?:<[^>]*>\s*)?(?:[\w<>?, *]+\.)?(\w+)")
 HEADER = "native-shim/include/collektive_shim.h"
@@ -62,7 +62,7 @@ def test_every_declaration_of_the_c_header_has_a_comment() -> None:
 
 
 def test_the_editor_part_has_no_public_type() -> None:
-    """So it has no public members, which the build would not count: it does not compile that part with documentation."""
+    """Checks that the editor assembly is internal, because the build does not check its documentation."""
     types = []
     for path in sorted(glob.glob(os.path.join(ROOT, "unity/Editor/**/*.cs"), recursive=True)):
         with open(path) as file:

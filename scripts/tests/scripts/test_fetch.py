@@ -1,4 +1,4 @@
-"""Fetched folders: filled once for what they depend on, started over after an interruption or an error."""
+"""Tests fetched folders, which are filled once per key, and again after an interruption or error."""
 import hashlib
 import re
 from pathlib import Path

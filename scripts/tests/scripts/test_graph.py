@@ -1,4 +1,4 @@
-"""The build graph: builds what changed, starts over after an interruption, and does nothing otherwise."""
+"""Tests that the build graph builds only changes and recovers from interruptions."""
 import time
 
 import pytest
@@ -69,7 +69,7 @@ def test_an_error_is_shown_and_ends_the_command(project: Checkout) -> None:
     assert result.stderr.endswith("collektive: the build failed; the messages are above\n")
 
 
-def test_a_checkout_that_was_moved_is_configured_anew(project: Checkout) -> None:
+def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
     assert project.run(THING).returncode == 0
     project.root = project.root.rename(project.root.with_name("moved"))
     result = project.run(THING)

@@ -1,4 +1,4 @@
-"""The files of a project are those that its compilers read: whenever these would read something else, the project's hashes differ, too."""
+"""Tests that the hashes of a project change whenever its compilers would read other files."""
 import os
 import random
 import shutil
@@ -126,7 +126,7 @@ class Project:
         return (inputs.scripts(self.folder / "scripts").digest, inputs.programs(self.folder / "programs").digest, inputs.schema(self.schema).digest)
 
     def compiled(self, fresh: Path) -> tuple[dict[str, str], dict[str, str], bytes]:
-        """What compilers would read in a fresh checkout: a plain copy of what links lead to. flatc itself says what it made of the schema."""
+        """Returns the files that compilers would read in a fresh checkout without links, and flatc's output for the schema."""
         shutil.rmtree(fresh, ignore_errors=True)
         shutil.copytree(self.folder, fresh, ignore_dangling_symlinks=True)
 
@@ -141,7 +141,7 @@ class Project:
         return read("scripts", ".cs", {"Generated", "obj"}), read("programs", ".kt", set()) | read("programs", ".java", set()), schema.name.encode() + binary
 
     def edit(self) -> str:
-        """Changes something, and describes it."""
+        """Makes a random change and returns its description."""
         change = self.random.choice([self.add, self.add, self.add_include, self.link, self.change, self.change, self.rename, self.remove])
         return f"{change.__name__} {change()}"
 

@@ -1,4 +1,4 @@
-"""The lock on the outputs of a checkout: commands that change them wait for all others, and report that."""
+"""Tests the lock on build outputs: commands that change them wait for others, with a message."""
 import os
 import select
 import subprocess
@@ -44,7 +44,7 @@ def test_a_command_that_changes_outputs_lets_others_in_when_it_only_uses_them(ch
     assert first.wait() == 0
 
 
-def test_of_two_first_commands_the_second_waits_for_the_build_only(checkout: Checkout) -> None:
+def test_of_two_simultaneous_commands_the_second_waits_for_the_build_only(checkout: Checkout) -> None:
     os.mkfifo(checkout.root / "start")
     runs = [checkout.start("lock.shared(); open(root / 'start').read(); fetch.fill_once('thing', '1', make); print('runs', flush=True); signal.pause()")
             for _ in range(2)]

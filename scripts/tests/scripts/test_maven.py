@@ -1,4 +1,4 @@
-"""The build of the JVM side compiles what changed, and what sees the change."""
+"""Tests that the JVM build compiles changed modules and those that see the change."""
 import os
 import re
 import subprocess
@@ -76,7 +76,7 @@ def test_modules_are_compiled_when_they_or_what_they_see_changed(modules: Module
     assert modules.build() == {"LowerTestKt"}, "no other module sees tests"
 
 
-def test_an_error_is_found_again_until_it_is_mended(modules: Modules) -> None:
+def test_an_error_is_reported_until_it_is_fixed(modules: Modules) -> None:
     modules.build()
     modules.edit(LOWER, "ordinary", "renamed")
     modules.edit("lower/src/test/kotlin/LowerTest.kt", "ordinary", "renamed")

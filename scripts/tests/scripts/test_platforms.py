@@ -1,4 +1,4 @@
-"""What the package says of the files of each platform."""
+"""Tests the metadata of native libraries and JVM packages."""
 import os
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def test_a_native_library_is_for_its_own_editor_and_player_only(platform: str) -
     assert f"Standalone: {player}\n    second:\n      enabled: 1\n      settings:\n        {processor}\n" in text
 
 
-def test_there_is_no_editor_for_linux_on_arm() -> None:
+def test_linux_on_arm_has_no_editor() -> None:
     text = importer("linux-arm64", "libcollektive_shim.so")
     assert "Editor: Editor\n    second:\n      enabled: 0" in text
     assert "Standalone: Linux64\n    second:\n      enabled: 1\n      settings:\n        CPU: ARM64" in text

@@ -1,4 +1,4 @@
-"""Signals to a command reach all of its processes, and no process is left when it ends."""
+"""Tests that signals reach all processes of a command, and that none is left when it ends."""
 import signal
 import time
 from pathlib import Path
@@ -26,7 +26,7 @@ def child_of(checkout: Checkout) -> int:
 
 
 def ends(pid: int) -> bool:
-    """Waits until a process is gone, which may be waited for by nobody."""
+    """Waits until a process has ended, also if its parent does not wait for it."""
     end = time.monotonic() + 20
     while time.monotonic() < end:
         status = Path(f"/proc/{pid}/stat")
@@ -57,7 +57,7 @@ def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> N
     assert checkout.run(run_in_group("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
 
 
-def test_a_command_ends_where_nobody_waits_for_orphans(checkout: Checkout) -> None:
+def test_a_command_ends_without_an_init_process_that_reaps_orphans(checkout: Checkout) -> None:
     # As in a container, whose first process often does not.
     negligent = "import ctypes; ctypes.CDLL(None).prctl(36, 1, 0, 0, 0); sys.exit(__import__('subprocess').run([sys.executable, '-c', {!r}, root]).returncode)"
     orphan = run_in_group("__import__('subprocess').Popen(['sleep', '0.5']) and 0")

@@ -1,4 +1,4 @@
-"""The build, and the projects that it writes for IDEs, contain every C# source, and the package's assemblies refer to the same ones as in Unity."""
+"""Tests that build and IDE projects contain every C# source, with the same references as in Unity."""
 import json
 import subprocess
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""What a release is made of: notes, metadata, bill of materials."""
+"""Tests the notes, metadata and bill of materials of a release."""
 import pytest
 
 from build import manifest, release

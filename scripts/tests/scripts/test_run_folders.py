@@ -1,4 +1,4 @@
-"""Results of an earlier run are lost only to a run that has begun."""
+"""Tests that only a run that has begun replaces earlier results."""
 from pathlib import Path
 
 import pytest

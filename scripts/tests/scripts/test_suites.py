@@ -1,4 +1,4 @@
-"""Suites that end in all ways, and what `./collektive test` makes of their results."""
+"""Tests how `./collektive test` reports suites that pass, fail, hang or crash."""
 import subprocess
 import sys
 import textwrap
@@ -172,12 +172,12 @@ def test_suites_are_chosen_by_run_area_and_name(words: list[str], names: list[st
     assert [suite.name for suite in command.select_suites(SUITES, words)] == names
 
 
-def test_an_unknown_suite_is_named_with_those_that_are_known() -> None:
+def test_an_unknown_suite_is_reported_with_the_known_ones() -> None:
     with pytest.raises(Failure, match="unknown suite 'nonesuch'; known: lint jvm csharp sanitized, and in parts: csharp-on-17 "):
         command.select_suites(SUITES, ["lint", "nonesuch"])
 
 
-def test_suites_without_nunit_are_left_out_unless_nothing_else_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+def test_suites_without_nunit_are_skipped_or_an_error_if_all_are(capsys: pytest.CaptureFixture[str]) -> None:
     suites = [*SUITES[:1], *(suite._replace(is_disabled=True) for suite in SUITES[3:5])]
     assert [suite.name for suite in command.select_suites(suites, ["all"])] == ["lint"]
     assert "skipped unity, csharp-on-17: this system has no package of NUnit 2.6" in capsys.readouterr().err

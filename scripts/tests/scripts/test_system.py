@@ -1,4 +1,4 @@
-"""What `./collektive` reports of tools that are missing or too old. Fakes of them lie on the PATH."""
+"""Tests reports about missing and outdated tools, with fakes on the PATH."""
 import os
 import subprocess
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ class Tools:
         return str(self.folder / name)
 
     def fake(self, name: str, text: str) -> None:
-        """Adds a command that is a shell script; the other command that would do is hidden."""
+        """Adds a command as a shell script, and hides its alternative."""
         (self.folder / name).write_text(f"#!/bin/sh\n{text or 'exit 1'}\n")
         (self.folder / name).chmod(0o755)
         if name == "cargo":

@@ -1,4 +1,4 @@
-"""A version that several files must name is the same in all of them."""
+"""Tests that all files contain the same version."""
 import fnmatch
 import json
 import os

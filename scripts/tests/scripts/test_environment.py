@@ -1,4 +1,4 @@
-"""What the command reports about its surroundings. The checkout of these tests has no build."""
+"""Tests errors about the environment of a command. The checkout has no build."""
 import os
 import signal
 import subprocess
