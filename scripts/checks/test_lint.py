@@ -15,6 +15,11 @@ from build.places import BUILD, ROOT
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
 # Programs as users write them, in their styles.
 GIVEN = ("jvm-host/*/src/test/resources/*",)
+# Sources whose messages and comments follow english.txt, one folder a line.
+PLAIN_SOURCES = [
+    "schema/*",
+    "unity/*",
+]
 HABITS = [entry.split(" => ") for entry in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not entry.startswith("#")]
 
 
@@ -99,6 +104,6 @@ def test_pages_avoid_the_habits_of_english_txt() -> None:
 
 
 def test_messages_and_comments_avoid_the_habits_of_english_txt() -> None:
-    found = [habit for source in messages.sources(["schema/*"]) for line, is_comment, text in messages.texts(ROOT / source)
+    found = [habit for source in messages.sources(PLAIN_SOURCES) for line, is_comment, text in messages.texts(ROOT / source)
              if is_comment or messages.is_message(text) for habit in habits(source, text, line)]
     assert not found, "\n".join(found)
