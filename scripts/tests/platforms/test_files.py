@@ -20,13 +20,8 @@ def library(platform: str) -> str:
     return os.path.join(CROSS, platform, name)
 
 
-<<<<<<< HEAD
 def functions() -> set[str]:
-    """Those of the public header."""
-=======
-def functions():
     """Returns the functions of the public header."""
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     with open(os.path.join(ROOT, "native-shim/include/collektive_shim.h")) as file:
         return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M))
 
@@ -50,15 +45,9 @@ class MachO:
             self.commands.append((kind, self.bytes[at:at + size]))
             at += size
 
-<<<<<<< HEAD
     def command(self, sought: int) -> bytes:
-        """Returns the first command of this kind, or nothing."""
+        """Returns the first load command of this kind, or nothing."""
         return next((body for kind, body in self.commands if kind == sought), b"")
-=======
-    def command(self, *kinds):
-        """Returns the first load command of these kinds, or None."""
-        return next((body for kind, body in self.commands if kind in kinds), None)
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
 
     def install_name(self) -> str:
         body = self.command(0xD)
@@ -81,11 +70,7 @@ class MachO:
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-<<<<<<< HEAD
-def test_the_library_of_macos_says_what_it_is(platform: str) -> None:
-=======
-def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform) -> None:
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
+def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform: str) -> None:
     file = MachO(library(platform))
     processor, system = MAC[platform]
     assert file.processor == processor
@@ -93,13 +78,8 @@ def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform
     assert file.install_name() == "@rpath/libcollektive_shim.dylib"
     # Names with an underscore are the linker's own.
     assert {name for name in file.exports() if not name.startswith("_")} == functions()
-<<<<<<< HEAD
-    # The system's loader takes no unsigned code on Apple's own processors.
-    assert bool(file.command(0x1D)) == (platform == "mac-arm64")
-=======
     # On Apple silicon, macOS loads only signed code.
-    assert (file.command(0x1D) is not None) == (platform == "mac-arm64")
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
+    assert bool(file.command(0x1D)) == (platform == "mac-arm64")
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])

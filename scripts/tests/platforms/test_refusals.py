@@ -17,13 +17,8 @@ HERE = os.environ["COLLEKTIVE_JDK"]
 FOREIGN = "Programmgröße 場"
 
 
-<<<<<<< HEAD
 def start(platform: str, home: str, case: str = "options_that_make_the_jvm_talk", **variables: str) -> tuple[int, str]:
-    """Starts a JVM by the platform's native library: the exit code, 0 for a start, and what it tells."""
-=======
-def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
     """Starts a JVM with the platform's native library. Returns the exit code, 0 for success, and the output."""
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}
     result = subprocess.run([*JAVA[platform][:-1], program, case], env=environment, cwd=os.path.dirname(program), stdout=subprocess.PIPE,
@@ -31,24 +26,14 @@ def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
     return result.returncode, result.stdout.decode(errors="replace")
 
 
-<<<<<<< HEAD
 def home_of(platform: str) -> str:
-    """The same as the suite of the library's own tests has: on arm64 with a command that runs here."""
-=======
-def home_of(platform):
     """Returns the JRE that the library's own tests use."""
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     made = os.path.join(CROSS, "jre-" + platform)
     return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
 
 
-<<<<<<< HEAD
 def without_release(home: str, folder: Path) -> str:
-    """The same JVM, which no longer says of what platform it is."""
-=======
-def without_release(home, folder):
     """Copies the JVM without its file release, which names the platform."""
->>>>>>> ec0e5ffc31a311ec924c3cfd184c06f65cd678a2
     made = os.path.join(folder, "home")
     os.mkdir(made)
     for name in os.listdir(home):

@@ -32,7 +32,7 @@ namespace Collektive.Headless
             }
             catch (BridgeException error)
             {
-                Console.Error.WriteLine("collektive: the JVM did not end: " + error.Message);
+                Console.Error.WriteLine("collektive: the JVM did not shut down: " + error.Message);
                 return Math.Max(code, 1);
             }
             return code;
@@ -70,7 +70,7 @@ namespace Collektive.Headless
             if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
             else if (error is IOException || error is UnauthorizedAccessException)
                 Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
-            else Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
+            else Console.Error.WriteLine("collektive: the run ended with an unhandled exception: " + error);
             return 1;
         }
 

@@ -12,16 +12,16 @@ namespace Collektive.Headless
     internal sealed class ReplayRecorder : IDisposable
     {
         /// <summary>Frames of a simulated second, at most; ticks in between are left out.</summary>
-        private const double MostFrames = 10;
+        private const double MaxFrames = 10;
 
         /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
-        private const double MostNodes = 50000;
+        private const double MaxNodes = 50000;
 
         /// <summary>Moving shapes that are recorded, at most: their poses lie in the page's header.</summary>
-        private const int MostMovers = 64;
+        private const int MaxMovers = 64;
 
         /// <summary>Along each side of a terrain that is drawn, at most.</summary>
-        private const int MostSquaresOfTerrain = 64;
+        private const int MaxTerrainSquares = 64;
 
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
@@ -32,7 +32,7 @@ namespace Collektive.Headless
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
         private readonly Dictionary<int, IColors> colours;
-        // By node id; null unless the scene gives nothing else to colour nodes by.
+        // By node id; null if the scene has shades.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
@@ -70,7 +70,7 @@ namespace Collektive.Headless
         /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
-            if (time >= last + Math.Max(1 / MostFrames, manager.Nodes.Count / MostNodes) - 1e-6) Record(time);
+            if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
         /// <summary>Writes the page, which ends with this moment.</summary>
@@ -177,7 +177,7 @@ namespace Collektive.Headless
         private void Add(List<ReplayField> fields, NodeShade shade)
         {
             var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
-            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Words = shade.Words });
+            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Categories = shade.Categories });
             readers.Add(shade.Read);
         }
 
@@ -207,7 +207,7 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws a floor of its own there.</summary>
+        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws its own floor there.</summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
@@ -242,7 +242,7 @@ namespace Collektive.Headless
                 mover = metadata.AddMovingBox(size.x, size.y, size.z);
             }
             if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
-            if (mover != null && movers.Count < MostMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
+            if (mover != null && movers.Count < MaxMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
         }
 
         private static void Add(ReplayMetadata metadata, MeshCollider collider)
@@ -256,7 +256,7 @@ namespace Collektive.Headless
         private static void Add(ReplayMetadata metadata, TerrainCollider collider)
         {
             var data = collider.terrainData;
-            var step = Math.Max(1, (data.heightmapResolution - 1) / MostSquaresOfTerrain);
+            var step = Math.Max(1, (data.heightmapResolution - 1) / MaxTerrainSquares);
             var triangles = TerrainMesh.Triangles((data.heightmapResolution - 1) / step + 1);
             Add(metadata, TerrainMesh.Points(data, step), triangles, collider.transform.position, Quaternion.identity);
         }

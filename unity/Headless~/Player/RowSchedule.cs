@@ -12,7 +12,7 @@ namespace Collektive.Headless
         private readonly double deltaTime;
         private int rows = 1;
 
-        /// <param name="interval">Simulated seconds from one row to the next; the first row is that of second 0.</param>
+        /// <param name="interval">Simulated seconds from one row to the next; the first row is at second 0.</param>
         internal RowSchedule(double interval, float deltaTime)
         {
             this.interval = interval;

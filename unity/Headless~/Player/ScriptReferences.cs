@@ -9,7 +9,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// What compiled scripts refer to outside of their assembly. Unless all of it is known to leave nothing behind in the process, such as a culture, a
-    /// thread or an environment variable, each run needs a process of its own.
+    /// thread or an environment variable, each run needs its own process.
     /// </summary>
     internal static class ScriptReferences
     {

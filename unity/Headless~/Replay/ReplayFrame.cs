@@ -27,7 +27,7 @@ namespace Collektive.Headless
         /// <summary>By axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
-        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, else what FORMAT.md says.</summary>
+        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, otherwise as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
         /// <summary>Links that the frame has; <see cref="LinkCount"/> of them are kept.</summary>

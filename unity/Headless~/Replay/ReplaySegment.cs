@@ -8,7 +8,7 @@ namespace Collektive.Headless
     {
         private const int Axes = 3;
         private const int NumberSteps = 65534;
-        private const int MostBytesOfNumber = 5;
+        private const int MaxBytesPerNumber = 5;
 
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
         private readonly ReplayField[] fields;
@@ -101,20 +101,20 @@ namespace Collektive.Headless
             WriteFloat(min);
             WriteFloat(max);
             least[field] = min;
-            // In double: the extent of two floats may be no float.
+            // In double: the difference of two floats may overflow.
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
         private void WriteIds(List<int> ids)
         {
-            Reserve(MostBytesOfNumber * (1 + ids.Count));
+            Reserve(MaxBytesPerNumber * (1 + ids.Count));
             WriteNumber((uint)ids.Count);
             for (var slot = 0; slot < ids.Count; slot++) WriteSigned(unchecked(ids[slot] - (slot == 0 ? 0 : ids[slot - 1])));
         }
 
         private void WritePresence(ReplayFrame frame)
         {
-            Reserve(MostBytesOfNumber + frame.Slots / 8 + 1);
+            Reserve(MaxBytesPerNumber + frame.Slots / 8 + 1);
             WriteNumber((uint)frame.Slots);
             for (var first = 0; first < frame.Slots; first += 8)
             {
@@ -128,7 +128,7 @@ namespace Collektive.Headless
         /// <summary>What each value differs from where its motion would have taken it. All sums wrap around.</summary>
         private void WriteColumn(ReplayFrame frame, int[] values, int[] last, int[] motion)
         {
-            Reserve(MostBytesOfNumber * frame.Slots);
+            Reserve(MaxBytesPerNumber * frame.Slots);
             unchecked
             {
                 for (var slot = 0; slot < frame.Slots; slot++)
@@ -145,9 +145,9 @@ namespace Collektive.Headless
 
         private void WriteLinks(ReplayFrame before, ReplayFrame frame)
         {
-            Reserve(MostBytesOfNumber * (3 + 2 * (frame.LinkCount + (before?.LinkCount ?? 0))));
+            Reserve(MaxBytesPerNumber * (3 + 2 * (frame.LinkCount + (before?.LinkCount ?? 0))));
             WriteNumber((uint)frame.Links);
-            // Each set is told by its size first.
+            // The size precedes each set.
             WritePairs(before, frame);
             WritePairs(frame, before);
         }

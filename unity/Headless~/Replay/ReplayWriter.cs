@@ -157,11 +157,11 @@ namespace Collektive.Headless
         /// <summary>Writes the page: the template with the recording in it. Call it once, after the last frame.</summary>
         /// <param name="templatePath">The page that <c>build.mjs</c> makes.</param>
         /// <param name="outputHtmlPath">Made or replaced.</param>
-        /// <exception cref="InvalidDataException">The template is not one; nothing is written.</exception>
+        /// <exception cref="InvalidDataException">The file is not a template. No file is written.</exception>
         public void Finish(string templatePath, string outputHtmlPath)
         {
             if (inFrame || finished) throw Order(nameof(Finish), inFrame ? "the last frame is not ended" : "the replay is finished");
-            if (Frames == 0) throw Order(nameof(Finish), "there is no frame");
+            if (Frames == 0) throw Order(nameof(Finish), "the replay has no frames");
             var template = File.ReadAllText(templatePath);
             var start = template.IndexOf(Placeholder, StringComparison.Ordinal);
             if (start < 0 || template.IndexOf(Placeholder, start + 1, StringComparison.Ordinal) >= 0)
@@ -236,8 +236,8 @@ namespace Collektive.Headless
 
         private int Steps(float metres)
         {
-            const double Most = 1 << 30;
-            return (int)Math.Floor(Math.Max(-Most, Math.Min(Most, metres / positionStep)) + 0.5);
+            const double Limit = 1 << 30;
+            return (int)Math.Floor(Math.Max(-Limit, Math.Min(Limit, metres / positionStep)) + 0.5);
         }
 
         private string Header()

@@ -21,7 +21,7 @@ const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
 const browser = await launch();
 const blind = await launch(undefined, ['--disable-3d-apis']);
 
-/** Opens a page and collects whatever it complains about or fetches. */
+/** Opens a page and collects its errors and requests. */
 async function open(path, { in: where = browser, ...options } = {}) {
   const context = await where.newContext({ viewport: { width: 1280, height: 720 }, ...options });
   const tab = await context.newPage();
@@ -115,7 +115,7 @@ async function expectMessage(path, words, options) {
   const controls = await tab.locator('#controls').isVisible();
   await close();
   assert.ok(error !== null, 'all frames are shown');
-  assert.ok(words.test(shown), `the page says: ${shown}`);
+  assert.ok(words.test(shown), `the page shows: ${shown}`);
   assert.ok(!controls, 'the controls are there');
   assert.deepEqual(complaints, []);
 }
@@ -221,12 +221,12 @@ await suite('replay page', async (page) => {
         assert.ok(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
       });
 
-      await test('the run stops at its end and starts anew', async () => {
+      await test('the run stops at its end and starts again', async () => {
         await seek(tab, frames - 2);
         await tab.evaluate(() => window.replay.play());
         await eventually(tab, (now) => !now.playing && now.frame === frames - 1, 'it does not stop at the last frame');
         await tab.evaluate(() => window.replay.play());
-        await eventually(tab, (now) => now.frame < frames - 1, 'it does not start anew');
+        await eventually(tab, (now) => now.frame < frames - 1, 'it does not start again');
         await tab.evaluate(() => window.replay.pause());
       });
 
@@ -323,8 +323,8 @@ await suite('replay page', async (page) => {
         await tab.fill('#find', String(id));
         await tab.keyboard.press('Enter');
         const text = await tab.innerText('#selection');
-        assert.ok(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page says: ${text}`);
-        assert.ok((await canvas(tab)) !== before, 'nothing is highlighted');
+        assert.ok(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page shows: ${text}`);
+        assert.ok((await canvas(tab)) !== before, 'the node is not highlighted');
         await tab.click('#deselect');
         assert.ok((await canvas(tab)) === before, 'the highlight stays');
       });
@@ -411,7 +411,7 @@ await suite('replay page', async (page) => {
           const none = await canvas(tab);
           await tab.check('#links');
           await tab.check('#links-selected');
-          assert.equal(await canvas(tab), none, 'without a selected node there are none');
+          assert.equal(await canvas(tab), none, 'trails without a selected node');
           const linked = await tab.evaluate(() => window.replay.state().links[0][0]);
           await tab.evaluate((id) => window.replay.select(id), linked);
           const some = await canvas(tab);
@@ -572,11 +572,11 @@ await suite('replay page', async (page) => {
   for (const [part, from, to] of [['header', 0, 0.01], ['recording', 0.4, 0.6]]) {
     await test(`a wrong letter in the ${part} gives a clear message`, () => expectMessage(withData(part, (data) => {
       const at = data.indexOf('A', from * data.length);
-      assert.ok(at >= 0 && at < to * data.length, 'there is no A');
+      assert.ok(at >= 0 && at < to * data.length, 'A is missing');
       return `${data.slice(0, at)}B${data.slice(at + 1)}`;
     }), /damaged or cut short/));
   }
-  await test('text that is no data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
-  await test('the empty template says so', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
+  await test('invalid data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
+  await test('the empty template gives a clear message', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
   await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
 });

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>What went wrong behind the bridge; the numbers are those of <c>CLK_ERRORS</c> in the shim's header.</summary>
+    /// <summary>What went wrong behind the bridge, with the numbers of <c>CLK_ERRORS</c> in the shim's header.</summary>
     public enum BridgeError
     {
         /// <summary>An argument is out of range.</summary>
@@ -39,7 +39,7 @@ namespace Collektive.Bridge
         Java = -16,
     }
 
-    /// <summary>An error of the shim or of the JVM behind it; the message says what happened, to what, and what to do.</summary>
+    /// <summary>An error of the shim or of the JVM. The message explains what happened and how to fix it.</summary>
     public sealed class BridgeException : Exception
     {
         /// <summary>Makes an exception of the given kind.</summary>

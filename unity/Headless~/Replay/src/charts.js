@@ -50,7 +50,7 @@ export class Charts {
     return Math.max(holder.clientWidth - 24, 120);
   }
 
-  /** Moves the lines to a time, and tells the values last measured by then. */
+  /** Moves the lines to a time, and shows the values last measured by then. */
   show(time) {
     let row = 0;
     while (row < this.times.length - 1 && this.times[row + 1] <= time + 1e-9) row++;
@@ -60,7 +60,7 @@ export class Charts {
     }
   }
 
-  /** Draws anew, in the colours of the theme and the width of the panel. */
+  /** Draws again, in the colours of the theme and the width of the panel. */
   redraw(holder) {
     for (const { plot } of this.charts) {
       plot.setSize({ width: this.widthOf(holder), height: HEIGHT });

@@ -13,7 +13,7 @@ export function fieldsOf(recording) {
   return [...recorded, ...derived.filter(({ name }) => !recorded.some((field) => field.name === name)).map((field) => ({ words: [], ...field }))];
 }
 
-/** The least and the greatest of some values; 0 if there is none. */
+/** The least and the greatest of some values; 0 without values. */
 export function extent(values) {
   let [least, greatest] = [Infinity, -Infinity];
   for (const value of values) {

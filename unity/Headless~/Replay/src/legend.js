@@ -1,4 +1,4 @@
-// The panel that says what the colours mean, and where they are chosen.
+// The panel that explains and selects colours.
 import { colouring, css, gradientOf, NO_VALUE, palettesOf } from './colours.js';
 import { extent, short, textOf } from './fields.js';
 
@@ -75,7 +75,7 @@ export class Legend {
     this.onChange();
   }
 
-  /** Tells what the frame has: its categories with most nodes first, and whether some nodes have no value. */
+  /** Describes the frame: its categories with most nodes first, and whether some nodes have no value. */
   show(frame) {
     this.frame = frame;
     if (this.shown === frame) return;

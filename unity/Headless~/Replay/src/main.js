@@ -44,13 +44,13 @@ class Player {
 
   /**
    * Shows the moment `time`: nodes between two frames are drawn between their places, everything else is the earlier frame's. The promise
-   * is fulfilled when it is on show, or a later wish is.
+   * resolves when it, or a later request, is shown.
    */
   show(time) {
     this.time = Math.min(Math.max(time, this.recording.times[0]), this.lastTime);
     if (this.refresh()) return undefined;
     const arrival = this.arrive(this.time);
-    arrival.catch(() => {}); // said on the page
+    arrival.catch(() => {}); // reported on the page
     return arrival;
   }
 
@@ -99,7 +99,7 @@ class Player {
     return true;
   }
 
-  /** The slot of the selected node in the frame on show; -1: there is none. */
+  /** The slot of the selected node in the shown frame, or -1. */
   get selectedSlot() {
     const { slots, ids } = this.here;
     return slots.find((slot) => ids[slot] === this.selected) ?? -1;
@@ -110,7 +110,7 @@ class Player {
     return element('links-selected').checked ? 'selected' : 'all';
   }
 
-  /** Colours the nodes as the legend says. */
+  /** Colours the nodes as in the legend. */
   recolour() {
     const { legend, view } = this;
     view.swarm.setColours((frame) => {
@@ -423,7 +423,7 @@ const ready = started.then(
       setControls: (visible) => player.setControls(visible),
       select: (id) => player.selectId(id),
       view: (from) => player.view.frame(from),
-      /** The id of the node at a point of the page; null: there is none. */
+      /** The id of the node at a point of the page, or null. */
       at: (x, y) => player.here.ids[player.view.pick(x, y)] ?? null,
       /** Names of what can colour the nodes, and the choice of one. */
       fields: player.fields.map(({ name }) => name),
@@ -455,5 +455,5 @@ const ready = started.then(
     throw error;
   },
 );
-ready.catch(() => {}); // said on the page
+ready.catch(() => {}); // reported on the page
 window.replay = { ready };

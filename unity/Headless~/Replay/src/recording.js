@@ -1,4 +1,4 @@
-// Reads a recording (FORMAT.md). Its header is read at once, a segment of frames when it is first looked at.
+// Reads a recording (FORMAT.md). The header is read at once, a segment of frames when it is first shown.
 
 const VERSION = 4;
 const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each

@@ -1,5 +1,5 @@
 // Nodes and links of the picture. The places of two recorded frames lie in textures, one texel for each slot; the vertex shaders look
-// them up and draw each node between them, so that a picture costs the script the same whatever the number of nodes.
+// them up and draw each node between them, so that the script's cost per picture does not depend on the number of nodes.
 import {
   BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
   LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,

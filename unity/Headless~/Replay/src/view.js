@@ -183,7 +183,7 @@ export class View {
     this.request();
   }
 
-  /** Looks at the whole arena, `from` 'above' at an angle or from the 'top'. */
+  /** Shows the whole arena, `from` 'above' at an angle or from the 'top'. */
   frame(from) {
     this.framed = from;
     this.controls.enableDamping = false; // forgets what is left of the last turn
@@ -277,7 +277,7 @@ export class View {
     this.controls.target.copy(place);
   }
 
-  /** The slot of the node nearest to a point of the canvas, within reach of a finger; -1 if there is none. */
+  /** The slot of the node nearest to a point of the canvas, within reach of a finger, or -1. */
   pick(x, y) {
     const { here, uniforms } = this.swarm;
     const place = [0, 0, 0];

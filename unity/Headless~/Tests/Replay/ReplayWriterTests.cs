@@ -400,7 +400,7 @@ namespace Collektive.Headless.Tests
         {
             var fields = new[]
             {
-                new ReplayField("warmth"), new ReplayField("leader", ReplayFieldKind.Category) { Words = new[] { "none" } },
+                new ReplayField("warmth"), new ReplayField("leader", ReplayFieldKind.Category) { Categories = new[] { "none" } },
                 new ReplayField("colour", ReplayFieldKind.Colour),
             };
             var leaders = new double[] { 0, -(1 << 30) + 1, (1 << 30) - 1, 16777217, double.NaN };

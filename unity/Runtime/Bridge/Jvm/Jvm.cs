@@ -43,8 +43,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Why this process can have no JVM: the native library is missing, made for another platform, or of another version. The text names the
-        /// platform and says what to do. Null when the library is as it should be.
+        /// Returns why the native library cannot be used: it is missing, for another platform, or of another version. The text names the
+        /// platform and the fix. Null if the library is usable.
         /// </summary>
         internal static string FindProblem() => ShimLibrary.Problem;
 

@@ -5,8 +5,8 @@ using org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The flight recording of the JVM, which may be started and ended at any time while it runs, also between two ticks of a scene.
-    /// Each member returns at once: starting and writing go on in the background, and <see cref="Jvm.GetStatus"/> tells how far they are.
+    /// Controls the JVM's flight recording at any time while the JVM runs, also between two ticks.
+    /// Each member returns at once. Starting and writing run in the background; <see cref="Jvm.GetStatus"/> reports their progress.
     /// At the end of the JVM a running recording is written. From the main thread.
     /// </summary>
     public static class JvmRecording
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
 
         private static void Ask(RecordingAction action, string path, string settings)
         {
-            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("name the file of the recording", nameof(path));
+            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("the recording's path is empty: give the path of a file", nameof(path));
             JvmControl.Ask(new JvmControl.Question { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
         }
     }

@@ -92,7 +92,7 @@ namespace Collektive.Bridge
         /// <summary>More options of the JVM, each one word.</summary>
         public List<string> flags = new List<string>();
 
-        /// <summary>All that is wrong without asking a JVM; empty when nothing is.</summary>
+        /// <summary>Returns all errors that can be found without a JVM.</summary>
         internal List<JvmProblem> FindProblems()
         {
             var problems = new List<JvmProblem>();
@@ -112,9 +112,9 @@ namespace Collektive.Bridge
             }
             foreach (var flag in flags)
             {
-                if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove it"));
+                if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove the entry"));
                 else if (flag.Contains(" -"))
-                    problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' is more than one flag: give each an entry of its own"));
+                    problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' contains several flags: give each its own entry"));
             }
             return problems;
         }
@@ -174,7 +174,7 @@ namespace Collektive.Bridge
         /// same place, nor one without a header, which a JVM leaves that is killed while it writes. So the jar's size and time are part of the name, and
         /// what is of no use is removed.
         /// </summary>
-        /// <returns>Why there is none, or an empty text.</returns>
+        /// <returns>The reason why no archive is used, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var place = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
@@ -187,7 +187,7 @@ namespace Collektive.Bridge
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                return "the JVM starts without its class archive, which takes longer: the folder '" + cacheFolder + "' cannot be made (" + error.Message + ")";
+                return "the JVM starts slower, without its class archive: the folder '" + cacheFolder + "' cannot be created (" + error.Message + ")";
             }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + file);
@@ -203,7 +203,9 @@ namespace Collektive.Bridge
             return hash.ToString("x16", CultureInfo.InvariantCulture);
         }
 
-        /// <summary>One that a JVM writes at this moment has no header yet: this JVM goes on without a file, and the next one writes anew.</summary>
+        /// <summary>
+        /// Checks the header of an archive: another JVM may be writing it. This JVM then starts without it, and the next one writes it again.
+        /// </summary>
         private static void RemoveUseless(string archive, string wanted)
         {
             try

@@ -10,7 +10,7 @@ namespace Collektive.Bridge
         Debug = 0,
         /// <summary>Standard output of programs, and news.</summary>
         Info = 1,
-        /// <summary>Standard error of programs, and things to look at.</summary>
+        /// <summary>Standard error of programs, and warnings.</summary>
         Warning = 2,
         /// <summary>Something failed.</summary>
         Error = 3,
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
 
     /// <summary>
     /// Log lines of the shim, the JVM and the programs, polled. At most <see cref="LinesPerSecond"/> of each severity, so that
-    /// the console can follow. Lines that are left out are counted, and the count is a line of its own. Without the native library there are none. Used
+    /// the console can keep up. A separate line reports the number of omitted lines. Empty without the native library. Used
     /// from one thread at a time.
     /// </summary>
     internal sealed unsafe class HostLog

@@ -31,7 +31,7 @@ namespace Collektive.Bridge
         /// <summary>Makes the stream of a node (0 or greater; 0 for the scene's own).</summary>
         internal RandomStream(ulong seed, int node, RandomPurpose purpose)
         {
-            if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "ids are 0 or greater");
+            if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "a node's id must be 0 or greater");
             this.seed = seed;
             this.node = (uint)node;
             this.purpose = (uint)purpose;
@@ -67,7 +67,7 @@ namespace Collektive.Bridge
             return ((high << 32 | low) >> 11) * (1.0 / (1L << 53));
         }
 
-        /// <summary>A number between <paramref name="low"/> and <paramref name="high"/>, the latter left out but for rounding.</summary>
+        /// <summary>A number between <paramref name="low"/> and <paramref name="high"/>, the latter excluded except after rounding.</summary>
         public float Range(float low, float high)
         {
             return (float)(low + (high - low) * NextDouble());

@@ -22,7 +22,7 @@ namespace Collektive.Bridge
     /// </summary>
     public abstract class Draft<TRow> : Draft where TRow : unmanaged
     {
-        /// <summary>Makes a draft whose fields lie in a row as <paramref name="layout"/> says.</summary>
+        /// <summary>Creates a draft with the row layout <paramref name="layout"/>.</summary>
         protected Draft(RowLayout layout)
         {
             Layout = layout;

@@ -20,7 +20,7 @@ namespace Collektive.Bridge
 
         /// <summary>
         /// Path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, else null. A field whose
-        /// default in the schema is not finite may hold such values and is not looked at.
+        /// default in the schema is not finite may contain such values and is not checked.
         /// </summary>
         internal abstract string FindNotFinite(int index);
 

@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What happens to messages between sending and receiving; times in simulated seconds. Default: ideal; nothing is lost, and a
+    /// Loss, delay and retention of messages, in simulated seconds. By default no message is lost, and a
     /// message can be read until the next one replaces it.
     /// </summary>
     [Serializable]
@@ -51,8 +51,8 @@ namespace Collektive.Bridge
                 return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
             if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be in 0..1";
             if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
-            return "network retention is " + retention + " s: it must be 0 (until a later message comes) or at least the delta time, " + deltaTime +
-                " s, else messages end before anyone reads them";
+            return "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime +
+                " s, otherwise messages expire before they are read";
         }
 
         private static bool IsAmount(double value) => value >= 0 && !double.IsInfinity(value);

@@ -53,11 +53,11 @@ namespace Collektive.Unity
         internal static string OwnFile(string name) => Package + "/Jvm~/" + name;
 
         /// <summary>The words that start the JVM of <paramref name="settings"/> on this machine.</summary>
-        /// <exception cref="BridgeException">The settings are wrong, or there is no such JVM.</exception>
+        /// <exception cref="BridgeException">The settings are invalid, or the JVM does not exist.</exception>
         internal static JvmLaunch ToLaunch(JvmSettings settings)
         {
             var problems = settings.FindProblems();
-            if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are wrong: " + problems[0]);
+            if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are invalid: " + problems[0]);
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
 
@@ -108,16 +108,17 @@ namespace Collektive.Unity
             {
                 case JvmLocation.Bundled:
                     return Directory.Exists(Bundled) ? Bundled
-                        : throw Missing("no JVM is installed with the package: install org.collektive.unity.jvm." + Platform + ", or choose another location");
+                        : throw Missing("no JVM is installed with the package: install org.collektive.unity.jvm." + Platform
+                            + ", or select another Location in the JVM settings");
                 case JvmLocation.JavaHome:
                     return FromEnvironment.Length > 0 ? FromEnvironment
-                        : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
+                        : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or select another Location in the JVM settings");
                 case JvmLocation.Folder:
                     return Path.GetFullPath(settings.home);
                 default:
                     return JavaHome.Length > 0 ? JavaHome
-                        : throw Missing("there is no JVM: install org.collektive.unity.jvm." + Platform
-                            + ", set JAVA_HOME, or choose a folder in the JVM settings");
+                        : throw Missing("no JVM was found: install org.collektive.unity.jvm." + Platform
+                            + ", set JAVA_HOME, or select a folder in the JVM settings");
             }
         }
 

@@ -8,7 +8,7 @@ namespace Collektive.Unity
     public sealed class JvmSettingsAsset : ScriptableObject
     {
         /// <summary>The settings; <see cref="JvmSetting.All"/> has their labels, units, ranges and tooltips.</summary>
-        [Tooltip("What the JVM is started with.")]
+        [Tooltip("Settings for the start of the JVM.")]
         public JvmSettings settings = new JvmSettings();
     }
 }

@@ -25,12 +25,12 @@ namespace Collektive.Unity
         public string Unit { get; set; }
 
         /// <summary>
-        /// Whether the values are whole numbers between -2^30 and 2^30 that name something, such as ids of leaders: each gets a colour of its own
+        /// Whether the values are whole numbers between -2^30 and 2^30 that name something, such as ids of leaders: each gets its own colour
         /// instead of a place on a scale. Default: false.
         /// </summary>
         public bool IsCategory { get; set; }
 
         /// <summary>What the categories 0, 1, ... are called; empty, the default: they are shown as numbers.</summary>
-        public IReadOnlyList<string> Words { get; set; } = Array.Empty<string>();
+        public IReadOnlyList<string> Categories { get; set; } = Array.Empty<string>();
     }
 }

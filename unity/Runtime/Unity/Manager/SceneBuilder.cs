@@ -54,7 +54,8 @@ namespace Collektive.Unity
             if (SimulationManager.Current == null)
             {
                 Debug.LogError(
-                    GetType().Name + " on '" + name + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive)", this);
+                    GetType().Name + " on '" + name
+                        + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive > Simulation Manager)", this);
                 return;
             }
             try

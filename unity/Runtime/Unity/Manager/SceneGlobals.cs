@@ -28,12 +28,12 @@ namespace Collektive.Unity
 
         private static string Write<T>(GlobalBuffer buffer, Action<T> write)
         {
-            if (buffer == null) return "global data were set, but the session's schema has no GlobalData: add it to the schema";
+            if (buffer == null) return "global data was set, but the session's schema has no GlobalData: add it to the schema";
             if (!(buffer is GlobalBuffer<T> typed))
-                return "global data were set as " + typeof(T).FullName + ", the session's schema has " + buffer.DataType.FullName;
+                return "global data was set as " + typeof(T).FullName + ", but the session's schema has " + buffer.DataType.FullName;
             write(typed.Data);
             var field = buffer.FindNotFinite();
-            return field == null ? null : "global data hold a number that is not finite in " + field;
+            return field == null ? null : "global data contains a number that is not finite in " + field;
         }
     }
 }

@@ -7,7 +7,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Runs the simulation of a scene: decides that a tick is due, has the nodes sense, makes the one call into the JVM, has the nodes
-    /// act, and advances physics. While it is paused there is no call, no physics and no time. All members are for the main thread.
+    /// act, and advances physics. While paused, it runs no ticks. Call all members from the main thread.
     ///
     /// There is one for all loaded scenes; a second one, in an additive scene for instance, disables itself with an error. Nodes of all loaded
     /// scenes take part: nodes of a scene that is loaded later join, those of an unloaded scene leave. With the manager's own scene the
@@ -22,7 +22,7 @@ namespace Collektive.Unity
         private const int MaxTicksPerFrame = 4;
 
         /// <summary>Frame times are floats: ten of 0.02 s make two ticks of 0.1 s, not one.</summary>
-        private const double Almost = 1 - 1e-6;
+        private const double RoundingTolerance = 1 - 1e-6;
 
         [SerializeField]
         [Tooltip("What the simulation is started with.")]
@@ -61,7 +61,7 @@ namespace Collektive.Unity
         /// <summary>Called for each line of the JVM's log, after it was written to Unity's.</summary>
         public event Action<HostLogLevel, string> Logged;
 
-        /// <summary>The scene's manager; null when there is none.</summary>
+        /// <summary>The scene's manager, or null.</summary>
         public static SimulationManager Current { get; private set; }
 
         /// <summary>What the simulation is started with.</summary>
@@ -166,7 +166,7 @@ namespace Collektive.Unity
             if (!isActiveAndEnabled || !Simulation.IsOpen)
             {
                 Debug.LogError(Failure.Length > 0 ? "the simulation has stopped: " + Failure
-                    : "the simulation has not started: step it from Update on, in play mode", this);
+                    : "the simulation has not started: call Step in play mode, from Update or later", this);
                 return;
             }
             if (stepping) throw new InvalidOperationException("Step was called from within a tick");
@@ -188,7 +188,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Stops the simulation with an error and disables the manager. The editor and the JVM go on. A click on the message selects
-        /// <paramref name="culprit"/>, or the manager if there is none.
+        /// <paramref name="culprit"/>, or the manager.
         /// </summary>
         public void Fail(string message, UnityEngine.Object culprit = null) => Simulation.Fail(message, culprit);
 
@@ -200,7 +200,7 @@ namespace Collektive.Unity
             simulation = new Simulation(PlayerArguments.Apply(settings), globals, this);
             if (Current != null && Current != this)
             {
-                Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' runs the simulation. Remove one of them", this);
+                Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' already runs the simulation. Remove one of them", this);
                 enabled = false;
                 return;
             }
@@ -231,7 +231,7 @@ namespace Collektive.Unity
             simulation.Log.Show(Logged);
             if (paused) return;
             accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
-            while (accumulated >= settings.deltaTime * Almost && isActiveAndEnabled && !paused)
+            while (accumulated >= settings.deltaTime * RoundingTolerance && isActiveAndEnabled && !paused)
             {
                 accumulated -= settings.deltaTime;
                 Step();
@@ -239,13 +239,14 @@ namespace Collektive.Unity
         }
 
         private bool IsAtEnd() =>
-            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * Almost || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
+            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * RoundingTolerance
+            || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
 
         private void Finish()
         {
             Finished = true;
             paused = true;
-            Debug.Log("The simulation has reached its end after " + SimulatedTime + " s and is paused", this);
+            Debug.Log("The simulation ended after " + SimulatedTime + " s and is paused", this);
             BatchPlayer.End(settings, ErrorCount == 0);
         }
     }

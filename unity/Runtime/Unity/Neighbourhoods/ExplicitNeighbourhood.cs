@@ -8,7 +8,7 @@ namespace Collektive.Unity
     public sealed class ExplicitNeighbourhood : NeighbourhoodRule
     {
         [SerializeField]
-        [Tooltip("The nodes that hear this one, and unless the rule is directed are heard by it.")]
+        [Tooltip("Nodes that receive messages from this one. Unless the rule is directed, they also send to it.")]
         private List<Node> neighbours = new List<Node>();
 
         /// <summary>The neighbours; may be changed at any time.</summary>

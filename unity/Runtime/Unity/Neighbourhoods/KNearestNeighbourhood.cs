@@ -12,7 +12,7 @@ namespace Collektive.Unity
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("How many nodes.")]
+        [Tooltip("Number of neighbours.")]
         private int count = 8;
 
         private float reach;

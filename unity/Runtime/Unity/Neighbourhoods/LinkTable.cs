@@ -37,7 +37,7 @@ namespace Collektive.Unity
             Array.Fill(buckets, None);
         }
 
-        /// <summary>All pairs, unused ones among them, for views to look at: that copies nothing. Valid until a link is made.</summary>
+        /// <summary>All pairs, including unused ones, for views. The array is not a copy, and is valid until a link is added.</summary>
         internal Span<LinkPair> Pairs => new Span<LinkPair>(pairs, 0, used);
 
         /// <summary>As many pairs as the table has memory for.</summary>

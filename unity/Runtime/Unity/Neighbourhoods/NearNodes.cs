@@ -3,7 +3,7 @@ using System.Threading;
 
 namespace Collektive.Unity
 {
-    /// <summary>What one or several searches found. One thread appends; another one may read what was there before it was told of it.</summary>
+    /// <summary>Results of one or several searches. While one thread appends, another may read the results that were published to it.</summary>
     internal sealed class NearNodes
     {
         private NearNode[] items = new NearNode[64];

@@ -52,7 +52,7 @@ namespace Collektive.Unity
         public void Add(Node other, float length, float attenuation)
         {
             CheckAsked();
-            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
+            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length must be finite and 0 or greater");
             CheckAttenuation(attenuation);
             Add(other.Id, length, attenuation);
         }
@@ -144,12 +144,12 @@ namespace Collektive.Unity
         private static void CheckAttenuation(float attenuation)
         {
             if (IsAmount(attenuation)) return;
-            throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
+            throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation must be finite and 0 or greater");
         }
 
         private void CheckAsked()
         {
-            if (node is null) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
+            if (node is null) throw new InvalidOperationException("neighbours can be added in FindNeighbours only");
         }
 
         private void EnsureCapacity(int count)

@@ -10,12 +10,12 @@ namespace Collektive.Unity
     public abstract class NeighbourhoodRule : NodePart
     {
         [SerializeField]
-        [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
+        [Tooltip("On: neighbours receive messages from this node. Off: it also receives theirs.")]
         private bool directed;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
+        [Tooltip("Metres. A link's length is sent to the JVM again after it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
         // Parallel arrays: `held` is read in each tick, `links` only when a link changes.

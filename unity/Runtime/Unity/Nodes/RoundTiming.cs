@@ -24,7 +24,7 @@ namespace Collektive.Unity
         [Min(0)]
         public float jitter;
 
-        /// <summary>The first thing that is wrong; null when all is right.</summary>
+        /// <summary>Returns the first error, or null.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(float deltaTime)
         {

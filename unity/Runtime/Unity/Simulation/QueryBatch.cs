@@ -16,15 +16,15 @@ namespace Collektive.Unity
         private const int MinPerJob = 32;
 
         /// <summary>Memory grows with it for all queries; the few with more hits are asked again alone.</summary>
-        private const int MostHits = 64;
+        private const int MaxKeptHits = 64;
 
         private NativeArray<TCommand> commands;
         private NativeArray<THit> hits;
-        private int wantedHits;
+        private int nextMaxHits;
         private JobHandle running;
 
         /// <param name="maxHits">The most hits of a query that are kept, 1 or more; with 1, the nearest.</param>
-        protected QueryBatch(int maxHits) => MaxHits = wantedHits = maxHits;
+        protected QueryBatch(int maxHits) => MaxHits = nextMaxHits = maxHits;
 
         internal int MaxHits { get; private set; }
 
@@ -50,7 +50,7 @@ namespace Collektive.Unity
         internal void Begin()
         {
             if (Count == 0) return;
-            MaxHits = wantedHits;
+            MaxHits = nextMaxHits;
             if (Count * MaxHits > hits.Length) Grow(ref hits, 0, commands.Length * MaxHits);
             running = Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits);
         }
@@ -62,7 +62,7 @@ namespace Collektive.Unity
         internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
 
         /// <summary>A query had more hits than were kept: later batches keep more.</summary>
-        internal void KeepMore() => wantedHits = Math.Min(MostHits, 2 * MaxHits);
+        internal void KeepMore() => nextMaxHits = Math.Min(MaxKeptHits, 2 * MaxHits);
 
         /// <inheritdoc/>
         public void Dispose()

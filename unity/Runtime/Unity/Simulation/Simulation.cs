@@ -19,7 +19,7 @@ namespace Collektive.Unity
         /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
         private const int MaxLinks = 1 << 24;
 
-        private readonly Roster roster = new Roster();
+        private readonly NodeRegistry roster = new NodeRegistry();
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
         private Node[] present = Array.Empty<Node>();
@@ -83,7 +83,7 @@ namespace Collektive.Unity
         /// <summary>Null before <see cref="TryOpen"/>.</summary>
         internal JvmLog Log { get; private set; }
 
-        internal ErrorTally Errors { get; } = new ErrorTally();
+        internal ErrorCounts Errors { get; } = new ErrorCounts();
 
         /// <summary>Nodes that take part, ascending by id.</summary>
         internal List<Node> Nodes => roster.Nodes;
@@ -131,12 +131,12 @@ namespace Collektive.Unity
             try
             {
                 Log = new JvmLog(Manager);
-                session = Opening.Open(Settings, Manager);
+                session = SessionStart.Open(Settings, Manager);
                 IsOpen = true;
             }
             catch (Exception error)
             {
-                Fail(error, "it could not be started: ");
+                Fail(error, "the start failed: ");
             }
             return IsOpen;
         }
@@ -168,7 +168,7 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
-        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="culprit"/>, or the manager if there is none.</summary>
+        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="culprit"/>, or the manager.</summary>
         internal void Fail(string message, UnityEngine.Object culprit = null)
         {
             if (Failure.Length > 0) return;
@@ -181,9 +181,9 @@ namespace Collektive.Unity
         /// <summary>Errors of the bridge are sentences for users; others are logged with their stack, and <paramref name="what"/> they did.</summary>
         private void Fail(Exception error, string what)
         {
-            var told = error is BridgeException;
-            if (!told) Debug.LogException(error, Manager);
-            Fail((told ? "" : what) + error.Message);
+            var isUserError = error is BridgeException;
+            if (!isUserError) Debug.LogException(error, Manager);
+            Fail((isUserError ? "" : what) + error.Message);
         }
 
         /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
@@ -192,7 +192,7 @@ namespace Collektive.Unity
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
             IsOpen = false;
             if (!isTicking) CloseSession();
-            Errors.TellCounts();
+            Errors.LogCounts();
         }
 
         internal void Join(Node node)
@@ -207,12 +207,12 @@ namespace Collektive.Unity
             Remove(node);
         }
 
-        /// <summary>At the end of a simulation its errors keep their nodes, for who looks at them afterwards.</summary>
+        /// <summary>At the end of a simulation, errors keep their nodes for the diagnostics window.</summary>
         private void Remove(Node node)
         {
             roster.Leave(node);
             for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
-            node.Left();
+            node.OnLeft();
         }
 
         internal Node Find(int id) => roster.Find(id);
@@ -298,8 +298,8 @@ namespace Collektive.Unity
                 var node = present[i];
                 if (node.Id >= 0) node.Rules.Run(this, node, -1);
                 if (Links.Count <= MaxLinks) continue;
-                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name
-                    + "': use smaller neighbourhoods, or place the nodes apart", node);
+                Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
+                    + "': use smaller neighbourhoods, or increase the distances between nodes", node);
             }
         }
 
@@ -324,8 +324,8 @@ namespace Collektive.Unity
                 due.Add((node, node.Id));
                 var field = request.Sensors.FindNotFinite(index);
                 if (field == null) continue;
-                Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
-                    + ": correct the sensor that writes it", node);
+                Fail("sensor data of node " + node.Id + " ('" + node.name + "') contains a number that is not finite in " + field
+                    + ": fix the sensor that writes it", node);
             }
         }
 
@@ -358,7 +358,7 @@ namespace Collektive.Unity
                 var (node, id) = due.Items[place];
                 // An earlier actuator may have made the node leave, or leave and come back.
                 if (node.Id != id || !roster.IsKnown[id]) continue;
-                node.Answered(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
+                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);
             }
         }

@@ -11,7 +11,7 @@ namespace Collektive.Unity
     public abstract class AddForceActuator<TData> : Actuator<TData>
     {
         [SerializeField]
-        [Tooltip("What the answer is: a force in newtons, an acceleration in m/s², an impulse in newton seconds, or a velocity change in m/s.")]
+        [Tooltip("Kind of the answer: force in newtons, acceleration in m/s², impulse in newton seconds, or velocity change in m/s.")]
         private ForceMode mode = ForceMode.Force;
 
         private Rigidbody body;

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What a <see cref="ColorActuator{TData}"/> is, whatever its data.</summary>
+    /// <summary>The non-generic interface of <see cref="ColorActuator{TData}"/>.</summary>
     internal interface IColors
     {
         /// <summary>What is coloured; null: nothing yet.</summary>

@@ -12,12 +12,12 @@ namespace Collektive.Unity
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres per second.")]
+        [Tooltip("Speed limit in metres per second.")]
         private float maxSpeed = 5;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Seconds to the target at unlimited speed: the node slows down as it comes near.")]
+        [Tooltip("Seconds to the target without the speed limit. Longer times slow the node down earlier.")]
         private float reachTime = 0.5f;
 
         private Rigidbody body;

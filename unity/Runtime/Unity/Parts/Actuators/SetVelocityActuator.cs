@@ -8,11 +8,11 @@ namespace Collektive.Unity
     public abstract class SetVelocityActuator<TData> : Actuator<TData>
     {
         [SerializeField]
-        [Tooltip("On: the body's vertical velocity stays, so that it can fall.")]
+        [Tooltip("On: the body keeps its vertical velocity, so that it can fall.")]
         private bool keepVertical;
 
         private Rigidbody body;
-        private bool saidKinematic;
+        private bool hasReportedKinematic;
 
         /// <summary>Whether the body's vertical velocity stays, so that it can fall.</summary>
         public bool KeepVertical
@@ -34,7 +34,7 @@ namespace Collektive.Unity
             var velocity = Finite(Read(data));
             if (body.isKinematic)
             {
-                SayKinematic();
+                WarnOfKinematic();
                 return;
             }
             if (keepVertical) velocity.y = body.linearVelocity.y;
@@ -42,11 +42,12 @@ namespace Collektive.Unity
         }
 
         /// <summary>Unity would log at each answer.</summary>
-        private void SayKinematic()
+        private void WarnOfKinematic()
         {
-            if (saidKinematic) return;
-            saidKinematic = true;
-            Debug.LogWarning(GetType().Name + " on '" + name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a "
+            if (hasReportedKinematic) return;
+            hasReportedKinematic = true;
+            Debug.LogWarning(GetType().Name + " on '" + name
+                + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a "
                 + "Move actuator", this);
         }
 

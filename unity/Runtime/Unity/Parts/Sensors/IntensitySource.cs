@@ -19,7 +19,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("What the intensity loses with each metre.")]
+        [Tooltip("Decrease of the intensity per metre.")]
         private float falloff = 1;
 
         /// <summary>Intensity at the source itself, 0 or greater.</summary>

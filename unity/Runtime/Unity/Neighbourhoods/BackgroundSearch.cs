@@ -5,10 +5,10 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// A second thread that searches around nodes in a grid, from the last one to the first, while the main thread goes from the first to the last.
-    /// The main thread never waits for a search: it takes what is done, and searches itself around the other nodes. What is found is the same,
-    /// whoever finds it. All members are for the main thread.
+    /// The main thread never waits for a search: it takes what is done, and searches itself around the other nodes. The results do not depend
+    /// on the thread. Call all members from the main thread.
     /// </summary>
-    internal sealed class SearchAhead : IDisposable
+    internal sealed class BackgroundSearch : IDisposable
     {
         /// <summary>For fewer nodes, waking a thread takes longer than the searches.</summary>
         internal const int MinNodes = 128;
@@ -30,7 +30,7 @@ namespace Collektive.Unity
         private int done = int.MaxValue;
         private bool quits;
 
-        internal SearchAhead(NodeGrid grid) => this.grid = grid;
+        internal BackgroundSearch(NodeGrid grid) => this.grid = grid;
 
         /// <summary>Lets the thread begin, around the first <paramref name="count"/> nodes. The grid may not change before <see cref="End"/>.</summary>
         internal void Begin(int count)

@@ -1,9 +1,9 @@
 namespace Collektive.Bridge
 {
-    /// <summary>One element of actuator data in memory of its own: see <see cref="ActuatorBuffer.KeepFormer"/>.</summary>
-    internal abstract class KeptAnswer
+    /// <summary>A copy of one element of actuator data: see <see cref="ActuatorBuffer.CopyPrevious"/>.</summary>
+    internal abstract class AnswerCopy
     {
-        private protected KeptAnswer()
+        private protected AnswerCopy()
         {
         }
 
@@ -11,10 +11,10 @@ namespace Collektive.Bridge
         public abstract object Get();
     }
 
-    /// <summary>A <see cref="KeptAnswer"/> with a typed element.</summary>
-    internal abstract class KeptAnswer<T> : KeptAnswer
+    /// <summary>A <see cref="AnswerCopy"/> with a typed element.</summary>
+    internal abstract class AnswerCopy<T> : AnswerCopy
     {
-        private protected KeptAnswer()
+        private protected AnswerCopy()
         {
         }
 
