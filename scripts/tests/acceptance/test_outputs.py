@@ -35,6 +35,29 @@ class Outputs(Project):
         brightest = {round(value, 3) for *_, value in nodes.values()}
         self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
 
+    def test_capsules_and_directions_of_links_are_in_the_replay(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.change("scene/Lamps.cs", "lamp.AddComponent<LampActuator>();", """lamp.AddComponent<LampActuator>();
+                lamp.AddComponent<CapsuleCollider>().height = 3;
+                var reach = lamp.AddComponent<SphereCollider>();
+                reach.isTrigger = true;
+                reach.radius = 9;""")
+        self.change("scene/Lamps.cs", "if (loop)", """var post = new GameObject("Post").AddComponent<CapsuleCollider>();
+            post.transform.position = new Vector3(4, 1, 5);
+            post.direction = 2;
+            post.height = 6;
+            manager.AddLink(nodes[0].Id, nodes[2].Id, true);
+            if (loop)""")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        metadata, frames = replay.read(self.path("out", "replay.html"))
+        self.assertEqual((metadata["nodeRadius"], metadata["nodeHeight"]), (0.5, 3))
+        shape = {"kind": "capsule", "radius": 0.5, "height": 6, "axis": 2, "centre": [4, 1, 5], "rotation": [0, 0, 0, 1]}
+        self.assertEqual(metadata["shapes"], [shape])
+        _, nodes, links = frames[-1]
+        first, second, third = sorted(nodes)[:3]
+        self.assertEqual({link for link in links if first in link}, {(first, second), (second, first), (first, third)})
+
     def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')
         self.assertEqual(self.run_it().returncode, 0)

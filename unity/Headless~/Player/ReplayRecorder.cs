@@ -86,7 +86,8 @@ namespace Collektive.Headless
         {
             clock.Start();
             last = time;
-            writer.BeginFrame(time, CountLinks());
+            if (neighbours != null) CountNeighbours();
+            writer.BeginFrame(time, manager.Simulation.PresentLinks.Count);
             var nodes = manager.Nodes;
             // Of many nodes that left.
             if (colours?.Count > 2 * nodes.Count) colours.Clear();
@@ -104,24 +105,23 @@ namespace Collektive.Headless
                 mover.Value.Add(place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
-                if (pair.IsHeld) writer.Link(pair.Low, pair.High);
+            {
+                if (pair.Up.Holders > 0) writer.Link(pair.Low, pair.High);
+                if (pair.Down.Holders > 0) writer.Link(pair.High, pair.Low);
+            }
             writer.EndFrame();
             clock.Stop();
         }
 
-        private int CountLinks()
+        private void CountNeighbours()
         {
-            var count = 0;
-            if (neighbours != null) neighbours = new int[manager.Simulation.IdCapacity];
+            neighbours = new int[manager.Simulation.IdCapacity];
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
                 if (!pair.IsHeld) continue;
-                count++;
-                if (neighbours == null) continue;
                 neighbours[pair.Low]++;
                 neighbours[pair.High]++;
             }
-            return count;
         }
 
         private void Describe(ReplayMetadata metadata)
@@ -133,18 +133,24 @@ namespace Collektive.Headless
             var arena = floor == null ? new Bounds() : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
             foreach (var collider in colliders)
             {
-                if (collider == floor) continue;
+                if (collider == floor || collider.isTrigger) continue;
                 if (arena.size == Vector3.zero) arena = collider.bounds;
                 else arena.Encapsulate(collider.bounds);
                 if (collider.GetComponentInParent<Node>() != null)
                 {
                     if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
+                    if (collider is CapsuleCollider upright)
+                    {
+                        metadata.NodeRadius = Radius(upright);
+                        // The page does not know how nodes are turned.
+                        metadata.NodeHeight = upright.direction == 1 ? Height(upright) : 0;
+                    }
                     continue;
                 }
-                if (collider.isTrigger) continue;
                 if (collider.attachedRigidbody != null) AddMover(metadata, collider);
                 else if (collider is BoxCollider box) Add(metadata, box);
                 else if (collider is SphereCollider sphere) Add(metadata, sphere);
+                else if (collider is CapsuleCollider capsule) Add(metadata, capsule);
                 else if (collider is MeshCollider mesh && mesh.sharedMesh != null) Add(metadata, mesh);
                 else if (collider is TerrainCollider terrain && terrain.terrainData != null) Add(metadata, terrain);
             }
@@ -242,6 +248,7 @@ namespace Collektive.Headless
                 mover = metadata.AddMovingBox(size.x, size.y, size.z);
             }
             if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
+            if (collider is CapsuleCollider capsule) mover = metadata.AddMovingCapsule(Radius(capsule), Height(capsule), capsule.direction);
             if (mover != null && movers.Count < MaxMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
         }
 
@@ -278,6 +285,21 @@ namespace Collektive.Headless
             var turn = box.transform.rotation;
             metadata.AddBox(centre.x, centre.y, centre.z, size.x, size.y, size.z, turn.x, turn.y, turn.z, turn.w);
         }
+
+        private static void Add(ReplayMetadata metadata, CapsuleCollider capsule)
+        {
+            var centre = capsule.transform.TransformPoint(capsule.center);
+            var turn = capsule.transform.rotation;
+            metadata.AddCapsule(centre.x, centre.y, centre.z, Radius(capsule), Height(capsule), capsule.direction, turn.x, turn.y, turn.z, turn.w);
+        }
+
+        private static float Radius(CapsuleCollider capsule)
+        {
+            var scale = capsule.transform.lossyScale;
+            return capsule.radius * Mathf.Max(scale[(capsule.direction + 1) % 3], scale[(capsule.direction + 2) % 3]);
+        }
+
+        private static float Height(CapsuleCollider capsule) => capsule.height * capsule.transform.lossyScale[capsule.direction];
 
         private static void Add(ReplayMetadata metadata, SphereCollider sphere)
         {

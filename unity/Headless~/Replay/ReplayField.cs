@@ -23,6 +23,12 @@ namespace Collektive.Headless
     {
         private const int MaxInteger = 1 << 30;
 
+        // Categories with a colour in the order of their appearance.
+        private const int MostInOrder = 256;
+
+        private readonly HashSet<int> known = new HashSet<int>();
+        private readonly JArray order = new JArray();
+
         /// <param name="name">Shown in the legend; different for each field.</param>
         /// <param name="kind">What the values are.</param>
         public ReplayField(string name, ReplayFieldKind kind = ReplayFieldKind.Number)
@@ -63,6 +69,7 @@ namespace Collektive.Headless
         internal void Include(double value)
         {
             if (double.IsNaN(value)) SomeWithout = true;
+            else if (Kind == ReplayFieldKind.Category && known.Count < MostInOrder && known.Add((int)value)) order.Add((int)value);
             // Neither is true of NaN.
             if (value < Least) Least = value;
             if (value > Greatest) Greatest = value;
@@ -74,6 +81,7 @@ namespace Collektive.Headless
             if (Unit != null) json["unit"] = Unit;
             if (Min.HasValue) json["min"] = ReplayMetadata.Number(Min.Value);
             if (Max.HasValue) json["max"] = ReplayMetadata.Number(Max.Value);
+            if (Kind == ReplayFieldKind.Category) json["order"] = order;
             if (Categories.Count > 0) json["words"] = new JArray(Categories);
             // No value at all: no range either.
             json["least"] = Least <= Greatest ? Least : 0;

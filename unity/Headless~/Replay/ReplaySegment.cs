@@ -145,7 +145,7 @@ namespace Collektive.Headless
 
         private void WriteLinks(ReplayFrame before, ReplayFrame frame)
         {
-            Reserve(MaxBytesPerNumber * (3 + 2 * (frame.LinkCount + (before?.LinkCount ?? 0))));
+            Reserve(MaxBytesPerNumber * (3 + 2 * (frame.PairCount + (before?.PairCount ?? 0))));
             WriteNumber((uint)frame.Links);
             // The size precedes each set.
             WritePairs(before, frame);
@@ -162,17 +162,17 @@ namespace Collektive.Headless
         private int WalkPairs(ReplayFrame of, ReplayFrame without, bool write)
         {
             if (of == null) return 0;
-            int others = without?.LinkCount ?? 0, other = 0, count = 0, a = -1, b = 0;
-            for (var i = 0; i < of.LinkCount; i++)
+            int others = without?.PairCount ?? 0, other = 0, count = 0, a = -1, b = 0;
+            for (var i = 0; i < of.PairCount; i++)
             {
                 var key = of.LinkKeys[i];
                 while (other < others && without.LinkKeys[other] < key) other++;
                 if (other < others && without.LinkKeys[other] == key) continue;
                 count++;
                 if (!write) continue;
-                int nextA = (int)(key >> 32), nextB = (int)key;
+                int nextA = (int)(key >> 26), nextB = (int)(key >> 2) & 0xFFFFFF;
                 WriteNumber((uint)(nextA - a));
-                WriteNumber((uint)(nextB - (nextA == a ? b : nextA)));
+                WriteNumber((uint)((nextB - (nextA == a ? b : nextA)) << 2 | (int)key & 3));
                 a = nextA;
                 b = nextB;
             }
