@@ -54,7 +54,7 @@ class Module:
 
     @cached_property
     def upstream_of_tests(self) -> "list[Module]":
-        """This module and all that its tests depend on."""
+        """This module and the dependencies of its tests."""
         return [self, *_closure([*self.upstream, *self.direct(tests=True)])]
 
     def direct(self, tests: bool) -> "list[Module]":
@@ -68,15 +68,15 @@ class Module:
 
     @cached_property
     def build_key(self) -> str:
-        """A hash of all that the module's outputs depend on."""
+        """A hash of all inputs of the module's outputs."""
         return _hash([self.folder / "src/main", *self._named], [module.build_key for module in self.upstream])
 
     def main_key(self) -> str:
-        """Returns a hash of all that the module's classes depend on, as the other modules are now."""
+        """Returns a hash of all inputs of the module's classes."""
         return _hash([self.folder / "src/main", *self._named], self._seen(self.upstream))
 
     def tests_key(self) -> str:
-        """Returns a hash of all that the classes of its tests depend on, as the modules are now."""
+        """Returns a hash of all inputs of its test classes."""
         sources = [path for path in sorted((self.folder / "src").glob("*")) if path.name != "main"]
         fixtures = [(self.folder / path).resolve() for path in re.findall(r">(\.\./[\w-]+/src/[^<]+)<", self._pom)]
         return _hash([*sources, *fixtures, *self._named], self._seen(self.upstream_of_tests))
@@ -219,7 +219,7 @@ def read_modules() -> dict[str, Module]:
 
 
 def closure(names: list[str], modules: dict[str, Module]) -> list[Module]:
-    """Returns the named modules and all that they and their tests depend on, which Maven wants to see, or all modules if none is named."""
+    """Returns the named modules with the dependencies of them and their tests, which Maven needs. Without names, returns all modules."""
     found: dict[str, Module] = {}
 
     def add(module: Module) -> None:

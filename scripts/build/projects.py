@@ -33,7 +33,7 @@ def generator(schema: Path, *outputs: str | Path) -> list[str | Path]:
 
 
 def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
-    """Returns a hash over parts of a project, and over all that compiles them.
+    """Returns a hash over parts of a project, and over the tools that compile them.
 
     Paths are relative to the project, so copies of a project share outputs.
     """

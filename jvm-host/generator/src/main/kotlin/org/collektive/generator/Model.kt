@@ -67,7 +67,7 @@ internal data class TypeName(val namespace: String, val simple: String) {
     override fun toString(): String = "$namespace.$simple"
 }
 
-/** A user's schema. [structs], [tables] and [enums] are all that are reachable from the root types, the former sorted by name. */
+/** A user's schema. [structs], [tables] and [enums] are those reachable from the root types, the former sorted by name. */
 internal class UserSchema(
     val file: String,
     val name: TypeName,

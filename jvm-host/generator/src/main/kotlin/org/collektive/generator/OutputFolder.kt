@@ -24,7 +24,7 @@ internal class OutputFolder(private val root: Path) {
         write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }
 
-    /** Copies files of [folder]; [edit] maps the path and the text of each to the text to write, or to `null`: it is left out. */
+    /** Copies files of [folder]; [edit] maps the path and the text of each to the text to write, or to `null` to skip the file. */
     fun copy(folder: Path, edit: (String, String) -> String?) {
         if (!Files.exists(folder)) return
         val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }

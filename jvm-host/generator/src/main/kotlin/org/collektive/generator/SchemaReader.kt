@@ -179,7 +179,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         return EnumType(name(source.name()), underlying, values)
     }
 
-    /** Checks that each field lies at the next multiple of its alignment, as the C# runtime places the fields of the mirrors. */
+    /** Checks that each field is at the next multiple of its alignment, as the C# runtime places the fields of the mirrors. */
     private fun checkLayout(type: StructType) {
         var end = 0
         var largest = 1
@@ -304,7 +304,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         /** A constructor of Java has 255 parameters, some of which Kotlin takes. */
         const val MAX_PARAMETERS = 240
 
-        /** The layouts of all tables are made by one method of Java, which has 64 KB at most. */
+        /** One Java method creates the layouts of all tables, and methods have at most 64 KB. */
         const val MAX_FIELDS = 3000
         val fileName = Regex("[A-Za-z][A-Za-z0-9_. -]*")
 

@@ -18,7 +18,7 @@ public interface OutboundEnvelope<ID : Any> {
     /** Whether the device sends values. */
     public fun isNotEmpty(): Boolean = !isEmpty()
 
-    /** The message for [receiverId], made by [factory]. A receiver that was not a neighbour during the round gets the default values. */
+    /** Returns the message for [receiverId], created with [factory]. A receiver that was not a neighbour during the round gets the default values. */
     public fun prepareMessageFor(receiverId: ID, factory: MessageFactory<ID, *> = InMemoryMessageFactory()): Message<ID, Any?>
 
     /**

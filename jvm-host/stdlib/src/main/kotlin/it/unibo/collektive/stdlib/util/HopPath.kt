@@ -22,7 +22,7 @@ internal class HopPath<ID : Any> private constructor(
 
     override fun contains(element: ID): Boolean = prefixUpTo(element) != null
 
-    /** Whether this path was made by appending [id] to [path]. Compares [path] by identity, so it takes constant time. */
+    /** Whether this path is [path] with [id] appended. Compares [path] by identity, so it takes constant time. */
     fun extends(path: HopPath<ID>, id: ID): Boolean = previous === path && hop == id
 
     /**
@@ -40,7 +40,7 @@ internal class HopPath<ID : Any> private constructor(
         }
     }
 
-    /** Whether the devices common to this path and [whole] are in the same order, and lie in [prefix], with which [whole] begins. */
+    /** Whether the devices common to this path and [whole] are in the same order, and are in [prefix], with which [whole] begins. */
     private fun inOrderOf(prefix: HopPath<ID>, whole: HopPath<ID>): Boolean {
         var mine = this
         var rest = prefix
