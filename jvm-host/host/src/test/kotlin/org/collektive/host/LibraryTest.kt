@@ -85,7 +85,7 @@ class LibraryTest {
         val error = session.errors(session.ok(step(1))).values.first()
         session.close()
         assertContains(error, "NoSuchMethodError")
-        assertContains(error, "build the programs again with the jars that run them")
+        assertContains(error, "rebuild the programs with the jars that run them")
     }
 
     @Test
@@ -107,7 +107,7 @@ class LibraryTest {
 
     private fun refused(jar: String, runtime: Int, vararg parts: String) {
         assertEquals(HostError.PROGRAM.code.toLong(), TestSession(shim).open(listOf(jar), runtime = runtime), shim.error)
-        for (part in listOf(*parts, jar, "Build the programs again")) assertContains(shim.error, part)
+        for (part in listOf(*parts, jar, "Rebuild the programs")) assertContains(shim.error, part)
     }
 
     private fun step(number: Int) = Step(number.toLong()).apply {
