@@ -1,4 +1,4 @@
-// The scripts of the replay page and of the site; ./collektive test lint checks them. COLLEKTIVE_NODE_MODULES names where eslint lies.
+// Style of the scripts of the replay page and the site, checked by ./collektive test lint. COLLEKTIVE_NODE_MODULES is the folder with eslint.
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 

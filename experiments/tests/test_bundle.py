@@ -36,4 +36,4 @@ def test_runs_use_what_links_and_includes_led_to(project: Project) -> None:
     (project.folder / "light.fbs").write_text((project.folder / "light.fbs").read_text() + "// changed\n")
     again = project.sweep("--resume", vary={"seed": [1]})
     assert again.returncode == 1
-    assert "are not those that the runs in" in again.stderr
+    assert "differ from those of the runs in" in again.stderr

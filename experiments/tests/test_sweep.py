@@ -114,7 +114,7 @@ def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -
     scene.write_text(scene.read_text() + "\n// other\n")
     result = project.sweep("--resume", **keys)
     assert result.returncode == 1
-    assert "are not those that the runs in" in result.stderr
+    assert "differ from those of the runs in" in result.stderr
 
 
 @pytest.mark.parametrize(("keys", "line", "message"), [

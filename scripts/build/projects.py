@@ -127,7 +127,7 @@ def compile_jvm(run: Callable[[Sequence[str | Path]], None], library: str, gener
         # The code of an internal error, whose usual cause is a plugin.
         if error.returncode == 2:
             version = fetch.pom_value("kotlin.version")
-            raise Failure(f"the Kotlin compiler {version} crashed; its messages are above. The compiler plugin may need another version") from error
+            raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error
         raise
     shutil.copytree(generated / "META-INF", classes / "META-INF", dirs_exist_ok=True)
 

@@ -24,7 +24,7 @@ CLIENT_VARIABLES = re.compile(r"(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_
                               r"PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*")
 # Settings of the clients in the user's folder.
 CLIENT_FILES = (".m2/settings.xml", ".m2/settings-security.xml", ".cargo/config", ".cargo/config.toml", ".cargo/credentials.toml")
-# Mounts and devices of a root, whose folder is the first argument; then the rest is run inside it.
+# Mounts the root in the first argument, and runs the other arguments inside it.
 ENTER = """
 set -e
 root=$1
@@ -45,11 +45,11 @@ PROGRESS = re.compile(r"\[ *\d+s\] |collektive: |\d+ passed, ")
 
 
 class CannotMakeError(Exception):
-    """A root cannot be made, such as without a network."""
+    """A root cannot be created, for example without a network."""
 
 
 def test(names: Sequence[str], results: Path) -> tuple[str, int]:
-    """Tests the last commit in roots; returns what failed, or nothing, and how many roots were skipped."""
+    """Tests the last commit in roots. Returns the failure or an empty text, and the number of skipped roots."""
     shutil.rmtree(results, ignore_errors=True)
     results.mkdir(parents=True)
     if not _is_possible():
@@ -74,7 +74,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
 
 
 def _is_possible() -> bool:
-    """Reports whether roots can be made here, and prints why not."""
+    """Returns whether roots can be created here, and prints the reason if not."""
     if not system.can_install():
         print_progress("skipped: fresh roots need root and apt-get")
         return False
@@ -91,12 +91,12 @@ def _is_possible() -> bool:
 
 
 def _namespace(*command: str | Path) -> list[str | Path]:
-    """Returns a command line whose mounts and processes end with it."""
+    """Returns a command line in a namespace, whose mounts and processes end with the command."""
     return ["unshare", "--mount", "--pid", "--fork", "--kill-child", *command]
 
 
 def _remove(folder: Path) -> None:
-    """Removes a folder; all mounts below it were in namespaces that have ended."""
+    """Removes a folder, below which no mounts are left."""
     subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
 
 
@@ -105,7 +105,7 @@ def _log(name: str) -> Path:
 
 
 def _test_root(name: str, work: Path, results: Path) -> int:
-    """Makes a root, and runs the demo and the tests in it; returns the exit code of the last that failed."""
+    """Creates a root, and runs the demo and the tests in it. Returns the last exit code that is not 0."""
     began, root = time.monotonic(), work / name
     print_progress(f"{name}: making the root")
     _log(name).unlink(missing_ok=True)
@@ -127,12 +127,12 @@ def _make(name: str, work: Path, root: Path) -> None:
     """Makes a minimal system with a clone of HEAD and this machine's settings of clients."""
     suite = ROOTS[name]
     if suite == "noble":
-        # Debian 12's debootstrap does not know it yet; Ubuntu's suites differ in nothing that matters here.
+        # Debian 12's debootstrap does not know this suite, but all Ubuntu suites work the same way.
         script = [] if Path("/usr/share/debootstrap/scripts", suite).exists() else ["/usr/share/debootstrap/scripts/jammy"]
         mirror = _mirror("Ubuntu")
         keyring = _ubuntu_keyring(name, work, suite, mirror, script)
         _debootstrap(name, root, suite, mirror, script, f"--keyring={keyring}")
-        # Each Ubuntu has these switched on.
+        # Enabled by default in Ubuntu.
         sources = root / "etc/apt/sources.list"
         sources.write_text(re.sub(rf"(.*) {suite} main.*", rf"\1 {suite} main universe\n\1 {suite}-updates main universe", sources.read_text()))
     else:
@@ -142,7 +142,7 @@ def _make(name: str, work: Path, root: Path) -> None:
 
 
 def _mirror(label: str) -> str:
-    """Returns the mirror of this machine's own packages, or nothing, which means debootstrap's."""
+    """Returns the package mirror of this machine, or an empty text for debootstrap's default."""
     command = ["apt-get", "indextargets", "--format", "$(LABEL) $(REPO_URI)"]
     lines = subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.splitlines()
     return next((line.removeprefix(f"{label} ") for line in lines if line.startswith(f"{label} ")), "")
@@ -171,14 +171,14 @@ def _logged(name: str, command: Sequence[str | Path]) -> None:
 
 
 def _add_clients(root: Path) -> None:
-    """Lets clients in the root reach registries as those of this machine do: name servers, proxies, certificates, the user's settings."""
+    """Copies name servers, proxies, certificates and client settings of this machine to the root."""
     home = Path.home()
     for file in ("resolv.conf", "hosts"):
         shutil.copy(Path("/etc", file), root / "etc" / file)
     settings = subprocess.run(["apt-config", "dump"], stdout=subprocess.PIPE, text=True, check=True).stdout
     (root / "etc/apt/apt.conf.d/00host").write_text("".join(line for line in settings.splitlines(keepends=True) if line.startswith("Acquire::")))
     certificates = [*Path("/usr/local/share/ca-certificates").glob("*.crt")]
-    # A bundle of certificates elsewhere than Debian's packages put theirs.
+    # A bundle of certificates in a place that differs from Debian's.
     bundles = [Path(value) for value in _client_variables().values() if os.path.isfile(value) and not value.startswith("/etc/ssl/certs/")]
     for source, target in [*((file, root / str(file).lstrip("/")) for file in [*certificates, *bundles]),
                            *((home / file, root / "root" / file) for file in CLIENT_FILES if (home / file).exists())]:
@@ -197,7 +197,7 @@ def _client_variables() -> dict[str, str]:
 
 
 def _run(name: str, root: Path, *command: str) -> int:
-    """Runs a command in the clone inside the root; its output goes to the log, and its steps are shown."""
+    """Runs a command in the clone inside the root, with its output in the log, and prints its steps."""
     print_progress(f"{name}: {' '.join(command)}")
     variables = [f"{key}={value}" for key, value in _client_variables().items()]
     inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]

@@ -1,4 +1,4 @@
-"""Checks what a demo has written."""
+"""Checks the results of a demo."""
 import csv
 import json
 import os
@@ -8,7 +8,7 @@ from tests import junit
 
 
 class Demo:
-    """Each check returns what is wrong, or None."""
+    """Checks that return an error or None."""
 
     def __init__(self, folder: str, code: int) -> None:
         self.folder, self.code = folder, code
@@ -45,7 +45,7 @@ def case(name: str, check: Callable[[], str | None]) -> junit.Case:
 
 
 def check(folder: str, code: int, results: str) -> None:
-    """Writes to RESULTS.xml whether a demo that ended with a code has written to a folder what it promises."""
+    """Checks the results of a demo that ended with a code, and writes RESULTS.xml."""
     demo = Demo(folder, code)
     junit.write(results, "demo", [
         case("it ends with 0", demo.ended),

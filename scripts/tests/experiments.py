@@ -1,4 +1,4 @@
-"""Runs tests of the package collektive_experiments: `experiments.py WORD...`, with the words of pytest."""
+"""Runs tests of the package collektive_experiments: `experiments.py WORD...`, with arguments of pytest."""
 import sys
 from pathlib import Path
 

@@ -33,7 +33,7 @@ class CommandTest(unittest.TestCase):
             for folder in (str(ROOT), other):
                 result = collektive("site", "--out", folder)
                 self.assertEqual(result.returncode, 1)
-                self.assertIn(f"'{folder}' exists and was not made by this command", last_error(result))
+                self.assertIn(f"'{folder}' exists and is not a site built by this command", last_error(result))
             self.assertTrue(Path(other, "sitemap.xml").exists())
 
 

@@ -85,7 +85,7 @@ class Messages(Project):
     def test_unusual_shell_environments_work_or_are_reported(self) -> None:
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
-        self.assertIn("the stack of processes is limited to 64 KB, and the tools need 1024: ulimit -s 8192", small.stderr)
+        self.assertIn("the stack limit is 64 KB, and the tools need 1024 KB: run ulimit -s 8192", small.stderr)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run nowhere.json 2>&-"], capture_output=True, text=True)
         self.assertIn("there is no file 'nowhere.json'", closed.stdout)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run {self.path('project', 'lamps.json')} --out {self.path('out')} <&- >&- 2>&-"])

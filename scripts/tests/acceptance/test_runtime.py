@@ -120,7 +120,7 @@ class Runtimes(Project):
         self.use_jar(self.programs_jar())
         self.switch()
         self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
-                     "Build the programs again")
+                     "Rebuild the programs")
 
     def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self) -> None:
         self.switch()
@@ -160,7 +160,7 @@ class Runtimes(Project):
         self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
         # Like a plugin for another version of the compiler.
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
-        self.refused("the compiler plugin may be made for another version of it")
+        self.refused("the compiler plugin may be built for another version")
 
     def test_settings_without_jars_or_plugin_are_refused_with_their_line(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')

@@ -1,4 +1,4 @@
-"""Runs a short ./collektive bench tick and scene and checks what does not depend on the machine."""
+"""Runs a short ./collektive bench tick and scene, and checks the results that do not depend on the machine."""
 import json
 import os
 import subprocess

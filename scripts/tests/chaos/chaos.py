@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Disturbs runs of a small scenario in every way that a machine or a user can, and checks what is left of them. Prints a table of what was tried and
-what came out, then "N passed, N failed".
+"""Disturbs runs of a small scenario with signals, full disks, clock changes and little memory. Prints a table of trials and outcomes, then
+"N passed, N failed".
 
-chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]: so many trials of each kind; OTHERS of a jumping clock and of little
-memory. In each of FAULTS, one call to the system fails in a run that replaces earlier results.
+chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]: the number of trials of each kind. OTHERS are clock and memory trials.
+In each of FAULTS, one system call fails in a run that replaces earlier results.
 
-After each trial must hold: exit code 0 only with all ticks; a folder whose manifest says "complete" is; no process is left; earlier results in
-another folder are as they were; replaced results are there until the new run began; and the next run, at the end, works.
+After each trial, exit code 0 requires all ticks, a manifest with the outcome "complete" requires complete results, no process may be left, earlier
+results in another folder must be unchanged, and replaced results must exist until the new run began. At the end, another run must succeed.
 """
 import argparse
 import collections
@@ -33,7 +33,7 @@ from tests import junit  # noqa: E402
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
 SECONDS, TICKS = 20, 200
 LIMIT_S = 240
-# How long what a signal ended may take to be gone.
+# Time limit in seconds until all processes have ended after a signal.
 GONE_S = 20
 MARK = "COLLEKTIVE_CHAOS"
 MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"; "$@"; code=$?; cp -r "$DISK/out" "$KEEP" 2>/dev/null; exit $code'
@@ -42,12 +42,12 @@ MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"
 @dataclass(frozen=True)
 class Outcome:
     end: str
-    """Of the run, for the table."""
+    """The outcome of a run, for the table."""
     problems: list[str]
 
 
 class Trial:
-    """One disturbed run, in a folder of its own."""
+    """A disturbed run in a separate folder."""
 
     def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], took: float) -> None:
         self.kind, self.number, self.count, self.reference, self.took = kind, number, count, reference, took
@@ -66,7 +66,7 @@ class Trial:
             shutil.copytree(PROJECT, self.path("project"))
             write_scenario(self.path("project", "lamps.json"))
             if self.is_edited:
-                # It must be compiled first, and is disturbed in that, too.
+                # The run begins with compilation, which is also disturbed.
                 with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
                     file.write(f"// {self.mark}\n")
             shutil.copytree(self.reference["folder"], self.path("earlier"))
@@ -95,7 +95,7 @@ class Trial:
         return process.returncode, output
 
     def kill(self) -> tuple[int, str, str]:
-        """SIGKILL to the player, to the command, or to all of it, at any moment."""
+        """Sends SIGKILL to the player, the command or all processes at a random time."""
         into_earlier = self.random.random() < 0.2
         process = self.start(out="earlier" if into_earlier else "out")
         target, moment = self.random.choice(["player", "command", "all"]), self.random.uniform(0, 1.05 * self.took)
@@ -107,7 +107,7 @@ class Trial:
             for pid in marked(self.mark, "Collektive.Player.exe"):
                 kill(pid, signal.SIGKILL)
         else:
-            # As the end of a container: one that is killed may have started another just before.
+            # Like the end of a container. Repeats, because a process may have started another one just before it was killed.
             while pids := marked(self.mark):
                 for pid in pids:
                     kill(pid, signal.SIGKILL)
@@ -122,7 +122,7 @@ class Trial:
         return (*self.end(process), self.path("out"))
 
     def disk(self) -> tuple[int, str, str]:
-        """A disk that is small, read-only, or becomes read-only while the run writes to it."""
+        """Uses a disk that is small, read-only, or becomes read-only during the run."""
         fault = self.random.choice(["small", "small", "read-only", "becomes read-only"])
         size = self.random.choice([4, 8, 16, 64, 200, 400, 600, 800, 1000, 1500]) if fault == "small" else 20000
         moment = self.random.uniform(0.5, 1) * self.took
@@ -136,7 +136,7 @@ class Trial:
         return (*self.end(process), self.path("keep", "out"))
 
     def clock(self) -> tuple[int, str, str]:
-        """The time of day jumps while the run plays."""
+        """Changes the time of day during the run."""
         jump, moment = self.random.choice([-86400, -3600, -1, 3600, 400 * 86400]), self.random.uniform(0, self.took)
         self.detail = f"the clock jumps by {jump} s after {moment:.2f} s"
         offset = self.path("offset")
@@ -150,7 +150,7 @@ class Trial:
         return (*self.end(process), self.path("out"))
 
     def memory(self) -> tuple[int, str, str]:
-        """A limit of the address space, from too little for Mono to enough for all."""
+        """Limits the address space, from too little for Mono to enough for the run."""
         kilobytes = self.random.choice([100, 300, 600, 1000, 1500, 2000, 3000, 5000]) * 1000
         self.detail = f"{kilobytes} KB of address space"
         return (*self.end(self.start(("bash", "-c", f'ulimit -v {kilobytes}; "$@"', "bash"))), self.path("out"))
@@ -205,7 +205,7 @@ def kill(pid: int, number: int) -> None:
 
 
 def marked(mark: str, words: str = "") -> dict[int, str]:
-    """Command lines, by process id, of the processes that a trial has started and that have the words in theirs."""
+    """Returns command lines of a trial's processes that contain the words, by process id."""
     found = {}
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -235,7 +235,7 @@ def content(path: str) -> bytes:
 
 
 def broken(out: str, code: int, reference: dict[str, Any]) -> list[str]:
-    """What is wrong with the outputs of a run that ended with a code."""
+    """Returns the errors in the outputs of a run that ended with a code."""
     path = os.path.join(out, "manifest.json")
     if not os.path.exists(path):
         return ["exit code 0 without a manifest"] if code == 0 else []
@@ -266,7 +266,7 @@ def ending(code: int) -> str:
 
 
 def make_reference(work: str) -> tuple[dict[str, Any], float]:
-    """An undisturbed run, and how long it takes once all is compiled."""
+    """Makes an undisturbed run, and returns it with its duration without compilation."""
     shutil.copytree(PROJECT, os.path.join(work, "project"))
     scenario, out = os.path.join(work, "project", "lamps.json"), os.path.join(work, "out")
     write_scenario(scenario)
@@ -291,7 +291,7 @@ def failing(at: int, folder: str) -> dict[str, str]:
 
 
 def clock_library() -> str:
-    """Returns the path of libfaketime, or an empty text when it is not installed."""
+    """Returns the path of libfaketime, or an empty text if it is not installed."""
     return next(iter(glob.glob("/usr/lib/*/faketime/libfaketime.so.1")), "")
 
 
@@ -306,7 +306,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
     parser.add_argument("--results")
     given = parser.parse_args()
-    # Jobs of scripts ignore SIGINT, and hand that down to the runs.
+    # Background jobs of shells ignore SIGINT, and children inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others, "fault": given.faults}
     if not can_mount():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Ends runs in every way, again and again: exit code, order, and the flight recording must be right. The last line is "N passed, N failed".
+"""Ends runs in different ways, repeatedly, and checks exit code, order and flight recording. The last line is "N passed, N failed".
 
 exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, on every runtime and JVM; FILE gets the results as JUnit XML.
 """
@@ -26,14 +26,14 @@ from tests.faults import places as files
 
 # How a run ends, and its exit code.
 KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
-# Of CoreCLR, where they differ: it aborts.
+# Different codes on CoreCLR, which aborts.
 CORECLR_CODES = {"thread-exception": -signal.SIGABRT}
 SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
 LIMIT_S = 180
 
 
 def command(places: dict[str, Any], kind: str, runtime: str, jdk: str, folder: str) -> list[str]:
-    """The player; on CoreCLR, where it does not run, a program that plays the same scene."""
+    """Returns the command line of the player, or on CoreCLR of a program that runs the same scene."""
     flag = "-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")
     if runtime == "coreclr":
         return [runtime, "--debug", places["program"], "act=exit", "how=" + kind, "home=" + jdk, "host=" + places["host"], "jar=" + places["jar"],
@@ -53,7 +53,7 @@ def scenario(places: dict[str, Any], folder: str, seconds: int, flag: str) -> di
 
 
 def recording_problem(path: str) -> str:
-    """A recording is a row of chunks, each with its length in its head; one that was not finished has none."""
+    """Returns the error in a flight recording, or an empty text. Unfinished chunks have no length in their header."""
     if not os.path.exists(path):
         return "there is no flight recording"
     with open(path, "rb") as file:
@@ -70,7 +70,7 @@ def recording_problem(path: str) -> str:
 
 
 def run(places: dict[str, Any], kind: str, index: int) -> str:
-    """Returns what is wrong, "" for nothing."""
+    """Returns the error, or an empty text."""
     runtime = places["runtimes"][index % len(places["runtimes"])]
     jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
     folder = tempfile.mkdtemp(prefix="collektive-exit-")

@@ -13,7 +13,7 @@ def test_a_checkout_whose_path_has_a_separator_is_refused(checkout: Checkout, se
     command = checkout.start_command("clean")
     errors = command.communicate()[1]
     assert command.returncode == 1
-    assert f"a{separator}b', contains '{separator}', which separates paths" in errors
+    assert f"a{separator}b', contains '{separator}', which the tools use to separate paths" in errors
 
 
 @pytest.mark.parametrize("words, code", [(("diff", "a", "b"), 2), (("replay", "a"), 2), (("run", "a"), 1)])
@@ -25,7 +25,7 @@ def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, 
         pytest.skip("this system lets nobody mount")
     assert result.returncode == code
     assert result.stderr.splitlines() == [f"collektive: '{checkout.root}/build': Read-only file system: the command must be able to write to its checkout; "
-                                          "use one that belongs to you"]
+                                          "use a checkout that you own"]
 
 
 def test_a_folder_that_is_not_a_jdk_is_reported_before_anything_is_fetched(checkout: Checkout) -> None:

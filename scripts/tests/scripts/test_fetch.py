@@ -80,7 +80,7 @@ def test_a_damaged_download_is_fetched_again(checkout: Checkout) -> None:
     (checkout.root / "stored").write_text("damaged\n")
     result = checkout.run(f"fetch._downloaded('crate', ['sh', '-c', {client!r}], (root / 'stored').unlink, cwd=root)")
     assert result.returncode == 0, result.stderr
-    assert "crate: once more, without the stored downloads" in result.stderr
+    assert "crate failed: retrying without cached downloads" in result.stderr
 
 
 def test_an_error_that_stays_ends_the_command(checkout: Checkout) -> None:

@@ -99,7 +99,7 @@ def test_a_file_that_changes_while_it_is_compiled_is_noticed(tmp_path: Path) -> 
     part = inputs.scripts(tmp_path)
     part.require_unchanged()
     file.write_text("two")
-    with pytest.raises(Failure, match="was changed while it was compiled"):
+    with pytest.raises(Failure, match="changed during compilation"):
         part.require_unchanged()
 
 

@@ -173,7 +173,7 @@ def test_suites_are_chosen_by_run_area_and_name(words: list[str], names: list[st
 
 
 def test_an_unknown_suite_is_reported_with_the_known_ones() -> None:
-    with pytest.raises(Failure, match="unknown suite 'nonesuch'; known: lint jvm csharp sanitized, and in parts: csharp-on-17 "):
+    with pytest.raises(Failure, match="unknown suite 'nonesuch'; known: areas lint jvm csharp sanitized; suites csharp-on-17 "):
         command.select_suites(SUITES, ["lint", "nonesuch"])
 
 

@@ -34,7 +34,7 @@ internal class RefusalTest {
     fun `a schema without a namespace is refused`() {
         assertContains(
             refusal("struct SensorData { x: float; } struct ActuatorData { x: float; }"),
-            "it lies in no namespace; write `namespace yours;`",
+            "it has no namespace; write `namespace NAME;`",
         )
     }
 
@@ -108,10 +108,10 @@ internal class RefusalTest {
             fields("xs: string;\nxs_offset: int;") to "user.fbs:5: SensorData.xs_offset: generated code of xs has a member of this name",
             fields("a: int;\u0000") to "user.fbs:4: the file has a NUL character",
             fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: generated code of y has",
-            namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class' in it",
-            namespace("a.fun") to "the namespace has the keyword 'fun' in it; rename the namespace",
-            namespace("String.inner") to "generated code uses a type of the name String; rename the namespace",
-            namespace("java.util") to "the namespace java.util is that of a library",
+            namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class'",
+            namespace("a.fun") to "the namespace has the keyword 'fun'; rename the namespace",
+            namespace("String.inner") to "generated code uses a type named String; rename the namespace",
+            namespace("java.util") to "the namespace java.util is used by a library",
             namespace("kotlin") to "the namespace kotlin is that of a library",
             namespace("org.collektive.frames") to "the namespace org.collektive.frames is that of a library",
             namespace("data") to "the namespace data is that of a library, or a name in generated code",
@@ -135,7 +135,7 @@ internal class RefusalTest {
     fun `a file whose name cannot be that of a class is refused`() {
         for (name in listOf("1st.fbs", "_.fbs", "sch\u00f6n.fbs", "a\nb.fbs", "a*b.fbs")) {
             val message = assertFailsWith<GeneratorException> { Fixture.generate(user("", "x: int;"), name) }.message.orEmpty()
-            assertContains(message, "the schema's class is named after its file: begin the file's name with a letter")
+            assertContains(message, "the name of the file is the name of a class: begin it with a letter")
         }
     }
 

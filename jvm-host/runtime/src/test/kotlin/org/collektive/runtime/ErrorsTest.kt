@@ -98,7 +98,7 @@ class ErrorsTest {
     fun `a pivot that cannot be a key`() {
         val place = "node 1 at helper (Swarm.kt:7)"
         for (pivot in listOf(intArrayOf(1), arrayOf("a"), { 1 })) {
-            assertMessage<IllegalArgumentException>("cannot be a pivot: it equals no other one", place) {
+            assertMessage<IllegalArgumentException>("cannot be a pivot: it is compared by identity", place) {
                 alignedOn(pivot) { evolve(0) { it } }
             }
         }
