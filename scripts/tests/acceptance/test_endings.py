@@ -103,7 +103,7 @@ class WholeRuns(Project):
                 result = self.at_tick_4(code)
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 1)
-                self.assertIn(f"4 of 10 ticks were done: a script {cause}; ", last_error(result))
+                self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
     def test_ticks_may_be_as_long_as_an_hour(self) -> None:
@@ -196,7 +196,7 @@ class WholeRuns(Project):
                 result = self.run_it()
                 self.change("scene/Lamps.cs", line, "data.Brightness = Brightness;")
                 self.assertEqual(result.returncode, 1, result.stderr)
-                message = "stopped at tick 5: sensors, actuators, rules or scripts took more than 'stepLimitMs', 700 ms"
+                message = "stopped at tick 5: sensors, actuators, rules or scripts exceeded 'stepLimitMs', 700 ms"
                 self.assertIn(message, last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
 
@@ -217,7 +217,7 @@ class WholeRuns(Project):
             result = self.run_it()
             self.change("scene/Lamps.cs", f'{{ "{name}"', '{ "agreeing"')
             self.assertEqual(result.returncode, 1)
-            self.assertIn(f"names the metric '{name}', which is the name of another column of metrics.csv: rename it", last_error(result))
+            self.assertIn(f"has the metric '{name}', but metrics.csv already has a column of that name: rename the metric", last_error(result))
             self.assertFalse(os.path.exists(self.path("out", "metrics.csv")))
 
     def test_fields_are_set_to_whole_values_only(self) -> None:

@@ -94,7 +94,7 @@ class Outputs(Project):
         self.assertNotIn("replay.html", self.contents())
         repeated = collektive("repeat", self.path("out", "manifest.json"), "--out", self.path("again"))
         self.assertEqual(repeated.returncode, 1)
-        self.assertIn("the run did not come to its end", last_error(repeated))
+        self.assertIn("the run was not completed", last_error(repeated))
 
     def test_links_in_the_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]

@@ -166,7 +166,7 @@ class Runtimes(Project):
         self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')
         self.refused("the key 'runtimeJars' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "collektive", "runtimeJars": "nowhere"')
-        self.refused("'runtimeJars' names no folder: " + self.path("project", "nowhere"))
+        self.refused("'runtimeJars' does not name a folder: " + self.path("project", "nowhere"))
         self.change("lamps.json", "nowhere", "collektive")
         self.refused("the key 'runtimePlugin' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "alchemist"')

@@ -69,7 +69,7 @@ namespace Collektive.Unity.Tests
             holder.transform.SetParent(root.transform);
             holder.SetActive(false);
             holder.AddComponent<Node>().RequestedId = 0;
-            LogAssert.Expect(LogType.Error, new Regex("'Other' wants id 0, which node 'One' has"));
+            LogAssert.Expect(LogType.Error, new Regex("'Other' has id 0, which node 'One' already uses"));
             holder.SetActive(true);
             Assert.That(manager.enabled, Is.False);
         }

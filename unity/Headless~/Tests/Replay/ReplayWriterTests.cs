@@ -509,7 +509,7 @@ namespace Collektive.Headless.Tests
         public void ARunWithoutFramesHasNoPage()
         {
             using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
-                StringAssert.Contains("there is no frame", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
+                StringAssert.Contains("the replay has no frames", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
         }
 
         [TestCase("no placeholder")]

@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(5);
             Assert.That(Log.FindAll(line => line.Contains("kinematic")), Is.EqualTo(new[]
             {
-                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a Move actuator",
+                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a Move actuator",
             }));
         }
 

@@ -4,7 +4,7 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What an inspector shows beside JVM settings: for each what is in effect and what is wrong with it, and whether a restart is due.
+    /// The values in effect and the errors of JVM settings, and whether a restart is needed, for inspectors.
     /// Replaced when the settings change; the check of the options takes 50 to 200 ms.
     /// </summary>
     internal sealed class JvmReport

@@ -5,27 +5,27 @@ using System.IO;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Where the JVM is taken from.</summary>
+    /// <summary>Location of the JVM.</summary>
     public enum JvmLocation
     {
-        /// <summary>The package's own, else that of <c>JAVA_HOME</c>.</summary>
+        /// <summary>The JVM package, or <c>JAVA_HOME</c>.</summary>
         Automatic,
         /// <summary>The package's own.</summary>
         Bundled,
-        /// <summary>That of the environment variable <c>JAVA_HOME</c>.</summary>
+        /// <summary>The environment variable <c>JAVA_HOME</c>.</summary>
         JavaHome,
-        /// <summary>That of <see cref="JvmSettings.home"/>.</summary>
+        /// <summary>The folder <see cref="JvmSettings.home"/>.</summary>
         Folder,
     }
 
     /// <summary>The garbage collector.</summary>
     public enum JvmCollector
     {
-        /// <summary>Serial, unless one of the free flags names another.</summary>
+        /// <summary>Serial, unless a flag selects another.</summary>
         Automatic,
         /// <summary>A balance of throughput and short pauses.</summary>
         G1,
-        /// <summary>One thread; the cheapest for programs while it rests, the least memory and the fastest start.</summary>
+        /// <summary>One thread, with the lowest overhead and memory and the fastest start.</summary>
         Serial,
         /// <summary>The highest throughput, with long pauses.</summary>
         Parallel,
@@ -35,14 +35,14 @@ namespace Collektive.Bridge
         Shenandoah,
     }
 
-    /// <summary>How programs become machine code.</summary>
+    /// <summary>The compilation of programs to machine code.</summary>
     public enum JvmCompiler
     {
-        /// <summary>First quick code, then, where it is worth while, optimised code.</summary>
+        /// <summary>Compiles quickly first, and optimises frequently executed code.</summary>
         Tiered,
-        /// <summary>Quick code only: up to speed at once, slower in the long run.</summary>
+        /// <summary>Compiles quickly only: faster at first, slower in the long run.</summary>
         C1,
-        /// <summary>No machine code at all: for looking for faults.</summary>
+        /// <summary>Does not compile: for finding bugs of the compiler.</summary>
         Interpreter,
     }
 
@@ -53,28 +53,28 @@ namespace Collektive.Bridge
     [Serializable]
     public sealed class JvmSettings
     {
-        /// <summary>Where the JVM is taken from.</summary>
+        /// <summary>Location of the JVM.</summary>
         public JvmLocation location = JvmLocation.Automatic;
 
         /// <summary>Root of a JRE or JDK, for <see cref="JvmLocation.Folder"/>.</summary>
         public string home = "";
 
-        /// <summary>MiB of heap at the start; 0: the JVM's choice.</summary>
+        /// <summary>Heap at the start in MiB; 0: the JVM's default.</summary>
         public int initialHeapMb;
 
-        /// <summary>MiB of heap at most; 0: the JVM's choice, a quarter of the machine's memory.</summary>
+        /// <summary>Maximum heap in MiB; 0: the JVM's default, a quarter of the machine's memory.</summary>
         public int maximumHeapMb;
 
         /// <summary>The garbage collector.</summary>
         public JvmCollector collector = JvmCollector.Automatic;
 
-        /// <summary>How programs become machine code.</summary>
+        /// <summary>The compilation of programs to machine code.</summary>
         public JvmCompiler compiler = JvmCompiler.Tiered;
 
-        /// <summary>Percent of the usual number of calls after which code is compiled.</summary>
+        /// <summary>Calls before code is compiled, in percent of the JVM's default.</summary>
         public int compileThreshold = 100;
 
-        /// <summary>MiB for machine code; 0: the JVM's choice.</summary>
+        /// <summary>Memory for compiled code in MiB; 0: the JVM's default.</summary>
         public int codeCacheMb;
 
         /// <summary>Whether loaded classes are archived for a faster next start.</summary>
@@ -83,13 +83,13 @@ namespace Collektive.Bridge
         /// <summary>Whether <c>assert</c> statements of programs are checked.</summary>
         public bool assertions;
 
-        /// <summary>TCP port of the loopback on which debuggers may attach; 0: none.</summary>
+        /// <summary>TCP port on the loopback interface for debuggers; 0: none.</summary>
         public int debugPort;
 
         /// <summary>Whether <c>sin</c>, <c>exp</c> and others give the same bits on other JVMs and processors.</summary>
         public bool repeatableMaths;
 
-        /// <summary>More options of the JVM, each one word.</summary>
+        /// <summary>More JVM options, one per entry.</summary>
         public List<string> flags = new List<string>();
 
         /// <summary>Returns all errors that can be found without a JVM.</summary>

@@ -7,7 +7,7 @@ namespace Collektive.Bridge
     internal static class ShimLibrary
     {
         /// <summary>
-        /// What is wrong with the library, on which platform, and what to do; null when it can be used. Checked once: a process cannot load a library
+        /// The error of the library with the platform and the fix, or null if the library is usable. Checked once: a process cannot load a library
         /// after a failed attempt.
         /// </summary>
         internal static readonly string Problem = FindProblem();

@@ -4,11 +4,11 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Reads one tick's actuator data, and those of the tick before. Not thread-safe; no allocation once the capacities are reached.
+    /// Reads the actuator data of this tick and of the previous one. Not thread-safe; no allocation once the capacities are reached.
     /// </summary>
     public abstract class ActuatorBuffer
     {
-        /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
+        /// <summary>The type of an element, the T of an <c>Actuator&lt;T&gt;</c>.</summary>
         internal abstract Type DataType { get; }
 
         /// <summary>
@@ -21,10 +21,10 @@ namespace Collektive.Bridge
         /// <summary>Elements in the attached table.</summary>
         internal abstract int Count { get; }
 
-        /// <summary>The element at an index below <see cref="Count"/>, boxed: for tools that know no schema.</summary>
+        /// <summary>The element at an index below <see cref="Count"/>, boxed, for tools without the schema's types.</summary>
         internal abstract object Get(int index);
 
-        /// <summary>As <see cref="Get"/>, of the table that was attached before.</summary>
+        /// <summary>As <see cref="Get"/>, for the previously attached table.</summary>
         internal abstract object GetPrevious(int index);
 
         /// <summary>
@@ -61,7 +61,7 @@ namespace Collektive.Bridge
         internal abstract T this[int index] { get; }
 
         /// <summary>
-        /// An element of the table that was attached before, at an index below its count. Valid as long as those of the attached one.
+        /// An element of the previously attached table, at an index below its count. Valid as long as the elements of the attached table.
         /// </summary>
         internal abstract T Previous(int index);
 

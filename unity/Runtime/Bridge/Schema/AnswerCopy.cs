@@ -7,7 +7,7 @@ namespace Collektive.Bridge
         {
         }
 
-        /// <summary>The element, boxed: for tools that know no schema.</summary>
+        /// <summary>The element, boxed, for tools without the schema's types.</summary>
         public abstract object Get();
     }
 
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
         {
         }
 
-        /// <summary>The element. Of a table it is a view of this object's memory: valid until the next copy is kept there.</summary>
+        /// <summary>The element. An element of a table is a view of this object's memory, valid until the next copy.</summary>
         public abstract T Value { get; }
 
         /// <inheritdoc/>

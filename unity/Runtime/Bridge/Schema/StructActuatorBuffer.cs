@@ -37,7 +37,7 @@ namespace Collektive.Bridge
             ((StructCopy)kept).Item = Previous(index);
         }
 
-        /// <summary>Nothing to do: elements are copies already.</summary>
+        /// <summary>Does nothing, because elements are copies.</summary>
         internal override void Retain()
         {
         }

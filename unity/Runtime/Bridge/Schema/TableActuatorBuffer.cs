@@ -16,7 +16,7 @@ namespace Collektive.Bridge
         private ByteBuffer previous;
         private int previousFirst;
 
-        /// <summary>Makes a reader of tables of that <paramref name="shape"/>.</summary>
+        /// <summary>Creates a reader of tables with that <paramref name="shape"/>.</summary>
         public TableActuatorBuffer(TableShape shape)
         {
             this.shape = shape;

@@ -37,10 +37,10 @@ namespace Collektive.Bridge
         /// <summary>The programs in the session's jars.</summary>
         public IReadOnlyList<ProgramInfo> Programs { get; private set; }
 
-        /// <summary>What the next step sends.</summary>
+        /// <summary>The request of the next step.</summary>
         public StepRequest Request { get; }
 
-        /// <summary>What the last step answered.</summary>
+        /// <summary>The answer of the last step.</summary>
         public StepAnswer Answer { get; }
 
         /// <summary>The last tick that succeeded; 0 before the first.</summary>
@@ -67,7 +67,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with what <see cref="Request"/> holds, and empties
+        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
         /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is as before the call.
         /// </summary>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>
@@ -89,7 +89,7 @@ namespace Collektive.Bridge
             Answer.Read(answerBuffer);
         }
 
-        /// <summary>Closes a session that nobody closed, for instance one whose C# domain is unloaded.</summary>
+        /// <summary>Closes a session that is still open, for example when its C# domain is unloaded.</summary>
         ~Session()
         {
             if (handle == 0) return;
@@ -97,7 +97,7 @@ namespace Collektive.Bridge
             Shim.clk_slot_release(slot.Slot);
         }
 
-        /// <summary>Closes the session and gives its memory back. A second call does nothing.</summary>
+        /// <summary>Closes the session and releases its memory. A second call does nothing.</summary>
         public void Dispose()
         {
             GC.SuppressFinalize(this);

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>JVM settings as an asset of the project, for all scenes that want the same JVM.</summary>
+    /// <summary>JVM settings as an asset, shared by scenes.</summary>
     [CreateAssetMenu(menuName = "Collektive/JVM Settings", fileName = "JvmSettings")]
     public sealed class JvmSettingsAsset : ScriptableObject
     {

@@ -3,7 +3,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity
 {
-    /// <summary>Global data on their way to the next tick; written when the session is there.</summary>
+    /// <summary>Global data for the next tick. It is written once the session is open.</summary>
     internal sealed class SceneGlobals
     {
         private Func<GlobalBuffer, string> pending;
@@ -16,7 +16,7 @@ namespace Collektive.Unity
 
         internal void Clear() => pending = null;
 
-        /// <summary>Writes into the request what was set since the last tick; what is wrong with it, or null.</summary>
+        /// <summary>Writes the data set since the last tick to the request, and returns its error or null.</summary>
         internal string Flush(StepRequest request)
         {
             if (pending == null) return null;

@@ -7,7 +7,7 @@ namespace Collektive.Unity
     /// <summary>Finds generated schema classes among the loaded assemblies.</summary>
     internal static class Schemas
     {
-        /// <summary>The schema of that name, or the only one when the name is empty.</summary>
+        /// <summary>Returns the schema with that name, or the only one for an empty name.</summary>
         /// <exception cref="BridgeException">No schema, or several schemas, match.</exception>
         internal static DataSchema Find(string name)
         {

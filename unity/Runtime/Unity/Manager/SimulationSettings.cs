@@ -59,7 +59,7 @@ namespace Collektive.Unity
         [Min(0)]
         public float stopAfter;
 
-        /// <summary>When nodes run, and which messages a round sees.</summary>
+        /// <summary>Order of rounds, and the messages that a round receives.</summary>
         [Tooltip("Lockstep: all nodes run in each tick and receive earlier messages. Sequential: in order of ids, nodes also receive messages of this tick. " +
             "Asynchronous: each node has its own period and phase.")]
         public Schedule schedule = Schedule.Lockstep;
@@ -68,7 +68,7 @@ namespace Collektive.Unity
         [Tooltip("Asynchronous schedule only: when nodes without their own timing run.")]
         public RoundTiming timing = new RoundTiming();
 
-        /// <summary>What happens to messages between sending and receiving; default: ideal.</summary>
+        /// <summary>Loss and delay of messages. Default: an ideal network.</summary>
         [Tooltip("Probability of losing a message, and its increase per metre and per attenuation of the link. Seconds of delay and jitter, " +
             "and until a message expires (0: with the next one). All 0: ideal network.")]
         public NetworkModel network = new NetworkModel();
@@ -95,13 +95,13 @@ namespace Collektive.Unity
         [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
-        /// <summary>What is wrong with the command line that settings were taken from, or null.</summary>
+        /// <summary>The error of the command line, or null.</summary>
         internal string ArgumentProblem { get; set; }
 
         /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
-        /// <summary>The parameters that a node's program gets: the node's own, and those of the program that it has no value for.</summary>
+        /// <summary>Returns the parameters of a node: its own, and the manager's for parameters without a value.</summary>
         internal List<NodeParameter> ParametersOf(Node node)
         {
             if (!ProgramParameters.TryGetValue(node.Program.Length > 0 ? node.Program : program, out var common)) return node.Parameters;
@@ -113,7 +113,7 @@ namespace Collektive.Unity
             return all;
         }
 
-        /// <summary>What of it the session's opening sends to the JVM.</summary>
+        /// <summary>Returns the settings that opening a session sends to the JVM.</summary>
         internal SessionSettings ToSession(DataSchema schema) => new SessionSettings
         {
             Seed = seed,
@@ -127,10 +127,10 @@ namespace Collektive.Unity
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };
 
-        /// <summary>The jars that are named, or else that of <paramref name="schema"/> for the runtime.</summary>
+        /// <summary>Returns the jars in the settings, or the jar of <paramref name="schema"/> for the runtime.</summary>
         internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File, runtime) };
 
-        /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
+        /// <summary>Returns the first error with its fix, or null.</summary>
         internal string FindProblem()
         {
             if (ArgumentProblem != null) return ArgumentProblem;

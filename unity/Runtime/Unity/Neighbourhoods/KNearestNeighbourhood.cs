@@ -17,7 +17,7 @@ namespace Collektive.Unity
 
         private float reach;
 
-        /// <summary>How many nodes, 0 or more.</summary>
+        /// <summary>Number of neighbours, 0 or more.</summary>
         public int Count
         {
             get => count;

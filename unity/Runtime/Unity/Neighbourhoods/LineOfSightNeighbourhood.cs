@@ -39,21 +39,21 @@ namespace Collektive.Unity
             set => radius = value;
         }
 
-        /// <summary>Layers of the colliders that stand in the way.</summary>
+        /// <summary>Layers of obstructing colliders.</summary>
         public LayerMask Layers
         {
             get => layers;
             set => layers = value;
         }
 
-        /// <summary>Whether a collider in the way prevents the link; if not, it adds to the link's attenuation.</summary>
+        /// <summary>Whether an obstructing collider prevents the link. Otherwise it increases the link's attenuation.</summary>
         public bool Blocking
         {
             get => blocking;
             set => blocking = value;
         }
 
-        /// <summary>What each collider in the way adds to the link's attenuation, 0 or greater.</summary>
+        /// <summary>Increase of the link's attenuation for each obstructing collider, 0 or greater.</summary>
         public float Attenuation
         {
             get => attenuation;

@@ -18,7 +18,7 @@ namespace Collektive.Unity
         /// <summary>Rows beyond this number share a number.</summary>
         private const int MaxRows = 0xFFFF;
 
-        /// <summary>Metres. No search needs to be larger, and its square still fits a float.</summary>
+        /// <summary>Metres. Searches need no larger radius, and its square fits a float.</summary>
         private const float MaxRadius = 1e18f;
 
         // By place in the list of nodes.
@@ -137,7 +137,7 @@ namespace Collektive.Unity
             return found;
         }
 
-        /// <summary>Appends to <paramref name="to"/> what <see cref="FindAround"/> will ask for; nothing for a node that has not asked yet.</summary>
+        /// <summary>Appends the expected results of <see cref="FindAround"/> to <paramref name="to"/>; none for a node without a previous search.</summary>
         internal void SearchAround(int place, NearNodes to)
         {
             if (!(expected[place] > 0)) return;

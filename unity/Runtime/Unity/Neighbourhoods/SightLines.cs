@@ -44,7 +44,7 @@ namespace Collektive.Unity
             internal readonly int Layers;
             internal readonly float Distance;
 
-            /// <summary>Always the same way round: a ray does not see a collider that it begins in.</summary>
+            /// <summary>Starts at the node with the lower id, because a ray ignores a collider that contains its origin.</summary>
             internal Pair(Node a, Node b, int layers, float distance)
             {
                 From = a.Id < b.Id ? a : b;
@@ -87,7 +87,7 @@ namespace Collektive.Unity
             return number;
         }
 
-        /// <summary>The number of colliders on a line that belong to neither of the two nodes.</summary>
+        /// <summary>Returns the number of colliders on a line, except those of the two nodes.</summary>
         internal int ObstaclesOf(int line) => obstacles.Items[line];
 
         /// <summary>The same without a batch; <paramref name="distance"/> is the distance between the nodes.</summary>
@@ -114,7 +114,7 @@ namespace Collektive.Unity
             rays.Clear();
         }
 
-        /// <summary>The obstacles that the batch found, or all of them if it could not keep all.</summary>
+        /// <summary>Returns the obstacles in the batch, or casts again if the batch could not store all.</summary>
         private int Count(int ray, in Pair pair)
         {
             var count = 0;

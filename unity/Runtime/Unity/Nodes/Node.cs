@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A device of the simulation. It takes part from <c>OnEnable</c> to <c>OnDisable</c>; when enabled again it starts without
+    /// A device of the simulation, from <c>OnEnable</c> to <c>OnDisable</c>. When enabled again, it starts without
     /// state or messages. Its sensors and actuators are the enabled ones on its GameObject and on children without a Node.
     /// </summary>
     [AddComponentMenu("Collektive/Node")]
@@ -103,7 +103,7 @@ namespace Collektive.Unity
         public float AnswerInterval { get; private set; }
 
         /// <summary>
-        /// The program's last answer, in the type that actuators get. It stays until the next one: while the node is not due, sleeps, or its rounds fail.
+        /// Returns the program's last answer in the type of actuators. It is kept until the next one: while the node is not due, sleeps, or its rounds fail.
         /// <see cref="AnswerTick"/> and <see cref="AnswerTime"/> give its age. While the actuators of a tick run, nodes that come later
         /// still have their previous answer. Data of a table is a view of the bridge's memory, valid until the next tick: then get it again.
         /// </summary>
@@ -149,20 +149,20 @@ namespace Collektive.Unity
 
         internal Transform Body { get; private set; }
 
-        /// <summary>For the grid alone: its place there, if it is in it.</summary>
+        /// <summary>Index in the grid; used by the grid only.</summary>
         internal int PlaceInGrid { get; set; }
 
-        /// <summary>For the grid alone: metres of the last search around the node; 0 before.</summary>
+        /// <summary>Radius of the last search around the node, or 0; used by the grid only.</summary>
         internal float SearchRadius { get; set; }
 
-        /// <summary>The simulation that the node takes part in, or null.</summary>
+        /// <summary>The node's simulation, or null.</summary>
         internal Simulation Simulation { get; private set; }
 
         /// <summary>
-        /// Runs no round for the given simulated seconds from now; the node keeps its state, its links and its sent messages. 0 wakes it. Works
+        /// Suspends rounds for the given simulated seconds. The node keeps its state, its links and its sent messages. 0 wakes it. Works
         /// under any schedule. May be called from the node's own actuators.
         /// </summary>
-        /// <param name="seconds">0 or greater; infinity: until it is woken.</param>
+        /// <param name="seconds">0 or greater; infinity: until it is woken with 0.</param>
         /// <exception cref="InvalidOperationException">The node is not in a simulation.</exception>
         public void Sleep(double seconds)
         {
@@ -293,15 +293,15 @@ namespace Collektive.Unity
     [Serializable]
     public struct NodeParameter
     {
-        /// <summary>The parameter's name, as the program declares it.</summary>
+        /// <summary>Name of the parameter in the program.</summary>
         [Tooltip("Name of the parameter in the program.")]
         public string name;
 
-        /// <summary>Its value as text.</summary>
+        /// <summary>Value as text.</summary>
         [Tooltip("Value as text.")]
         public string value;
 
-        /// <summary>Makes a value.</summary>
+        /// <summary>Creates a value.</summary>
         public NodeParameter(string name, string value)
         {
             this.name = name;

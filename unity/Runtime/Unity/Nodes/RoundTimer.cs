@@ -24,7 +24,7 @@ namespace Collektive.Unity
             next = Next();
         }
 
-        /// <summary>The result that <see cref="TakeDue"/> would have, without a change.</summary>
+        /// <summary>Returns the result of <see cref="TakeDue"/> without advancing the timer.</summary>
         internal bool IsDue(double now) => next <= now;
 
         /// <summary>Whether a round came due since the last call that returned true; times must not decrease.</summary>

@@ -8,13 +8,14 @@ namespace Collektive.Unity
         /// <summary>Whether the use of bounds was reported, once for all colliders.</summary>
         private static bool hasReportedBounds;
 
-        /// <summary>Whether a collider takes no part any more: Unity reports no exit when it is destroyed or disabled while it touches.</summary>
+        /// <summary>Returns whether a collider is destroyed or disabled: Unity reports no exit for it.</summary>
         internal static bool IsGone(this Collider collider) =>
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
-        /// The point of a collider that is closest to another one. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error for each
-        /// call with another collider: for these it is the closest point of their bounds.
+        /// Returns the point of a collider that is closest to a point. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error
+        /// for each
+        /// call with another collider. For these, it is the closest point of their bounds.
         /// </summary>
         internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
         {

@@ -56,7 +56,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Counts a failure.</summary>
-        /// <returns>Whether there were so many in a row that the component must be disabled, so that the rest can go on.</returns>
+        /// <returns>Whether the component failed too often in a row and must be disabled.</returns>
         internal bool HasFailedTooOften()
         {
             if (++failuresInRow < MaxFailuresInRow) return false;

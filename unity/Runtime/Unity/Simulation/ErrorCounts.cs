@@ -58,7 +58,7 @@ namespace Collektive.Unity
             Debug.LogException(new InvalidOperationException(source + " failed after tick " + tick + ": " + error.Message, error), context);
         }
 
-        /// <summary>Adds what is counted for a node to that of the nodes that have left before.</summary>
+        /// <summary>Moves the counts of a node to the nodes that have left.</summary>
         internal void Leave(int node)
         {
             if (!places.TryGetValue(node, out var left)) return;
@@ -70,7 +70,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Logs how often errors have come that were not logged each time.</summary>
+        /// <summary>Logs the counts of repeated errors.</summary>
         internal void LogCounts() => repeated.LogCounts();
 
         /// <summary>Errors with the same program, exception and place in the code: without the text, which may contain numbers, if there is a stack.</summary>
@@ -145,16 +145,16 @@ namespace Collektive.Unity
         /// <summary>The node's id, <see cref="Left"/> or <see cref="NoNode"/>.</summary>
         public int Node { get; }
 
-        /// <summary>How many there were.</summary>
+        /// <summary>Number of errors.</summary>
         public long Count { get; private set; }
 
-        /// <summary>The tick of the last one.</summary>
+        /// <summary>Tick of the last error.</summary>
         public ulong LastTick { get; private set; }
 
-        /// <summary>The message of the last one.</summary>
+        /// <summary>Message of the last error.</summary>
         public string LastMessage { get; private set; } = "";
 
-        /// <summary>Where it is in the list of all.</summary>
+        /// <summary>Index in the list of all errors.</summary>
         internal int Index { get; set; }
 
         internal void Add(long count, ulong tick, string message)

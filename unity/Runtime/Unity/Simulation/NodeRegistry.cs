@@ -31,7 +31,7 @@ namespace Collektive.Unity
         /// <summary>By id: whether the node was sent to the JVM.</summary>
         internal bool[] IsKnown => isKnown;
 
-        /// <summary>The node of that id, or null.</summary>
+        /// <summary>Returns the node with that id, or null.</summary>
         internal Node Find(int id)
         {
             var index = IndexOf(id);

@@ -15,7 +15,7 @@ namespace Collektive.Unity
     {
         private const int MinPerJob = 32;
 
-        /// <summary>Memory grows with it for all queries; the few with more hits are asked again alone.</summary>
+        /// <summary>Limits the memory of all queries. Queries with more hits run again, without the batch.</summary>
         private const int MaxKeptHits = 64;
 
         private NativeArray<TCommand> commands;
@@ -46,7 +46,7 @@ namespace Collektive.Unity
             Finish();
         }
 
-        /// <summary>Lets the queries run. The batch may not change before <see cref="Finish"/>.</summary>
+        /// <summary>Starts the queries. The batch must not change before <see cref="Finish"/>.</summary>
         internal void Begin()
         {
             if (Count == 0) return;
@@ -55,13 +55,13 @@ namespace Collektive.Unity
             running = Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits);
         }
 
-        /// <summary>Waits until there are all results. A second call does nothing.</summary>
+        /// <summary>Waits for the results. A second call does nothing.</summary>
         internal void Finish() => running.Complete();
 
         /// <summary>A hit of a query; <paramref name="place"/> is below <see cref="MaxHits"/>. Hits have no order; one without a collider is the end.</summary>
         internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
 
-        /// <summary>A query had more hits than were kept: later batches keep more.</summary>
+        /// <summary>Increases the number of hits per query in later batches.</summary>
         internal void KeepMore() => nextMaxHits = Math.Min(MaxKeptHits, 2 * MaxHits);
 
         /// <inheritdoc/>
@@ -75,7 +75,7 @@ namespace Collektive.Unity
 
         protected abstract JobHandle Schedule(NativeArray<TCommand> commands, NativeArray<THit> hits, int minPerJob, int maxHits);
 
-        /// <summary>Makes an array longer, and keeps its first <paramref name="used"/> items.</summary>
+        /// <summary>Enlarges an array, and keeps its first <paramref name="used"/> items.</summary>
         private static void Grow<T>(ref NativeArray<T> array, int used, int length) where T : struct
         {
             var longer = new NativeArray<T>(length, Allocator.Persistent);

@@ -24,7 +24,7 @@ namespace Collektive.Unity
             if (!directed) simulation.Links.HoldForScripts(b, a, length, 0);
         }
 
-        /// <summary>Removes what <see cref="Add"/> made.</summary>
+        /// <summary>Removes a link added by <see cref="Add"/>.</summary>
         internal void Remove(int a, int b, bool directed)
         {
             if (!CheckEnds("remove", a, b)) return;

@@ -13,7 +13,7 @@ namespace Collektive.Unity
     /// </summary>
     internal sealed class Simulation
     {
-        /// <summary>Share of a tick by which times may differ and still be the same: sums of ticks are not exact.</summary>
+        /// <summary>Relative tolerance of times in ticks, because sums of ticks are not exact.</summary>
         private const double Tolerance = 1e-3;
 
         /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
@@ -48,21 +48,21 @@ namespace Collektive.Unity
 
         internal SimulationManager Manager { get; }
 
-        /// <summary>Random numbers of the scene as a whole.</summary>
+        /// <summary>Random numbers for the scene.</summary>
         internal RandomStream Random { get; }
 
-        /// <summary>Whether there can be ticks.</summary>
+        /// <summary>Whether the session is open.</summary>
         internal bool IsOpen { get; private set; }
 
-        /// <summary>Why it ended; empty while it did not, or without a fault.</summary>
+        /// <summary>The error that ended the simulation, or an empty text.</summary>
         internal string Failure { get; private set; } = "";
 
         internal IReadOnlyList<ProgramInfo> Programs => IsOpen ? session.Programs : Array.Empty<ProgramInfo>();
 
-        /// <summary>Ticks done.</summary>
+        /// <summary>Number of completed ticks.</summary>
         internal ulong Tick => IsOpen ? session.Tick : 0;
 
-        /// <summary>The tick that is being done, or was last.</summary>
+        /// <summary>The current or last tick.</summary>
         internal ulong TickInProgress { get; private set; }
 
         /// <summary>Simulated seconds.</summary>
@@ -85,7 +85,7 @@ namespace Collektive.Unity
 
         internal ErrorCounts Errors { get; } = new ErrorCounts();
 
-        /// <summary>Nodes that take part, ascending by id.</summary>
+        /// <summary>Participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => roster.Nodes;
 
         /// <summary>All ids are below it.</summary>
@@ -106,26 +106,26 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
+        /// <summary>Positions of the nodes in this tick; current while rules run.</summary>
         internal NodeGrid Grid { get; } = new NodeGrid();
 
-        /// <summary>What rules saw between nodes in this tick.</summary>
+        /// <summary>Sight lines between nodes in this tick.</summary>
         internal SightLines SightLines { get; }
 
-        /// <summary>What rules add neighbours to.</summary>
+        /// <summary>The collector for rules.</summary>
         internal NeighbourCollector Neighbours { get; }
 
         /// <summary>The physics queries of sensors.</summary>
         internal SensorQueries Queries { get; }
 
-        /// <summary>Where sensors write; in a tick.</summary>
+        /// <summary>Buffer for sensors in a tick.</summary>
         internal SensorBuffer Sensed => session.Request.Sensors;
 
-        /// <summary>What actuators read; in a tick.</summary>
+        /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
-        /// <summary>Starts the JVM if need be, and opens a session on it.</summary>
-        /// <returns>False when the simulation has failed instead, for good: each later frame would fail again.</returns>
+        /// <summary>Starts the JVM if needed, and opens a session.</summary>
+        /// <returns>False if the simulation failed. It is not opened again, because each later frame would fail.</returns>
         internal bool TryOpen()
         {
             try
@@ -150,7 +150,7 @@ namespace Collektive.Unity
                 + "add a Rigidbody, or make the collider a trigger", part);
         }
 
-        /// <summary>Does one tick.</summary>
+        /// <summary>Runs one tick.</summary>
         /// <returns>Whether the tick was completed; otherwise the simulation has ended.</returns>
         internal bool TryTick()
         {
@@ -168,17 +168,20 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
-        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="culprit"/>, or the manager.</summary>
-        internal void Fail(string message, UnityEngine.Object culprit = null)
+        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
+        internal void Fail(string message, UnityEngine.Object context = null)
         {
             if (Failure.Length > 0) return;
             Failure = message;
-            Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : Manager);
+            Debug.LogError("Simulation stopped: " + message, context != null ? context : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
         }
 
-        /// <summary>Errors of the bridge are sentences for users; others are logged with their stack, and <paramref name="what"/> they did.</summary>
+        /// <summary>
+        /// Ends the simulation with an exception. Errors of the bridge are messages for users; others are logged with their stack, after <paramref
+        /// name="what"/>.
+        /// </summary>
         private void Fail(Exception error, string what)
         {
             var isUserError = error is BridgeException;
@@ -186,7 +189,7 @@ namespace Collektive.Unity
             Fail((isUserError ? "" : what) + error.Message);
         }
 
-        /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
+        /// <summary>Removes all nodes, and closes the session after the current tick. A second call does nothing.</summary>
         internal void End()
         {
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
@@ -233,7 +236,7 @@ namespace Collektive.Unity
             Grid.Dispose();
         }
 
-        /// <summary>A tick in its order. Users' code may end the simulation in any phase; the phases behind it are left out.</summary>
+        /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
         private void DoTick()
         {
             var start = Stopwatch.GetTimestamp();

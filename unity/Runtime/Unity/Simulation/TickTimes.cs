@@ -2,10 +2,10 @@ using System.Diagnostics;
 
 namespace Collektive.Unity
 {
-    /// <summary>How long the phases of a tick took, in milliseconds.</summary>
+    /// <summary>Durations of the phases of a tick, in milliseconds.</summary>
     public readonly struct TickTimes
     {
-        /// <summary>Makes a record of one tick.</summary>
+        /// <summary>Creates the durations of one tick.</summary>
         internal TickTimes(double rules, double sense, double step, double act, double physics)
         {
             Rules = rules;

@@ -30,7 +30,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Act(TData data) => target.Paint(Read(data));
 
-        /// <summary>The colour in the program's answer.</summary>
+        /// <summary>Returns the colour in the program's answer.</summary>
         protected abstract Color Read(TData data);
     }
 }

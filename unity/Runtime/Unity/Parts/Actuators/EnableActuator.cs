@@ -29,7 +29,7 @@ namespace Collektive.Unity
                 + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": select a behaviour, a renderer or a collider");
         }
 
-        /// <summary>Whether the program's answer wants the component enabled.</summary>
+        /// <summary>Returns whether the program's answer enables the component.</summary>
         protected abstract bool Read(TData data);
     }
 }

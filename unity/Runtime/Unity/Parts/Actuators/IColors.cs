@@ -5,7 +5,7 @@ namespace Collektive.Unity
     /// <summary>The non-generic interface of <see cref="ColorActuator{TData}"/>.</summary>
     internal interface IColors
     {
-        /// <summary>What is coloured; null: nothing yet.</summary>
+        /// <summary>The coloured renderer, or null.</summary>
         Renderer Target { get; }
     }
 }

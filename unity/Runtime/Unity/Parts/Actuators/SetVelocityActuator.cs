@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Gives the node's body the velocity that the program answers.</summary>
+    /// <summary>Sets the velocity of the node's body to the program's answer.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
     public abstract class SetVelocityActuator<TData> : Actuator<TData>
@@ -14,7 +14,7 @@ namespace Collektive.Unity
         private Rigidbody body;
         private bool hasReportedKinematic;
 
-        /// <summary>Whether the body's vertical velocity stays, so that it can fall.</summary>
+        /// <summary>Whether the body keeps its vertical velocity, so that it can fall.</summary>
         public bool KeepVertical
         {
             get => keepVertical;
@@ -41,7 +41,7 @@ namespace Collektive.Unity
             body.linearVelocity = velocity;
         }
 
-        /// <summary>Unity would log at each answer.</summary>
+        /// <summary>Reported once, because Unity would log it at each answer.</summary>
         private void WarnOfKinematic()
         {
             if (hasReportedKinematic) return;
@@ -51,7 +51,7 @@ namespace Collektive.Unity
                 + "Move actuator", this);
         }
 
-        /// <summary>The velocity in the program's answer, in metres per second.</summary>
+        /// <summary>Returns the velocity in the program's answer, in metres per second.</summary>
         protected abstract Vector3 Read(TData data);
     }
 }

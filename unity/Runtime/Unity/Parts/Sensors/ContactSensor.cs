@@ -40,16 +40,16 @@ namespace Collektive.Unity
             BeginRound();
         }
 
-        /// <summary>Writes the contacts, the nearest to the node's centre first. They are valid during the call only.</summary>
+        /// <summary>Writes the contacts, the nearest to the node's centre first. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Contact> contacts);
 
-        /// <summary>Takes a contact that begins.</summary>
+        /// <summary>Handles the start of a contact.</summary>
         protected virtual void OnCollisionEnter(Collision collision) => Touch(collision);
 
-        /// <summary>Takes a contact that goes on.</summary>
+        /// <summary>Handles a continuing contact.</summary>
         protected virtual void OnCollisionStay(Collision collision) => Touch(collision);
 
-        /// <summary>Takes the end of a contact.</summary>
+        /// <summary>Handles the end of a contact.</summary>
         protected virtual void OnCollisionExit(Collision collision)
         {
             var place = Find(collision.collider);

@@ -12,7 +12,7 @@ namespace Collektive.Unity
     {
         private const float Whole = 360;
 
-        /// <summary>Metres behind a point of the node's own collider where a ray goes on.</summary>
+        /// <summary>Metres behind a hit of the node's own collider where the ray continues.</summary>
         private const float Gap = 1e-3f;
 
         [SerializeField]
@@ -98,10 +98,10 @@ namespace Collektive.Unity
             for (var i = 0; i < aims.Length; i++) fans.Add(new RaycastCommand(Node.Position, aims[i], parameters, range));
         }
 
-        /// <summary>Writes what the rays met, from left to right, or clockwise seen from above. The hits are valid during the call only.</summary>
+        /// <summary>Writes the hits from left to right, clockwise seen from above. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<RayHit> hits);
 
-        /// <summary>Turns the fan as the node is turned now.</summary>
+        /// <summary>Rotates the rays with the node.</summary>
         private void Aim()
         {
             if (MustUpdateDirections) Spread();

@@ -59,10 +59,10 @@ namespace Collektive.Unity
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
-        /// <summary>Writes the zones, those entered first at the beginning. They are valid during the call only.</summary>
+        /// <summary>Writes the zones in the order in which they were entered. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
-        /// <summary>Takes a zone that the node enters.</summary>
+        /// <summary>Handles a zone that the node enters.</summary>
         protected virtual void OnTriggerEnter(Collider other)
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
@@ -71,7 +71,7 @@ namespace Collektive.Unity
             visits.Items[place].Entries++;
         }
 
-        /// <summary>Takes a zone that the node leaves.</summary>
+        /// <summary>Handles a zone that the node leaves.</summary>
         protected virtual void OnTriggerExit(Collider other)
         {
             var place = Find(other);
