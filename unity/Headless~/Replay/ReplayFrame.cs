@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>One frame as it comes: by slot whether a node is there, its position in steps and its values; and its links.</summary>
+    /// <summary>One frame: by slot the presence of a node, its position in steps and its values; and its links.</summary>
     internal sealed class ReplayFrame
     {
         private bool[] present = new bool[0];
@@ -30,12 +30,12 @@ namespace Collektive.Headless
         /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, otherwise as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
-        /// <summary>Links that the frame has; <see cref="LinkCount"/> of them are kept.</summary>
+        /// <summary>Number of links in the frame, of which <see cref="LinkCount"/> are stored.</summary>
         internal int Links { get; set; }
 
         internal int LinkCount { get; private set; }
 
-        /// <summary>The lesser slot in the upper half. Sorted and each once after <see cref="End"/>.</summary>
+        /// <summary>Links with the lower slot in the upper half; sorted and unique after <see cref="End"/>.</summary>
         internal long[] LinkKeys { get; private set; } = new long[256];
 
         internal void Begin(int slots)
@@ -67,7 +67,7 @@ namespace Collektive.Headless
             LinkKeys[LinkCount++] = slotA < slotB ? (long)slotA << 32 | (uint)slotB : (long)slotB << 32 | (uint)slotA;
         }
 
-        /// <summary>Sorts the links and returns how many are kept.</summary>
+        /// <summary>Sorts the links and returns the number of stored ones.</summary>
         internal int End(LinkSorter sorter)
         {
             sorter.Sort(LinkKeys, LinkCount, Slots);
@@ -91,7 +91,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Turns a field's values into steps; those of numbers start at a least value.</summary>
+        /// <summary>Converts a field's values to steps. Steps of numbers start at the smallest value.</summary>
         internal void Quantise(int field, float min, double scale)
         {
             var isNumber = fields[field].Kind == ReplayFieldKind.Number;
