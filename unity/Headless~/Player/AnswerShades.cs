@@ -7,7 +7,7 @@ namespace Collektive.Headless
     /// <summary>Shades of the nodes' answers, for scenes without shades.</summary>
     internal static class AnswerShades
     {
-        /// <summary>Each costs time and room in every frame.</summary>
+        /// <summary>Each shade takes time and space in every frame.</summary>
         private const int MaxShades = 8;
 
         /// <summary>A shade for each number, truth value and enum of the answers; the first eight.</summary>
@@ -44,7 +44,9 @@ namespace Collektive.Headless
             return null;
         }
 
-        /// <summary>Infinity and greater numbers than a float holds, such as the distance to no source, count as no value: the page stores floats.</summary>
+        /// <summary>
+        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as no value, because the page stores floats.
+        /// </summary>
         private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
     }
 }

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A run to repeat, read from its manifest.</summary>
+    /// <summary>A run to repeat, read from a manifest.</summary>
     internal sealed class FormerRun
     {
         internal const string ScenarioKey = "scenario";
@@ -31,10 +31,10 @@ namespace Collektive.Headless
         /// <summary>Name of its scenario file.</summary>
         internal string File { get; }
 
-        /// <summary>Folder that its relative paths start from.</summary>
+        /// <summary>Folder of its relative paths.</summary>
         internal string Folder { get; }
 
-        /// <summary>Ticks that it did: fewer than its scenario asks for if it was interrupted.</summary>
+        /// <summary>Number of ticks: fewer than in its scenario if the run was interrupted.</summary>
         internal int Ticks { get; }
 
         /// <summary>Compares the results of a run with those of this one, and prints what differs.</summary>
@@ -55,7 +55,7 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>Prints a line for each of the "inputs" or "versions" that has changed since.</summary>
+        /// <summary>Prints a line for each changed entry of the "inputs" or "versions".</summary>
         internal void PrintDifferences(Manifest now, string key)
         {
             foreach (var property in ((JObject)now.Root[key]).Properties())

@@ -6,14 +6,14 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ends frames whose C# does not return. The JVM has <see cref="SimulationSettings.stepLimitMs"/> for its part of a tick, so a frame that takes
+    /// Ends frames whose C# does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick, so a frame that takes
     /// twice as long has used up as much in C#. Frames in which the simulation is not open yet have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {
         private const int PollMs = 50;
 
-        /// <summary>How long a frame may take to end after it was aborted: native code does not see that.</summary>
+        /// <summary>Time for an aborted frame to end, because native code ignores the abort.</summary>
         private const int AbortMs = 3000;
 
         private readonly object gate = new object();

@@ -5,7 +5,7 @@ namespace Collektive.Headless
     /// <summary>Tests for regular files: reading a pipe or a device may block.</summary>
     internal static class RegularFile
     {
-        /// <summary>Whether it is there, links followed.</summary>
+        /// <summary>Returns whether a regular file exists. Follows links.</summary>
         internal static bool Exists(string path) =>
             Syscall.stat(path, out var status) == 0 && (status.st_mode & FilePermissions.S_IFMT) == FilePermissions.S_IFREG;
     }

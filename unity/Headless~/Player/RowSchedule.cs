@@ -5,7 +5,7 @@ namespace Collektive.Headless
     /// <summary>When the rows of a table are due. Ticks are counted, since a sum of times drifts: 50 times 0.02f is less than 1.</summary>
     internal sealed class RowSchedule
     {
-        /// <summary>Share of a tick that quotients of seconds may be off by.</summary>
+        /// <summary>Relative tolerance of quotients of seconds, in ticks.</summary>
         private const double Tolerance = 1e-6;
 
         private readonly double interval;
@@ -19,13 +19,13 @@ namespace Collektive.Headless
             this.deltaTime = SimulatedSeconds.Exact(deltaTime);
         }
 
-        /// <summary>The second of the next row.</summary>
+        /// <summary>Simulated time of the next row.</summary>
         internal double Next => rows * interval;
 
-        /// <summary>Whether the next row is due after so many ticks.</summary>
+        /// <summary>Returns whether the next row is due after a number of ticks.</summary>
         internal bool IsDue(int ticks) => ticks >= Next / deltaTime - Tolerance;
 
-        /// <summary>Goes on to the row after the next one.</summary>
+        /// <summary>Advances to the row after the next one.</summary>
         internal void Advance() => rows++;
     }
 }

@@ -121,7 +121,7 @@ namespace Collektive.Headless
             return manager;
         }
 
-        /// <summary>Ends the process in a frame that cannot be ended.</summary>
+        /// <summary>Ends the process if a frame does not end.</summary>
         private void GiveUp()
         {
             Console.Error.WriteLine("collektive: " + limit.Message);

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The space that the page's first view frames, in metres.</summary>
+    /// <summary>The space of the page's first view, in metres.</summary>
     internal sealed class ReplayArena
     {
         private readonly float[] least;
@@ -26,10 +26,10 @@ namespace Collektive.Headless
         /// <summary>Of the arena before it grows.</summary>
         internal double LongestSide { get; }
 
-        /// <summary>The arena as it was before it grew.</summary>
+        /// <summary>The initial arena.</summary>
         internal ReplayArena Copy() => new ReplayArena(least, greatest, mayGrow > 0);
 
-        /// <summary>Grows to a place, as far as it may.</summary>
+        /// <summary>Extends the arena to a point, within its limits.</summary>
         internal void Include(float x, float y, float z)
         {
             Include(0, x);

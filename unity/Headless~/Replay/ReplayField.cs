@@ -5,20 +5,20 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>How a replay stores and shows the values of a field.</summary>
+    /// <summary>Kinds of fields, which determine how values are stored and shown.</summary>
     public enum ReplayFieldKind
     {
-        /// <summary>Shown on a scale; stored in 65,534 steps of the range that it has in its segment.</summary>
+        /// <summary>Numbers on a scale, stored in 65,534 steps of their range in a segment.</summary>
         Number,
 
-        /// <summary>A whole number that names something, such as an id: equal numbers have one colour. Stored exactly.</summary>
+        /// <summary>Integers that identify a category, such as ids. Each has its own colour and is stored exactly.</summary>
         Category,
 
         /// <summary>Red, green and blue as <c>0xRRGGBB</c>. Stored exactly.</summary>
         Colour,
     }
 
-    /// <summary>A value that each node has in each frame, and that can colour it.</summary>
+    /// <summary>A value of each node in each frame, which can colour it.</summary>
     public sealed class ReplayField
     {
         private const int MaxInteger = 1 << 30;
@@ -40,16 +40,16 @@ namespace Collektive.Headless
         public string Name { get; }
         public ReplayFieldKind Kind { get; }
 
-        /// <summary>Unit of a number; null: none is shown.</summary>
+        /// <summary>Unit of a number, or null.</summary>
         public string Unit { get; set; }
 
-        /// <summary>Number at the lower end of the colours; null: the least of the recording.</summary>
+        /// <summary>Number at the lower end of the colours, or null for the smallest in the recording.</summary>
         public float? Min { get; set; }
 
-        /// <summary>Number at the upper end of the colours; null: the greatest of the recording.</summary>
+        /// <summary>Number at the upper end of the colours, or null for the largest in the recording.</summary>
         public float? Max { get; set; }
 
-        /// <summary>What the categories 0, 1, ... are called; without a word a category is shown by its number.</summary>
+        /// <summary>Names of the categories 0, 1, ... Other categories are shown as numbers.</summary>
         public IReadOnlyList<string> Categories { get; set; } = new string[0];
 
         internal double Least { get; private set; } = double.PositiveInfinity;

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>One frame as it comes: by slot whether a node is there, its position in steps and its values; and its links.</summary>
+    /// <summary>One frame: by slot the presence of a node, its position in steps and its values; and its links.</summary>
     internal sealed class ReplayFrame
     {
         private bool[] present = new bool[0];
@@ -30,15 +30,15 @@ namespace Collektive.Headless
         /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, otherwise as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
-        /// <summary>Links that the frame has, each direction counted.</summary>
+        /// <summary>Number of links in the frame, each direction counted.</summary>
         internal int Links { get; set; }
 
         /// <summary>Linked pairs of nodes that are kept.</summary>
         internal int PairCount { get; private set; }
 
         /// <summary>
-        /// From bit 26 the lesser slot of a pair, from bit 2 the greater one; bit 0 is set for a link to the greater slot, bit 1 for one to the lesser.
-        /// Sorted and each pair once after <see cref="End"/>.
+        /// Bits from 26 contain the lower slot of a pair, bits from 2 the higher one. Bit 0 is set for a link to the higher slot, bit 1 for one to
+        /// the lower slot. Sorted and unique after <see cref="End"/>.
         /// </summary>
         internal long[] LinkKeys { get; private set; } = new long[256];
 
@@ -71,7 +71,7 @@ namespace Collektive.Headless
             LinkKeys[PairCount++] = from < to ? (long)from << 26 | (long)to << 2 | 1 : (long)to << 26 | (long)from << 2 | 2;
         }
 
-        /// <summary>Sorts the links, joins those of a pair, and returns how many are kept, each direction counted.</summary>
+        /// <summary>Sorts the links, merges those of a pair, and returns the number of stored links, each direction counted.</summary>
         internal int End(LinkSorter sorter)
         {
             sorter.Sort(LinkKeys, PairCount, Slots);
@@ -99,7 +99,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Turns a field's values into steps; those of numbers start at a least value.</summary>
+        /// <summary>Converts a field's values to steps. Steps of numbers start at the smallest value.</summary>
         internal void Quantise(int field, float min, double scale)
         {
             var isNumber = fields[field].Kind == ReplayFieldKind.Number;

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// What a replay shows beside its frames. Metres, seconds, Unity's axes. Fill it before the <see cref="ReplayWriter"/> is
+    /// The parts of a replay outside of its frames, in metres, seconds and Unity's axes. Fill it before the <see cref="ReplayWriter"/> is
     /// made; later changes have no effect. Every number must be finite.
     /// </summary>
     public sealed class ReplayMetadata
@@ -22,16 +22,16 @@ namespace Collektive.Headless
 
         public float NodeRadius { get; set; } = 0.25f;
 
-        /// <summary>Height of nodes that are upright capsules, both caps included; 0: they are spheres.</summary>
+        /// <summary>Height of nodes that are upright capsules, including both caps; 0 for spheres.</summary>
         public float NodeHeight { get; set; }
 
-        /// <summary>What can colour the nodes; the first one does when the page is opened. At least one.</summary>
+        /// <summary>Fields that can colour the nodes, at least one. The page starts with the first.</summary>
         public IReadOnlyList<ReplayField> Fields { get; set; } = new[] { new ReplayField("value") };
 
-        /// <summary>What the page charts; null: nothing. It may be filled until the replay is finished.</summary>
+        /// <summary>Metrics for charts, or null. Rows may be added until the replay is finished.</summary>
         public ReplayMetrics Metrics { get; set; }
 
-        /// <summary>The space that the first view frames; the floor is drawn at <paramref name="minY"/>.</summary>
+        /// <summary>The space of the first view. The floor is at <paramref name="minY"/>.</summary>
         /// <param name="grows">
         /// Whether it grows to hold nodes that leave it: at each end of an axis by its longest side at most, so that a node that flies away does not make
         /// all others small.
@@ -44,7 +44,7 @@ namespace Collektive.Headless
             Arena = new ReplayArena(new[] { minX, minY, minZ }, new[] { maxX, maxY, maxZ }, grows);
         }
 
-        /// <summary>A static box, turned by the unit quaternion; height 0 makes a plane.</summary>
+        /// <summary>Adds a static box with a rotation (unit quaternion). Height 0 makes a plane.</summary>
         public void AddBox(
             float x, float y, float z, float width, float height, float depth,
             float rotationX = 0, float rotationY = 0, float rotationZ = 0, float rotationW = 1)
@@ -52,7 +52,7 @@ namespace Collektive.Headless
             shapes.Add(Placed(Box(width, height, depth), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>A static body of triangles, turned by the unit quaternion.</summary>
+        /// <summary>Adds a static body of triangles with a rotation (unit quaternion).</summary>
         /// <param name="vertices">x, y, z of each corner, as its own axes have them.</param>
         /// <param name="triangles">Three corners for each.</param>
         public void AddMesh(
@@ -62,10 +62,10 @@ namespace Collektive.Headless
             shapes.Add(Placed(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>A box that moves; add its pose in each frame.</summary>
+        /// <summary>Adds a moving box. Add its pose in each frame.</summary>
         public ReplayMover AddMovingBox(float width, float height, float depth) => AddMover(Box(width, height, depth));
 
-        /// <summary>A sphere that moves; add its pose in each frame.</summary>
+        /// <summary>Adds a moving sphere. Add its pose in each frame.</summary>
         public ReplayMover AddMovingSphere(float radius) => AddMover(new JObject { ["kind"] = "sphere", ["radius"] = Number(radius) });
 
         /// <summary>A static sphere.</summary>

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The metrics that the replay page charts: one row for each moment they were measured at.</summary>
+    /// <summary>Metrics for the charts of a replay page, with one row per measurement.</summary>
     public sealed class ReplayMetrics
     {
         private readonly JArray times = new JArray();

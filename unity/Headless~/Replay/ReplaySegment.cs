@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Frames that are coded together, each by what it differs from the one before (FORMAT.md, Segment).</summary>
+    /// <summary>Frames that are encoded together, each as the difference from the previous one (FORMAT.md, Segment).</summary>
     internal sealed class ReplaySegment
     {
         private const int Axes = 3;
@@ -31,7 +31,7 @@ namespace Collektive.Headless
             for (var column = 0; column < last.Length; column++) last[column] = motion[column] = new int[0];
         }
 
-        /// <summary>Frames that were added since the last <see cref="Encode"/>.</summary>
+        /// <summary>Number of frames since the last <see cref="Encode"/>.</summary>
         internal int Count { get; private set; }
 
         /// <summary>The next frame, empty.</summary>
@@ -44,7 +44,7 @@ namespace Collektive.Headless
             return frame;
         }
 
-        /// <summary>Codes the frames and forgets them.</summary>
+        /// <summary>Encodes the frames and removes them.</summary>
         /// <param name="ids">By slot, the node that has it in these frames.</param>
         /// <param name="coded">Holds the segment; valid until the next call.</param>
         /// <returns>Length of the segment in bytes.</returns>
@@ -125,7 +125,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>What each value differs from where its motion would have taken it. All sums wrap around.</summary>
+        /// <summary>Writes the difference of each value from its linear prediction. All sums wrap around.</summary>
         private void WriteColumn(ReplayFrame frame, int[] values, int[] last, int[] motion)
         {
             Reserve(MaxBytesPerNumber * frame.Slots);
@@ -152,7 +152,7 @@ namespace Collektive.Headless
             WritePairs(frame, before);
         }
 
-        /// <summary>The links of one frame that another does not have.</summary>
+        /// <summary>Writes the links of one frame that another does not have.</summary>
         private void WritePairs(ReplayFrame of, ReplayFrame without)
         {
             WriteNumber((uint)WalkPairs(of, without, false));

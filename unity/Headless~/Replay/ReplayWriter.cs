@@ -21,7 +21,7 @@ namespace Collektive.Headless
         /// <summary>Frames that are compressed together; the first of them is a key frame.</summary>
         public const int FramesPerSegment = 20;
 
-        /// <summary>About how many links of a frame are kept at most, each direction counted.</summary>
+        /// <summary>Approximate limit of stored links per frame, each direction counted.</summary>
         public const int LinkBudget = 60000;
 
         internal const string Placeholder = "@@REPLAY@@";
@@ -80,8 +80,8 @@ namespace Collektive.Headless
 
         /// <param name="time">Simulated seconds; later than the frame before.</param>
         /// <param name="links">
-        /// How many different links the frame has, each direction counted. Of more than <see cref="LinkBudget"/>, a share is kept: those
-        /// with the least hash of their nodes' ids, so that the same ones stay from frame to frame.
+        /// Number of different links in the frame, each direction counted. Of more than <see cref="LinkBudget"/>, a sample is stored: those with the
+        /// smallest hash of their nodes' ids, so that the same ones stay from frame to frame.
         /// </param>
         public void BeginFrame(double time, int links = 0)
         {
@@ -99,7 +99,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// A node that exists in this frame, once. Its position is rounded to 1/65535 of the arena's longest side, and kept within 2^30 such steps
+        /// Adds a node to this frame. Its position is rounded to 1/65535 of the arena's longest side, and kept within 2^30 such steps
         /// of the origin.
         /// </summary>
         /// <param name="id">The node's id, the same in all frames.</param>
@@ -119,7 +119,7 @@ namespace Collektive.Headless
             Value(0, value);
         }
 
-        /// <summary>A value of the node that was given last; a field without a call is left without a value.</summary>
+        /// <summary>Sets a value of the last added node. Fields without a call have no value.</summary>
         /// <param name="field">Index in <see cref="ReplayMetadata.Fields"/>.</param>
         /// <param name="value">NaN: it has none.</param>
         public void Value(int field, double value)
@@ -132,7 +132,7 @@ namespace Collektive.Headless
             fields[field].Include(value);
         }
 
-        /// <summary>A link between two different nodes of this frame. Repetitions make no difference.</summary>
+        /// <summary>Adds a link between two different nodes of this frame. Repetitions have no effect.</summary>
         /// <param name="from">Id of the sender.</param>
         /// <param name="to">Id of the receiver.</param>
         public void Link(int from, int to)
@@ -156,7 +156,7 @@ namespace Collektive.Headless
             if (segment.Count == FramesPerSegment) FlushSegment();
         }
 
-        /// <summary>Writes the page: the template with the recording in it. Call it once, after the last frame.</summary>
+        /// <summary>Writes the page, which is the template with the recording. Call it once, after the last frame.</summary>
         /// <param name="templatePath">The page that <c>build.mjs</c> makes.</param>
         /// <param name="outputHtmlPath">Made or replaced.</param>
         /// <exception cref="InvalidDataException">The file is not a template. No file is written.</exception>
@@ -272,7 +272,7 @@ namespace Collektive.Headless
             textLength += 1 + length;
         }
 
-        /// <summary>Writes base64 of the gzip of some bytes to <see cref="text"/>, and returns its length.</summary>
+        /// <summary>Compresses bytes with gzip, writes them as base64 to <see cref="text"/>, and returns the length.</summary>
         private int Compress(byte[] bytes, int count)
         {
             compressed.SetLength(0);
@@ -283,7 +283,7 @@ namespace Collektive.Headless
             return Convert.ToBase64CharArray(compressed.GetBuffer(), 0, length, text, 0);
         }
 
-        /// <summary>32 bits of a link, evenly spread.</summary>
+        /// <summary>Returns a 32-bit hash of a link.</summary>
         private static uint Hash(int low, int high)
         {
             unchecked

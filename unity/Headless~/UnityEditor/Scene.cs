@@ -54,7 +54,7 @@ namespace UnityEditor
 
     public sealed class PrefabUtility
     {
-        /// Each loading of a prefab makes a new object: it becomes the copy.
+        /// Each loading of a prefab creates a new object, which becomes the copy.
         public static Object InstantiatePrefab(Object assetComponentOrGameObject)
         {
             ((GameObject)assetComponentOrGameObject).SetActive(true);

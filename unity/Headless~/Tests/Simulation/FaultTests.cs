@@ -213,7 +213,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors[1], Is.StringContaining("10 calls of ThrowingSensor").And.StringContaining("node 9"));
             Assert.That(Errors[2], Is.StringContaining("100 calls of ThrowingSensor"));
             Assert.That(Errors[3], Is.StringContaining("is disabled"));
-            Assert.That(Errors[4], Is.StringContaining("10 components ThrowingSensor are disabled"));
+            Assert.That(Errors[4], Is.StringContaining("10 components ThrowingSensor were disabled"));
             Assert.That(Manager.ErrorCount, Is.EqualTo(120));
             Manager.enabled = false;
             Assert.That(Errors[5], Is.StringContaining("120 calls of ThrowingSensor"));
@@ -528,7 +528,7 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("double", settings => settings.jars.Add("no\0file"));
             MakeNode(1);
             Play(3);
-            Assert.That(Manager.Failure, Is.StringContaining("could not be started"));
+            Assert.That(Manager.Failure, Is.StringContaining("the start failed"));
             Assert.That(Errors.Count, Is.EqualTo(2), "the exception and the stop, once");
         }
 

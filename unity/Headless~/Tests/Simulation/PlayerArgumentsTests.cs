@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [TestCase("-collektive-sead 7", "-collektive-sead is not an option; the options are: ")]
-        [TestCase("-collektive-jars a.jar", "-collektive-jars is no option")]
+        [TestCase("-collektive-jars a.jar", "-collektive-jars is not an option")]
         [TestCase("-collektive-seed", "-collektive-seed needs a value")]
         [TestCase("-collektive-seed -1", "-collektive-seed is '-1': it must be a whole number from 0 to 18446744073709551615")]
         [TestCase("-collektive-seed 1e3", "-collektive-seed is '1e3'")]

@@ -124,7 +124,7 @@ namespace Collektive.Unity
             return rays == 1 ? 0 : angle * ((float)ray / (rays - 1) - 0.5f);
         }
 
-        /// <summary>What a ray met whose nearest hit is known: a hit of the node's own collider is passed through.</summary>
+        /// <summary>Returns a ray's hit from its nearest hit. Continues behind a hit of the node's own collider.</summary>
         private RayHit Pass(Vector3 centre, Vector3 direction, in RaycastHit nearest)
         {
             var collider = nearest.collider;
@@ -133,7 +133,7 @@ namespace Collektive.Unity
                 ? Cast(centre, direction, nearest.distance + Gap) : new RayHit(direction, nearest.distance, collider);
         }
 
-        /// <summary>What a ray meets that begins <paramref name="passed"/> metres from the centre.</summary>
+        /// <summary>Casts a ray that starts <paramref name="passed"/> metres from the centre.</summary>
         private RayHit Cast(Vector3 centre, Vector3 direction, float passed)
         {
             while ((passed == 0 || passed < range)
