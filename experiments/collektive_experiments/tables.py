@@ -224,7 +224,7 @@ class _Columns:
         try:
             with open(os.path.join(self._store.runs, run.name, "manifest.json"), "rb") as file:
                 manifest: dict[str, Any] = json.loads(file.read())
-        except (FileNotFoundError, ValueError):
+        except (FileNotFoundError, IsADirectoryError, ValueError):
             return {}
         return manifest
 

@@ -253,6 +253,14 @@ def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch
         tables.write(experiment, Store(str(lamps.folder / "out")), True)
 
 
+def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
+    for name in ("argparse", "collections", "json", "pandas", "sitecustomize"):
+        (tmp_path / f"{name}.py").write_text("open('executed', 'w')\n")
+    result = subprocess.run([COLLEKTIVE, "plot", "."], cwd=tmp_path, capture_output=True, text=True)
+    assert "is not a folder of a sweep" in result.stderr
+    assert not (tmp_path / "executed").exists()
+
+
 def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
     change_scene(project, 'throw new System.InvalidOperationException("no luck");')
     assert project.sweep(vary={"seed": [1]}).returncode == 1
