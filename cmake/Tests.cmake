@@ -1,6 +1,10 @@
 # The test suites. Each is a CTest test and writes JUnit XML to build/results/NAME, which `./collektive test` adds up.
 include(Suite)
 
+# Preloaded to let one call to the system fail.
+collektive_step(failing OUTPUT "${COLLEKTIVE_BUILD}/failing.so"
+  COMMAND "${CMAKE_C_COMPILER}" -std=gnu11 -O1 -Wall -Wextra -Werror -shared -fPIC -o "${COLLEKTIVE_BUILD}/failing.so" "${SCRIPTS}/tests/chaos/failing.c"
+  DEPENDS "${SCRIPTS}/tests/chaos/failing.c")
 set(csharp_needs build:runtime)
 if(COLLEKTIVE_NUNIT)
   add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
@@ -79,12 +83,12 @@ suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not qui
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
-set(experiments_tests build:runtime setup:experiments-tests UNLOCKED
+set(experiments_tests build:runtime build:failing setup:experiments-tests UNLOCKED
   SCRIPT experiments.py --junitxml RESULTS/pytest.xml --durations 8)
 suite(experiments experiments LABELS all NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py")
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
-suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page UNLOCKED
-  SCRIPT chaos/chaos.py 6 3 3 1 --results RESULTS/chaos.xml)
+suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED
+  SCRIPT chaos/chaos.py 6 3 3 1 12 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
 suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)
 suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe UNLOCKED

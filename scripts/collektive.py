@@ -5,6 +5,7 @@ import errno
 import importlib
 import locale
 import os
+import re
 import resource
 import signal
 import sys
@@ -81,11 +82,16 @@ def main(words: list[str]) -> int:
         parser_for(None).print_help(sys.stderr)
         return 2
     try:
+        for text in [os.getcwd(), *words]:
+            if re.search("[\udc80-\udcff]", text):
+                raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
         arguments = parser_for(words[0]).parse_args(words)
         from build.processes import run_in_group
         return run_in_group(lambda: run_command(arguments))
     except Failure as failure:
         return report(failure)
+    except OSError as error:
+        return report(Failure(f"cannot start a process: {error.strerror}"))
 
 
 def run_command(arguments: argparse.Namespace) -> int:

@@ -63,13 +63,13 @@ def _sweep(options: argparse.Namespace) -> int:
         if experiment.count > 5:
             print("  ...")
         return 0
-    store, todo = begin(experiment, out, options.resume, options.trust_jvm)
-    if options.slurm and todo:
-        print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
-        return 0
-    code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv)
-    print(os.path.join(out, "runs.parquet"))
-    print(os.path.join(out, "series.parquet"))
+    with Store(out) as store:
+        todo = begin(experiment, store, options.resume, options.trust_jvm)
+        if options.slurm and todo:
+            print(write_job(store, todo, _threads(experiment), options.time_limit, options.trust_jvm))
+            return 0
+        code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv, options.keep_going)
+    print("\n".join(path for name in ("runs", "series", "nodes") if os.path.exists(path := os.path.join(out, f"{name}.parquet"))))
     return code
 
 

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from . import files
 from .experiment import text
+from .positions import ExperimentError
 from .results import Results, compare, interval, label, load
 
 # The colour-blind-safe palette of Okabe and Ito, without yellow, which is too pale for lines.
@@ -33,6 +34,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
     sweep. Colours show the values of the first key that varies, and panels the combinations of the other keys. Returns the paths.
     """
     results = load(folder)
+    if results.complete.empty:
+        raise ExperimentError(f"'{folder}' has no complete run to plot: the message of each is in runs.parquet")
     paths, sections = [], []
     files.make(os.path.join(folder, "figures"))
     converged = [name for name in results.runs.columns if name.startswith("converged.")]

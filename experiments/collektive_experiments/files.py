@@ -1,6 +1,7 @@
 """Writes, renames and deletes files in a sweep's folder. Never follows symbolic links, and deletes only marked folders."""
 import os
 import shutil
+import stat
 from typing import BinaryIO
 
 MARKER = ".collektive-sweep"
@@ -58,7 +59,8 @@ def publish(path: str) -> None:
     if os.path.isdir(part):
         for folder, _, names in os.walk(part):
             for name in names:
-                if not os.path.islink(os.path.join(folder, name)):
+                # Opening a pipe that a script made would wait for its writer.
+                if stat.S_ISREG(os.lstat(os.path.join(folder, name)).st_mode):
                     _sync(os.path.join(folder, name))
             _sync(folder)
     else:

@@ -12,6 +12,7 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
     parser.add_argument("--csv", action="store_true", help="also write runs.csv and series.csv")
     parser.add_argument("--dry-run", action="store_true", help="print the number of runs and their estimated time, after two trial runs")
+    parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
     parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
     where = parser.add_mutually_exclusive_group()

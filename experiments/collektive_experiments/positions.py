@@ -2,6 +2,7 @@
 import bisect
 import json
 import math
+import os
 import re
 from typing import Any, NoReturn
 
@@ -30,6 +31,9 @@ class Located:
 
     def __init__(self, path: str):
         self.path = path
+        # A pipe may never end.
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise ExperimentError(f"'{path}' cannot be read: it is not a file")
         try:
             with open(path, encoding="utf-8-sig") as file:
                 self.text = file.read()

@@ -22,6 +22,8 @@ class Results:
     """A row for each run: parameters, `seed`, `status`, `digest`, metrics at the end, times, versions."""
     series: pd.DataFrame
     """A row for each complete run and interval of metrics (by default a simulated second)."""
+    nodes: pd.DataFrame | None
+    """A row for each complete run, time and node; None if the scenario does not ask for `outputs.nodes`."""
     keys: list[str]
     """The keys that vary."""
     units: dict[str, str]
@@ -47,15 +49,17 @@ class Results:
 def load(folder: str) -> Results:
     """Reads the tables of a sweep's folder."""
     settings = Store(folder).settings()
-    tables = []
-    for name in ("runs", "series"):
-        try:
-            tables.append(pd.read_parquet(os.path.join(folder, f"{name}.parquet")))
-        except (OSError, ValueError) as error:
-            raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
-                                  "--resume") from error
-    results = Results(tables[0], tables[1], settings["keys"], {})
+    nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
+    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {})
     return replace(results, units=dict(zip(results.metrics, settings["measure"].values())))
+
+
+def _read(folder: str, name: str) -> pd.DataFrame:
+    try:
+        return pd.read_parquet(os.path.join(folder, f"{name}.parquet"))
+    except (OSError, ValueError) as error:
+        raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): make the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
+                              "--resume") from error
 
 
 def interval(values: np.ndarray, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:

@@ -1,4 +1,5 @@
 """Runs a sweep as an array job of Slurm, whose tasks share the sweep's folder."""
+import fcntl
 import json
 import os
 import shlex
@@ -7,6 +8,7 @@ import time
 
 from . import files
 from .experiment import Run
+from .positions import ExperimentError
 from .store import Store
 from .sweep import Task
 from .worker import Worker
@@ -47,22 +49,28 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
 
 def run_task(folder: str, index: int) -> int:
     """Executes the incomplete runs of one task. Returns the exit code."""
-    store = Store(folder)
-    with open(os.path.join(folder, "tasks.json"), encoding="utf-8") as file:
-        job = json.load(file)
-    worker = Worker(store.bundle, os.path.join(store.logs, f"task-{index}.txt"), job["trust"])
-    failed = False
-    try:
-        for task in job["tasks"][index]:
-            run = Run(task["name"], task["values"], task["settings"])
-            if store.is_complete(run):
-                continue
-            began = time.monotonic()
-            outcome = worker.run(run.settings, run.jvm, store.begin(run), job["limit"], task["repeated"])
-            store.finish(run, outcome, time.monotonic() - began)
-            if outcome.status != "complete":
-                failed = True
-                print(f"{run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
-    finally:
-        worker.stop()
+    log = os.path.join(folder, f"logs/task-{index}.txt")
+    with Store(folder) as store, files.open_log(log) as own:
+        store.lock(shared=True)
+        try:
+            fcntl.flock(own, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ExperimentError(f"task {index} of '{folder}' is already running: wait for its job to end") from error
+        with open(os.path.join(folder, "tasks.json"), encoding="utf-8") as file:
+            job = json.load(file)
+        worker = Worker(store.bundle, log, job["trust"])
+        failed = False
+        try:
+            for task in job["tasks"][index]:
+                run = Run(task["name"], task["values"], task["settings"])
+                if store.is_complete(run):
+                    continue
+                began = time.monotonic()
+                outcome = worker.run(run.settings, run.jvm, store.begin(run), job["limit"], task["repeated"])
+                store.finish(run, outcome, time.monotonic() - began)
+                if outcome.status != "complete":
+                    failed = True
+                    print(f"{run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
+        finally:
+            worker.stop()
     return 1 if failed else 0

@@ -27,17 +27,28 @@ class Store:
         self.logs = os.path.join(folder, "logs")
         self._lock: BinaryIO | None = None
 
+    def __enter__(self) -> "Store":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Releases the folder."""
+        if self._lock is not None:
+            self._lock.close()
+
+    def lock(self, shared: bool = False) -> None:
+        """Locks the folder. Raises `ExperimentError` if a sweep, or unless `shared` a task of one, uses it."""
+        self._lock = files.open_log(os.path.join(self.folder, MARKER))
+        try:
+            fcntl.flock(self._lock, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
+
     def open(self, experiment: Experiment, resume: bool) -> None:
         """Creates or reopens the folder. Raises `ExperimentError` if another sweep uses or has created it, or if it is not a sweep's folder."""
-        marker = os.path.join(self.folder, MARKER)
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)
-        self._lock = files.open_log(marker)
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
+        self.lock()
         for folder in (self.runs, self.logs):
             files.make(folder)
         for folder in (self.folder, self.runs):

@@ -26,6 +26,9 @@ REPEATED_SHARE = 0.02
 LEAST_REPEATED = 3
 """Share and minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
 
+MOST_EQUAL_FAILURES = 5
+"""After so many first runs that failed with one message, the others would fail, too."""
+
 Task = tuple[Run, bool]
 """A run, and whether it is repeated."""
 Ended = tuple[Run, Outcome]
@@ -92,9 +95,8 @@ class LocalPool:
             worker.stop()
 
 
-def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[Store, list[Task]]:
+def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
     """Creates the folder and the bundle, validates the keys, and returns the runs that are not complete."""
-    store = Store(out)
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
     _check_keys(experiment, store, trust)
@@ -102,7 +104,7 @@ def begin(experiment: Experiment, out: str, resume: bool, trust: bool) -> tuple[
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)
     repeated = set(_spread(len(todo)))
-    return store, [(run, index in repeated) for index, run in enumerate(todo)]
+    return [(run, index in repeated) for index, run in enumerate(todo)]
 
 
 def _spread(count: int) -> Iterable[int]:
@@ -111,9 +113,12 @@ def _spread(count: int) -> Iterable[int]:
     return ((index + 1) * count // size - 1 for index in range(size))
 
 
-def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool) -> int:
-    """Executes the remaining runs and writes the tables. Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C."""
-    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo))
+def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool, keep_going: bool = False) -> int:
+    """Executes the remaining runs and writes the tables. If the first runs all fail in the same way, the others run only with `keep_going`.
+
+    Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C.
+    """
+    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MOST_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
@@ -124,26 +129,29 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
     """Estimates the seconds of the sweep from trial runs: the first one, and the middle one twice in one process."""
     runs = list(experiment.runs())
-    with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
-        store, _ = begin(experiment, os.path.join(folder, "out"), False, trust)
+    with tempfile.TemporaryDirectory(prefix="collektive-") as folder, Store(os.path.join(folder, "out")) as store:
+        begin(experiment, store, False, trust)
         worker = Worker(store.bundle, os.path.join(store.logs, "trial.txt"), trust)
         seconds = []
-        for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
-            began = time.monotonic()
-            outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
-            seconds.append(time.monotonic() - began)
-            if outcome.status != "complete":
-                print(f"collektive: {run.name}: {outcome.status}: {outcome.message}", file=sys.stderr)
-        worker.stop()
+        try:
+            for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
+                began = time.monotonic()
+                outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
+                seconds.append(time.monotonic() - began)
+                if outcome.status != "complete":
+                    raise ExperimentError(f"the trial of '{run.name}' is not complete ({outcome.status}: {outcome.message}), so the time is not known")
+        finally:
+            worker.stop()
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 
-def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int) -> int:
+def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int, most_equal: float) -> int:
     ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
     progress = Progress(experiment.count, done, jobs)
     interrupted: list[int] = []
     handlers = {number: signal.signal(number, lambda number, frame: interrupted.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
     failed = 0
+    messages: set[str] = set()
     try:
         pool.start(todo, ended)
         left = len(todo)
@@ -159,9 +167,13 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
             run, outcome = event
             if outcome.status != "complete":
                 failed += 1
+                messages.add(outcome.message)
                 progress.print(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
+            if failed >= most_equal and progress.done == 0 and len(messages) == 1:
+                raise ExperimentError(f"the sweep stops: its first {failed} runs all failed in the same way; correct the cause and continue with "
+                                      "--resume, or run all with --keep-going")
             if outcome.status == "differs":
                 raise ExperimentError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
                                       "inputs, such as a clock, a file or a random number without the scenario's seed")

@@ -1,5 +1,6 @@
 """Tests experiment files: errors have a line and are reported before the first run."""
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,12 @@ def test_all_combinations_are_run_and_keys_of_zip_vary_together(tmp_path: Path) 
 def test_a_file_that_is_not_utf_8_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "experiment.json").write_bytes(b'{"version": "\xff"}')
     with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8"):
+        read(str(tmp_path / "experiment.json"))
+
+
+def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "experiment.json")
+    with pytest.raises(ExperimentError, match="cannot be read: it is not a file"):
         read(str(tmp_path / "experiment.json"))
 
 

@@ -12,7 +12,7 @@ def results(shift: float, size: int = 20) -> Results:
     rows = [{"run": f"{program}{seed}", "program": program, "network.loss": 0.1, "seed": seed, "status": "complete", "error": random.normal(means[program])}
             for program in "ab" for seed in range(size)]
     series = [{**row, "second": second, "links": 0} for row in rows for second in (0.0, 1.0)]
-    return Results(pd.DataFrame(rows), pd.DataFrame(series), ["program", "network.loss", "seed"], {"error": "m"})
+    return Results(pd.DataFrame(rows), pd.DataFrame(series), None, ["program", "network.loss", "seed"], {"error": "m"})
 
 
 def test_an_effect_has_an_interval_that_holds_it() -> None:

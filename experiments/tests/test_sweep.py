@@ -1,4 +1,5 @@
 """Tests whole sweeps, including crashes, full disks and invalid input."""
+import fcntl
 import json
 import os
 import re
@@ -7,13 +8,15 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
 
-from collektive_experiments import compare, load
+from collektive_experiments import compare, files, load
+from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
 """Returns runs that take long enough to be disturbed."""
@@ -134,6 +137,23 @@ def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     assert result.returncode == 0, result.stderr
     assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
     assert not (project.folder / "out").exists()
+
+
+def test_a_dry_run_whose_trial_fails_estimates_nothing(project: Project) -> None:
+    result = project.sweep("--dry-run", vary={"fields.lamps": [0, 1]})
+    assert result.returncode == 1
+    assert "not complete (failed: there was no node in any tick" in result.stderr
+    assert "runs into" not in result.stdout
+
+
+def test_first_runs_that_all_fail_in_the_same_way_end_the_sweep_unless_it_keeps_going(project: Project) -> None:
+    keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
+    result = project.sweep(**keys)
+    assert result.returncode == 1
+    assert "the sweep stops: its first 5 runs all failed in the same way" in result.stderr
+    result = project.sweep("--resume", "--keep-going", **keys)
+    assert result.returncode == 1
+    assert list(project.table()["status"]) == ["failed"] * 8
 
 
 def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(project: Project) -> None:
@@ -276,6 +296,12 @@ def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
     assert "#SBATCH --cpus-per-task=2\n" in text
     for index in (0, 1, 3):
         subprocess.run([script], check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": str(index)})
+    with Store(str(lamps.folder / "slurm")) as store, files.open_log(str(lamps.folder / "slurm/logs/task-2.txt")) as log:
+        store.lock(shared=True)
+        assert "another sweep writes to" in lamps.sweep("--resume", out="slurm", **keys).stderr
+        fcntl.flock(log, fcntl.LOCK_EX)
+        twice = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": "2"})
+        assert (twice.returncode, "task 2 of" in twice.stderr) == (1, True), twice.stderr
     # Runs of a missing task are repeated.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr

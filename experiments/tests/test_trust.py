@@ -1,12 +1,14 @@
 """Tests that runs of a sweep are independent, and that a sweep changes only its own results."""
+import gc
 import json
 import os
 import re
+import subprocess
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest import EIGHT, Project
+from conftest import COLLEKTIVE, EIGHT, Project
 
 from collektive_experiments import read, tables
 from collektive_experiments.__main__ import main
@@ -41,6 +43,18 @@ def change_program(project: Project, statement: str) -> None:
      'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
+    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
+     'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
+    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
+     'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),
+    ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
+    ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
+    ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
+    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
+    ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
+     "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),
+    ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
+     "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
 ])
 def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:
@@ -113,6 +127,37 @@ def test_a_script_that_closes_its_output_is_ended_by_the_limit(project: Project)
     result = project.sweep("--time-limit", "3", vary={"seed": [1]})
     assert result.returncode == 1
     assert list(project.table()["status"]) == ["timeout"]
+
+
+def test_a_pipe_that_a_script_left_in_the_folder_is_not_waited_for(project: Project) -> None:
+    change_scene(project, 'System.Diagnostics.Process.Start("sh", "-c \'cd ../runs/*/ && mkfifo pipe\'").WaitForExit();')
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
+    assert (project.run("seed=1") / "pipe").is_fifo()
+
+
+def test_processes_of_scripts_end_with_the_sweep(project: Project) -> None:
+    change_scene(project, f'System.Diagnostics.Process.Start("sh", "-c \'setsid sleep 600; : {project.folder}/child\'");')
+    command = [COLLEKTIVE, "sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stderr
+    assert not [path for path in Path("/proc").glob("[0-9]*/cmdline") if f"{project.folder}/child".encode() in path.read_bytes()]
+
+
+def test_a_folder_is_free_once_a_sweep_has_failed(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
+
+    def fail(*_: object) -> None:
+        raise OSError("a full disk")
+    with monkeypatch.context() as broken:
+        broken.setattr(Store, "finish", fail)
+        gc.disable()
+        try:
+            assert main(words) == 1
+            assert main([*words, "--resume"]) == 1
+        finally:
+            gc.enable()
+    assert main(words) == 0
 
 
 def test_a_folder_of_the_users_is_not_touched(project: Project) -> None:
@@ -206,6 +251,13 @@ def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch
     finally:
         monkeypatch.undo()
         tables.write(experiment, Store(str(lamps.folder / "out")), True)
+
+
+def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
+    change_scene(project, 'throw new System.InvalidOperationException("no luck");')
+    assert project.sweep(vary={"seed": [1]}).returncode == 1
+    assert main(["plot", str(project.folder / "out")]) == 1
+    assert "has no complete run to plot" in capsys.readouterr().err
 
 
 def test_a_folder_that_is_not_a_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,6 +18,9 @@ import compile_schemas  # noqa: E402
 CORPUS = os.path.join(HERE, "corpus")
 ROOT = os.path.dirname(os.path.dirname(HERE))
 
+# A case and what went wrong in it.
+Finding = tuple[str, str]
+
 SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "ulong", "float", "double"]
 PLAIN = ["Alpha", "Beta", "Gamma", "Delta", "Omega", "Robot", "Wheel", "Arm", "Goal", "Area", "Point", "Track", "Zone", "Lamp"]
 FIELDS = ["speed", "angle", "home", "target", "label", "size", "mode", "path", "name", "id", "value", "time", "heading", "neighbours",
@@ -46,16 +49,16 @@ HOSTILE_COMMENTS = ["*/ int evil; /*", "\\u002a\\u002f int evil; /*", "/ int evi
 class RandomSchema:
     """A random schema file with some reserved names and comments."""
 
-    def __init__(self, source, root) -> None:
+    def __init__(self, source: random.Random, root: str) -> None:
         self.random = source
         self.root = root
         self.hostile = source.choice([0, 0, 0.02, 0.05, 0.15])
-        self.taken = set()
+        self.taken: set[str] = set()
 
-    def pick(self, plain, hostile):
+    def pick(self, plain: list[str], hostile: list[str]) -> str:
         return self.random.choice(hostile) if self.random.random() < self.hostile else self.random.choice(plain)
 
-    def type_name(self):
+    def type_name(self) -> str:
         while True:
             name = self.pick(PLAIN, HOSTILE_TYPES)
             if name not in self.taken:
@@ -64,13 +67,13 @@ class RandomSchema:
             if len(self.taken) > len(PLAIN) - 2:
                 return f"Type{len(self.taken)}"
 
-    def comment(self, indent=""):
+    def comment(self, indent: str = "") -> str:
         if self.random.random() > 0.15:
             return ""
         lines = [self.random.choice(HOSTILE_COMMENTS) if self.random.random() < 0.5 else " In metres." for _ in range(self.random.randint(1, 3))]
         return "".join(f"{indent}///{line}\n" for line in lines)
 
-    def default(self, scalar):
+    def default(self, scalar: str) -> str:
         r = self.random
         if scalar == "bool":
             return r.choice(["true", "false"])
@@ -79,8 +82,10 @@ class RandomSchema:
         bits = {"byte": 7, "ubyte": 8, "short": 15, "ushort": 16, "int": 31, "uint": 32, "long": 63, "ulong": 63}[scalar]
         return str(r.choice([0, 1, 2 ** bits - 1] + ([] if scalar.startswith("u") else [-1, -2 ** bits])))
 
-    def fields(self, structs, tables, enums, in_table, own=None):
-        r, names, lines = self.random, set(), []
+    def fields(self, structs: list[str], tables: list[str], enums: list[str], in_table: bool) -> str:
+        r = self.random
+        names: set[str] = set()
+        lines = []
         for _ in range(r.randint(1, 7)):
             name = self.pick(FIELDS, HOSTILE_FIELDS)
             plain = name.replace("_", "").lower()
@@ -91,7 +96,7 @@ class RandomSchema:
             lines.append(self.comment("  ") + f"  {name}: {self.type_of(structs, tables, enums, in_table)};\n")
         return "".join(lines) or "  only: int;\n"
 
-    def type_of(self, structs, tables, enums, in_table):
+    def type_of(self, structs: list[str], tables: list[str], enums: list[str], in_table: bool) -> str:
         r = self.random
         kind = r.random()
         if kind < 0.4 or (not in_table and not structs and not enums):
@@ -113,14 +118,15 @@ class RandomSchema:
         element = r.choice(SCALARS + ["string"] + structs + tables + enums)
         return f"[{element}]" + r.choice(["", "", "", " (required)", " (deprecated)"])
 
-    def text(self):
+    def text(self) -> str:
         r = self.random
         namespace = self.root
         if r.random() < 0.4:
             namespace += "." + self.pick(["inner", "deep.er"], HOSTILE_NAMESPACES)
         out = ['include "types.fbs";\n'] if r.random() < 0.5 else []
         structs = ["org.collektive.schema.Vector3"] if out else []
-        tables, enums = [], []
+        tables: list[str] = []
+        enums: list[str] = []
         out.append(f"{self.comment() if r.random() < 0.1 else ''}namespace {namespace};\n")
         for _ in range(r.randint(0, 2)):
             name = self.type_name()
@@ -154,11 +160,11 @@ class RandomSchema:
             out.insert(r.randrange(len(out)), r.choice(["}", "table {", "\"", "/* ", "\\", "\0", "attribute \"x\";\n", ";;;\n"]))
         return "".join(out)
 
-    def file(self):
+    def file(self) -> str:
         return self.pick(["user.fbs", "my_swarm.fbs"], HOSTILE_FILES)
 
 
-def write_batch(folder, seed, count) -> None:
+def write_batch(folder: str, seed: int, count: int) -> None:
     """Writes random schemas to `cases`, each in a folder named after its namespace."""
     source = random.Random(seed)
     for i in range(count):
@@ -171,7 +177,7 @@ def write_batch(folder, seed, count) -> None:
             file.write(schema.text())
 
 
-def run(folder, records=20):
+def run(folder: str, records: int = 20) -> tuple[int, int, list[Finding]]:
     """Runs all schemas of `cases`. Returns the numbers of accepted and rejected ones, and the failures as (case, text)."""
     each = subprocess.run([*compile_schemas.GENERATE_ALL, folder], capture_output=True, text=True)
     outcomes = [line.split("\t") for line in each.stdout.splitlines()]
@@ -187,7 +193,7 @@ def run(folder, records=20):
     return len(made), sum(outcome == "refused" for _, outcome, _ in outcomes), findings
 
 
-def compile_and_compare(folder, made, records):
+def compile_and_compare(folder: str, made: list[str], records: int) -> list[Finding]:
     text = compile_schemas.compile_generated(Path(folder))
     if text:
         blamed = {case for case in made if re.search(rf"/(csharp|jvm)/{re.escape(case)}/", text)}
@@ -210,7 +216,7 @@ def compile_and_compare(folder, made, records):
     return findings
 
 
-def batch(folder, seed, count):
+def batch(folder: str, seed: int, count: int) -> tuple[int, int, list[Finding]]:
     """Runs random schemas and the corpus of earlier findings."""
     shutil.rmtree(folder, ignore_errors=True)
     write_batch(folder, seed, count)

@@ -1,11 +1,13 @@
 """Runs a short, reproducible batch of random schemas and the corpus."""
+from pathlib import Path
+
 import fuzz
 
 SEED = 1
 SCHEMAS = 60
 
 
-def test_schemas_are_refused_with_their_line_or_their_data_come_through(tmp_path) -> None:
+def test_schemas_are_refused_with_their_line_or_their_data_come_through(tmp_path: Path) -> None:
     made, refused, findings = fuzz.batch(str(tmp_path / "batch"), SEED, SCHEMAS)
     print(f"seed {SEED}, {SCHEMAS} random schemas and those of the corpus: {made} made, {refused} refused")
     assert findings == []

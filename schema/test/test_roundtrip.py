@@ -5,6 +5,8 @@
 import functools
 import re
 import subprocess
+from collections.abc import Callable
+from pathlib import Path
 
 import compile_schemas
 import pytest
@@ -16,20 +18,20 @@ RECORDS, SEED = "500", "1"
 classes = functools.cache(compile_schemas.compile_test_schemas)
 
 
-def csharp(*words):
+def csharp(*words: str) -> list[str]:
     return [*compile_schemas.round_trip_csharp(), *words]
 
 
-def kotlin(*words):
+def kotlin(*words: str) -> list[str]:
     return [*compile_schemas.round_trip_kotlin(classes()), *words]
 
 
 @pytest.mark.parametrize("writer, reader", [(csharp, kotlin), (kotlin, csharp)], ids=["to Kotlin", "to C#"])
 @pytest.mark.parametrize("schema", SCHEMAS)
-def test_what_one_side_writes_the_other_reads(schema, writer, reader, tmp_path) -> None:
+def test_what_one_side_writes_the_other_reads(schema: str, writer: Callable[..., list[str]], reader: Callable[..., list[str]], tmp_path: Path) -> None:
     name, file = f"test.{schema}Schema", str(tmp_path / "data")
     subprocess.run(writer("write", name, file, RECORDS, SEED), check=True)
     read = subprocess.run(reader("read", name, file), check=True, capture_output=True, text=True).stdout
-    records, different = map(int, re.search(r"(\d+) passed, (\d+) failed$", read.strip()).groups())
-    assert records >= int(RECORDS)
-    assert different == 0, read
+    counts = re.search(r"(\d+) passed, 0 failed$", read.strip())
+    assert counts, read
+    assert int(counts[1]) >= int(RECORDS)

@@ -32,4 +32,6 @@ def run(*tools: str) -> int:
     fetch.fetch("experiments", *tools)
     # Sweeps run copies, so others can build meanwhile.
     lock.release()
-    return processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)
+    code = processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)
+    processes.end_orphans()
+    return code

@@ -23,6 +23,9 @@ class Part:
     def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
         self.path = Path(os.path.abspath(path))
         self.files: Mapping[str, Path] = list_files(self.path)
+        for file in self.files.values():
+            if re.search(r"[\n\r\udc80-\udcff]", str(file)):
+                raise Failure(f"the path {str(file)!r} has a line break or is not UTF-8, which compilers cannot read: rename the file or its folders")
         self.digest = _digest(self.files)
         self._list_files = list_files
 

@@ -3,7 +3,6 @@ import contextlib
 import fcntl
 import json
 import os
-import shutil
 import signal
 import tempfile
 from collections.abc import Iterator
@@ -45,6 +44,8 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
         earlier = _existing(folder, RESULTS)
         if earlier and not overwrite:
             raise Failure(f"'{folder}' has results of a run: {', '.join(earlier)}; name another folder with --out, or add --overwrite")
+        if earlier and not _is_of_run(folder):
+            raise Failure(f"'{folder}' has {', '.join(earlier)}, but no manifest of a run: name another folder with --out, or move these files")
         for name in _existing(folder, UNFINISHED):
             (folder / name).unlink()
         with tempfile.TemporaryFile(dir=folder):
@@ -64,7 +65,7 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
 def _end(folder: Path) -> None:
     """Deletes the earlier results if a new run has begun, and restores them otherwise."""
     earlier = folder / EARLIER
-    if not earlier.is_dir():
+    if earlier.is_symlink() or not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():
         for name in _existing(folder, UNFINISHED):
@@ -72,7 +73,17 @@ def _end(folder: Path) -> None:
         # The manifest last, because it marks a run that has begun.
         for name in reversed(_existing(earlier, RESULTS)):
             (earlier / name).rename(folder / name)
-    shutil.rmtree(earlier)
+    for name in _existing(earlier, RESULTS):
+        (earlier / name).unlink()
+    earlier.rmdir()
+
+
+def _is_of_run(folder: Path) -> bool:
+    """Returns whether the folder has the manifest of a run, not a file of that name from elsewhere."""
+    try:
+        return b'"outcome":' in (folder / "manifest.json").read_bytes()
+    except OSError:
+        return False
 
 
 def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:

@@ -1,9 +1,11 @@
 """Runs scenarios with the player."""
 import json
+import signal
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from build import inputs, managed, processes, projects
 from build.console import Failure
@@ -18,14 +20,20 @@ READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": input
 class Plan:
     """The values that the player read from a scenario, and the current files of the project."""
 
-    values: dict[str, str]
+    values: dict[str, Any]
     parts: dict[str, Part]
 
-    def __getitem__(self, key: str) -> str:
-        return self.values.get(key, "")
+    def __getitem__(self, key: str) -> Any:
+        return self.values[key]
 
     def programs_jar(self) -> Path:
-        """Returns the jar of the scenario's programs, compiled if they changed."""
+        """Returns the jar of the scenario's programs, compiled if they changed.
+
+        Raises `Failure` before the compilation if the sources lack the scenario's program.
+        """
+        known = projects.program_names(self.parts["programs"])
+        if known is not None and self["program"] not in known:
+            raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known)) or 'no program'}")
         return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
 
     def scripts_dll(self) -> Path:
@@ -43,10 +51,12 @@ def plan(scenario: str, reading: Sequence[str]) -> Plan:
     Raises `Failure` without a message if the scenario is invalid.
     """
     command = managed.command("mono-sgen", PLAYER, "plan", scenario, *reading)
-    result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True)
+    result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE)
+    if result.returncode < 0:
+        raise Failure(f"the player was ended by {signal.Signals(-result.returncode).name}", 128 - result.returncode)
     if result.returncode != 0:
         raise InvalidScenario(result.returncode)
-    values = dict(line.split("=", 1) for line in result.stdout.splitlines() if "=" in line)
+    values = json.loads(result.stdout)
     return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
 
 

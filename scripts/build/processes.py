@@ -34,7 +34,12 @@ def run_in_group(main: Callable[[], int]) -> int:
         sys.exit(main())
     with contextlib.suppress(OSError):  # the child may have done it already, or have ended
         os.setpgid(group, group)
-    watcher = os.fork()
+    try:
+        watcher = os.fork()
+    except OSError:
+        os.kill(group, signal.SIGKILL)
+        os.waitpid(group, 0)
+        raise
     if watcher == 0:
         _watch(watched, lifeline, group)
     os.close(watched)

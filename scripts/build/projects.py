@@ -51,6 +51,15 @@ def record_own_program(jar: Path) -> None:
         note.touch()
 
 
+def program_names(programs: Part) -> set[str] | None:
+    """Returns the names of the programs in a folder of Kotlin, or None if only the compiler knows them: those of jars and of constants."""
+    if programs.path.is_file():
+        return None
+    found = [match[1] for name, file in programs.files.items() if name.endswith(".kt")
+             for match in re.finditer(r'@Program\s*\(\s*(?:name\s*=\s*)?("[^"$\\]*"|)', file.read_text(encoding="utf-8", errors="replace"))]
+    return {name.strip('"') for name in found} if all(found) else None
+
+
 def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin: Part | None = None) -> Path:
     """Returns the jar of a folder of Kotlin, compiled if it changed, or the given jar.
 

@@ -18,12 +18,22 @@ TESTS = ("*/tests/*", "*/Tests/*", "*/test/*", "*/TestFramework/*", "*/TestRunne
 GLUE = re.compile(r"[\s+\\$@f]*")
 
 
+def tokens(path: Path) -> Iterator[tuple[token._TokenType, str]]:
+    """Yields the tokens of a source file. Pygments reads a C# attribute, such as a tooltip, as one token: its texts are split off."""
+    for sort, value in lexers.get_lexer_for_filename(path.name, stripnl=False).get_tokens(path.read_text(encoding="utf-8")):
+        if sort not in token.Name.Attribute:
+            yield sort, value
+            continue
+        for index, part in enumerate(re.split(r'("(?:[^"\\]|\\.)*")', value)):
+            yield (token.String if index % 2 else token.Punctuation), part
+
+
 def texts(path: Path) -> Iterator[tuple[int, bool, str]]:
     """Yields the line, whether it is a comment, and the content of each comment and text of a source file."""
     line, begin, depth = 1, 1, 0
     kind: str | None = None
     text = ""
-    for sort, value in lexers.get_lexer_for_filename(path.name, stripnl=False).get_tokens(path.read_text(encoding="utf-8")):
+    for sort, value in tokens(path):
         is_comment = sort in token.String.Doc or (sort in token.Comment and sort not in token.Comment.Preproc)
         now = "comment" if is_comment else "text" if sort in token.String or depth > 0 else None
         if sort in token.String.Interpol and value in ("{", "${", "}"):

@@ -6,16 +6,19 @@ scripts/checks/validator/guids.txt.
 """
 import os
 import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.dirname(HERE), HERE]
 from validator import asmdefs, guids, packing, references, serialized_fields  # noqa: E402
 from validator.assets import Assets  # noqa: E402
+from validator.serialized_fields import ScriptClass  # noqa: E402
 
 from build import metas  # noqa: E402
 
 
-def problems(root, classes, ledger=guids.LEDGER):
+def problems(root: str | Path, classes: Mapping[str, ScriptClass], ledger: str = guids.LEDGER) -> Iterator[str]:
     """Yields the errors of the package at root."""
     yield from metas.problems(root)
     assets = Assets(root)

@@ -61,22 +61,23 @@ def run(arguments: argparse.Namespace) -> int:
     plan = player.plan(arguments.scenario, reading)
     jar, dll = plan.programs_jar(), plan.scripts_dll()
     words: list[str] = []
-    if plan["replay"] == "yes":
+    if plan["replay"]:
         graph.build("replay_page")
         words += ["--template", str(REPLAY_PAGE)]
     name = os.path.basename(arguments.scenario).removesuffix(".json")
     out = arguments.out or f"out/{name}-seed{arguments.seed or plan['seed']}"
     projects.record_own_program(jar)
     if arguments.recording is not None:
-        words += ["--recording", arguments.recording]
+        words += ["--recording", os.path.abspath(arguments.recording)]
     if arguments.debug is not None:
         words += ["--debug", arguments.debug]
     if arguments.keep_going:
         words.append("--keep-going")
-    has_pictures = plan["pictures"] == "yes"
+    has_pictures = plan["pictures"]
     print_progress(f"running {arguments.scenario}")
     with outputs.open_folder(Path(out), arguments.overwrite):
-        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", out, *words, *reading])
+        # Scripts may change the current folder.
+        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *reading])
         outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The entries below GameObject &gt; Collektive: they put the package's prefabs into the scene.</summary>
+    /// <summary>The menu GameObject &gt; Collektive, which adds the package's prefabs to the scene.</summary>
     internal static class CreateMenu
     {
         private const string Menu = "GameObject/Collektive/";
@@ -18,7 +18,7 @@ namespace Collektive.Unity.Editor
         {
             if (SimulationManager.Current != null || Object.FindAnyObjectByType<SimulationManager>() != null)
             {
-                Debug.LogWarning("the scene has a Simulation Manager already; a second one would disable itself");
+                Debug.LogWarning("the scene already has a Simulation Manager, and only one can run: no second one was created");
                 return;
             }
             Create(ManagerPrefab, command);
@@ -36,12 +36,12 @@ namespace Collektive.Unity.Editor
                 Debug.LogError("the package's prefab with GUID " + guid + " is missing: reinstall the package");
                 return;
             }
-            var made = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
+            var created = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
             // Unity gives no context when the entry is executed by its name.
             var parent = command.context as GameObject;
-            ObjectFactory.PlaceGameObject(made, parent != null ? parent : Selection.activeGameObject);
-            Undo.RegisterCreatedObjectUndo(made, "Create " + made.name);
-            Selection.activeGameObject = made;
+            ObjectFactory.PlaceGameObject(created, parent != null ? parent : Selection.activeGameObject);
+            Undo.RegisterCreatedObjectUndo(created, "Create " + created.name);
+            Selection.activeGameObject = created;
         }
     }
 }

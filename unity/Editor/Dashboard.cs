@@ -5,7 +5,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>What the manager's inspector shows of a running simulation, as names and values.</summary>
+    /// <summary>The state of a running simulation as names and values, for the manager's inspector.</summary>
     internal static class Dashboard
     {
         internal static List<KeyValuePair<string, string>> Of(SimulationManager manager)

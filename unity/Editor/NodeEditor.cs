@@ -35,19 +35,19 @@ namespace Collektive.Unity.Editor
                 var place = PlaceOf(values, parameter.Name);
                 var value = place < 0 ? parameter.DefaultValue : ValueAt(values, place).stringValue;
                 var content = new GUIContent(parameter.Name, parameter.Description + " Default: " + parameter.DefaultValue);
-                var written = EditorGUILayout.TextField(content, value);
-                if (written != value) Set(values, place, parameter, written);
+                var edited = EditorGUILayout.TextField(content, value);
+                if (edited != value) Set(values, place, parameter, edited);
             }
             for (var i = 0; i < values.arraySize; i++)
             {
                 var name = NameAt(values, i).stringValue;
                 if (!declared.Contains(name))
-                    EditorGUILayout.HelpBox("Program '" + program.Name + "' has no parameter '" + name + "'. There is: "
+                    EditorGUILayout.HelpBox("Program '" + program.Name + "' has no parameter '" + name + "'. Its parameters: "
                         + (declared.Count > 0 ? string.Join(", ", declared) : "none"), MessageType.Error);
             }
         }
 
-        /// <summary>Writes a value; the default needs none.</summary>
+        /// <summary>Stores a value, or removes it if it equals the default.</summary>
         private static void Set(SerializedProperty values, int place, ProgramParameter parameter, string value)
         {
             if (value == parameter.DefaultValue)

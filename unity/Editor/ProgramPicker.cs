@@ -28,9 +28,9 @@ namespace Collektive.Unity.Editor
             }
             if (index.WithoutIndex != null)
                 EditorGUILayout.HelpBox(File.Exists(index.WithoutIndex)
-                    ? index.WithoutIndex + " has no index of programs: type the program's name, or compile the jar with this version of "
+                    ? index.WithoutIndex + " has no list of programs: type the program's name, or compile the jar with this version of "
                     + "the compiler plugin"
-                    : index.WithoutIndex + " does not exist yet: Tools > Collektive > Rebuild Programs makes it, and so does Play", MessageType.None);
+                    : index.WithoutIndex + " does not exist yet: press Play, or choose Tools > Collektive > Rebuild Programs", MessageType.None);
         }
     }
 }

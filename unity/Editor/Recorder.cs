@@ -7,25 +7,25 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>What an inspector or a window shows of the JVM: memory, and a flight recording to start, dump, stop and find while the scene plays.</summary>
+    /// <summary>Draws the JVM's memory and the controls of flight recordings in an inspector or a window.</summary>
     internal sealed class Recorder
     {
-        /// <summary>Where recordings go: beside the project's assets, so that they are found and never imported.</summary>
+        /// <summary>Folder of recordings, outside the assets so that Unity does not import them.</summary>
         internal const string Folder = "Recordings";
 
         private const double Interval = 0.5;
 
         private static readonly GUIContent Settings = new GUIContent(
-            "Recording settings", "default: little overhead, for recordings without end. profile: more samples. Or the path of a .jfc file.");
+            "Recording settings", "default: low overhead, for continuous recording. profile: more samples. Or the path of a .jfc file.");
 
         private string settings = JvmRecording.Profile;
         private JvmStatus status;
-        private double asked = double.NegativeInfinity;
+        private double lastQuery = double.NegativeInfinity;
 
         internal void Draw()
         {
             // A repaint must draw the controls of the layout before it; and the call into the JVM takes time.
-            if (Event.current.type == EventType.Layout && EditorApplication.timeSinceStartup - asked >= Interval) Ask();
+            if (Event.current.type == EventType.Layout && EditorApplication.timeSinceStartup - lastQuery >= Interval) Refresh();
             if (status == null) return;
             EditorGUILayout.LabelField("Heap", Mebibytes(status.HeapUsed) + " of " + Mebibytes(status.HeapMaximum) + ", " + status.Collections
                 + " collections");
@@ -51,12 +51,12 @@ namespace Collektive.Unity.Editor
         private void Do(Action action)
         {
             action();
-            Ask();
+            Refresh();
         }
 
-        private void Ask()
+        private void Refresh()
         {
-            asked = EditorApplication.timeSinceStartup;
+            lastQuery = EditorApplication.timeSinceStartup;
             status = Jvm.State == JvmState.Running ? Jvm.GetStatus() : null;
         }
 

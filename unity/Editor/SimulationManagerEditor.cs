@@ -21,7 +21,7 @@ namespace Collektive.Unity.Editor
             DrawDefaultInspector();
             if (EditorApplication.isPlaying && manager.Programs.Count > 0)
                 EditorGUILayout.HelpBox(
-                    "Settings take effect at the next Play. Changed JVM options and another JVM need a restart of the editor.", MessageType.Info);
+                    "Settings take effect at the next Play. Changed JVM settings require a restart of the editor.", MessageType.Info);
             else DrawPrograms(manager.Settings);
             DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);
@@ -32,7 +32,7 @@ namespace Collektive.Unity.Editor
             if (jvm != null) DestroyImmediate(jvm);
         }
 
-        /// <summary>The settings of the asset that the manager names, in place.</summary>
+        /// <summary>Draws the settings of the manager's asset in place.</summary>
         private void DrawJvm(JvmSettingsAsset asset)
         {
             if (asset == null) return;
@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
             recorder.Draw();
         }
 
-        /// <summary>One tick, and the simulation stands still afterwards.</summary>
+        /// <summary>Runs one tick and pauses the simulation.</summary>
         private static void Step(SimulationManager manager)
         {
             manager.Paused = true;

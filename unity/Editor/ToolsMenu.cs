@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The entries below Tools &gt; Collektive.</summary>
+    /// <summary>The menu Tools &gt; Collektive.</summary>
     internal static class ToolsMenu
     {
         private const string Menu = "Tools/Collektive/";
@@ -20,14 +20,14 @@ namespace Collektive.Unity.Editor
         [MenuItem(Menu + "Rebuild Backend", false, 3)]
         private static void RebuildBackend()
         {
-            Guarded(() =>
+            TryRun(() =>
             {
                 EditorUtility.DisplayProgressBar("Collektive", "Building the package from its sources", 0.5f);
                 var archive = BackendBuild.Make();
                 if (archive != null)
                     Debug.Log("built " + archive
                         + ": install it with Package Manager > + > Install package from tarball, then restart the editor "
-                        + "(the JVM of this one runs the old backend)");
+                        + "(until then it uses the old backend)");
                 return archive != null;
             });
         }
@@ -39,12 +39,12 @@ namespace Collektive.Unity.Editor
         private static void OpenLog()
         {
             var log = Application.consoleLogPath;
-            if (string.IsNullOrEmpty(log)) Debug.LogWarning("this editor writes no log file");
+            if (string.IsNullOrEmpty(log)) Debug.LogWarning("this editor does not write a log file");
             else EditorUtility.RevealInFinder(log);
         }
 
-        /// <summary>Runs a build step; a missing tool is an error in the console.</summary>
-        internal static bool Guarded(Func<bool> step)
+        /// <summary>Runs a build step, and logs an error if a tool is missing.</summary>
+        internal static bool TryRun(Func<bool> step)
         {
             try
             {
@@ -67,10 +67,10 @@ namespace Collektive.Unity.Editor
             if (projects.Count == 0)
             {
                 Debug.LogWarning(title
-                    + ": there is nothing to do. Schemas are files *.fbs below Assets; their programs are *.kt in the folder Programs beside them");
+                    + ": no sources were found. Put schemas (*.fbs) below Assets, and their programs (*.kt) into the folder Programs beside them");
                 return;
             }
-            Guarded(() =>
+            TryRun(() =>
             {
                 for (var i = 0; i < projects.Count; i++)
                 {

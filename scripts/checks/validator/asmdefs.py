@@ -1,17 +1,23 @@
 """Checks the names, references and platforms of assembly definitions, and that every C# file belongs to one."""
 import json
 import os
+from collections.abc import Iterator
+from typing import Any
+
+from validator.assets import Assets
 
 # Assemblies and plugins of Unity's packages.
 UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 UNITY_PLUGINS = {"nunit.framework.dll"}
 # Plugins that the build adds to the package.
 BUILT_PLUGINS = {"Collektive.FlatBuffers.dll"}
+# Path and content by assembly.
+Definitions = dict[str, tuple[str, dict[str, Any]]]
 PLATFORMS = {"Editor", "LinuxStandalone64", "macOSStandalone", "WindowsStandalone64"}
 
 
-def problems(assets):
-    definitions = {}
+def problems(assets: Assets) -> Iterator[str]:
+    definitions: Definitions = {}
     for path in assets.with_ending(".asmdef"):
         try:
             definition = json.loads(assets.read(path))
@@ -24,13 +30,13 @@ def problems(assets):
         if name in definitions:
             yield f"{path}: {definitions[name][0]} has the same name '{name}'"
         definitions[name] = (path, definition)
-    for name, (path, definition) in sorted(definitions.items()):
-        yield from check_definition(name, path, definition, definitions)
+    for _, (path, definition) in sorted(definitions.items()):
+        yield from check_definition(path, definition, definitions)
     yield from cycles(definitions)
     yield from unassigned(assets, definitions)
 
 
-def check_definition(name, path, definition, definitions):
+def check_definition(path: str, definition: dict[str, Any], definitions: Definitions) -> Iterator[str]:
     for reference in definition.get("references", []):
         if reference not in definitions and reference not in UNITY_ASSEMBLIES:
             yield f"{path}: refers to the assembly '{reference}', which is not in the package"
@@ -54,9 +60,10 @@ def check_definition(name, path, definition, definitions):
         yield f"{path}: tests must reference nunit.framework.dll"
 
 
-def cycles(definitions):
+def cycles(definitions: Definitions) -> Iterator[str]:
     for name in sorted(definitions):
-        seen, open_names = set(), list(definitions[name][1].get("references", []))
+        seen: set[str] = set()
+        open_names = list(definitions[name][1].get("references", []))
         while open_names:
             reference = open_names.pop()
             if reference == name:
@@ -67,7 +74,7 @@ def cycles(definitions):
                 open_names += definitions[reference][1].get("references", [])
 
 
-def unassigned(assets, definitions):
+def unassigned(assets: Assets, definitions: Definitions) -> Iterator[str]:
     """Yields C# files without an assembly definition, which Unity would compile into the user's assembly."""
     folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):

@@ -1,5 +1,6 @@
 """Reads the package's assets by path and by GUID."""
 import os
+from pathlib import Path
 
 from build import metas
 
@@ -10,24 +11,24 @@ BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f00000000000000
 class Assets:
     """The assets below a root."""
 
-    def __init__(self, root) -> None:
+    def __init__(self, root: str | Path) -> None:
         self.root = root
         self.paths = list(metas.assets(root))
-        self.guids = {}
+        self.guids: dict[str, str] = {}
         for path in self.paths:
             guid = guid_of(os.path.join(root, path + ".meta"))
             if guid:
                 self.guids[guid] = path
 
-    def with_ending(self, *endings):
+    def with_ending(self, *endings: str) -> list[str]:
         return [path for path in self.paths if path.endswith(endings)]
 
-    def read(self, path):
+    def read(self, path: str) -> str:
         with open(os.path.join(self.root, path), encoding="utf-8") as file:
             return file.read()
 
 
-def guid_of(meta):
+def guid_of(meta: str) -> str | None:
     """Returns the GUID in a meta file, or None."""
     if not os.path.exists(meta):
         return None

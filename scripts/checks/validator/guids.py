@@ -3,11 +3,14 @@
 `scripts/checks/validator/guids.txt` contains the GUID of every asset that a scene, a prefab or an assembly definition can refer to.
 """
 import os
+from collections.abc import Iterable, Iterator
+
+from validator.assets import Assets
 
 LEDGER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "guids.txt")
 
 
-def referable(assets, classes):
+def referable(assets: Assets, classes: Iterable[str]) -> dict[str, str]:
     """Returns the assets that files outside the package can refer to, by GUID."""
     names = {name.rsplit(".", 1)[-1] for name in classes}
     scripts = [path for path in assets.with_ending(".cs") if os.path.basename(path)[:-3] in names]
@@ -15,12 +18,13 @@ def referable(assets, classes):
     return {guid: path for guid, path in assets.guids.items() if path in paths}
 
 
-def read(ledger):
+def read(ledger: str) -> dict[str, str]:
     with open(ledger) as file:
-        return dict(line.split(" ", 1) for line in file.read().splitlines())
+        entries = (line.partition(" ") for line in file.read().splitlines())
+        return {guid: path for guid, _, path in entries}
 
 
-def problems(assets, classes, ledger=LEDGER):
+def problems(assets: Assets, classes: Iterable[str], ledger: str = LEDGER) -> Iterator[str]:
     """Yields a line for each missing, changed or unlisted GUID."""
     listed = read(ledger)
     present = referable(assets, classes)
@@ -32,7 +36,7 @@ def problems(assets, classes, ledger=LEDGER):
             yield f"{path}: not in {os.path.basename(ledger)} with GUID {guid}; run scripts/checks/validate.py --update"
 
 
-def update(assets, classes, ledger=LEDGER) -> None:
+def update(assets: Assets, classes: Iterable[str], ledger: str = LEDGER) -> None:
     """Adds new and renamed assets. Keeps missing ones, which remain errors."""
     listed = {**read(ledger), **referable(assets, classes)}
     with open(ledger, "w") as file:

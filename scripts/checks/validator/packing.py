@@ -2,11 +2,13 @@
 import fnmatch
 import os
 import re
+from collections.abc import Iterator
 
 from build import manifest as manifests
+from validator.assets import Assets
 
 
-def problems(assets):
+def problems(assets: Assets) -> Iterator[str]:
     root = assets.root
     manifest = manifests.read(root)
     if not re.fullmatch(r"[a-z0-9._-]+", manifest["name"]):

@@ -1,9 +1,15 @@
 """Checks objects and references of prefabs, scenes and materials, and fields of scripts against the C#."""
 import os
 import re
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from validator import unity_yaml
-from validator.assets import BUILT_IN
+from validator.assets import BUILT_IN, Assets
+from validator.serialized_fields import ScriptClass
+from validator.unity_yaml import Document
+
+Files = dict[str, list[Document]]
 
 # Unity's class numbers of the objects in the package.
 CLASSES = {
@@ -23,8 +29,8 @@ COMMON_FIELDS = {
 }
 
 
-def problems(assets, classes):
-    files = {}
+def problems(assets: Assets, classes: Mapping[str, ScriptClass]) -> Iterator[str]:
+    files: Files = {}
     for path in assets.with_ending(*YAML_ENDINGS):
         try:
             files[path] = unity_yaml.read(os.path.join(assets.root, path))
@@ -36,7 +42,7 @@ def problems(assets, classes):
 
 
 class OneFile:
-    def __init__(self, assets, classes, files, path, documents) -> None:
+    def __init__(self, assets: Assets, classes: Mapping[str, ScriptClass], files: Files, path: str, documents: list[Document]) -> None:
         self.assets = assets
         self.classes = classes
         self.files = files
@@ -44,8 +50,8 @@ class OneFile:
         self.documents = documents
         self.by_id = {str(document.file_id): document for document in documents}
 
-    def problems(self):
-        seen = set()
+    def problems(self) -> Iterator[str]:
+        seen: set[int] = set()
         for document in self.documents:
             if document.file_id in seen:
                 yield f"{document.line}: the file id {document.file_id} is used twice"
@@ -67,7 +73,7 @@ class OneFile:
         if self.path.endswith(".unity"):
             yield from self.check_scene()
 
-    def check_reference(self, reference):
+    def check_reference(self, reference: dict[str, str]) -> str | None:
         """Returns the error of a reference, or None."""
         file_id, guid = reference["fileID"], reference.get("guid")
         if file_id == "0":
@@ -90,7 +96,7 @@ class OneFile:
             return f"object {file_id} does not exist in {target}"
         return None
 
-    def check_game_object(self, document):
+    def check_game_object(self, document: Document) -> Iterator[str]:
         for entry in document.fields["m_Component"]:
             component = self.by_id.get(entry["component"]["fileID"])
             if component and component.fields["m_GameObject"]["fileID"] != str(document.file_id):
@@ -101,7 +107,7 @@ class OneFile:
             if owner == str(document.file_id) and str(other.file_id) not in listed:
                 yield f"{other.line}: {other.type_name} is not among the components of {document.fields['m_Name']}"
 
-    def check_transform(self, document):
+    def check_transform(self, document: Document) -> Iterator[str]:
         for child in document.fields["m_Children"]:
             other = self.by_id.get(child["fileID"])
             if other and not other.stripped and other.fields["m_Father"]["fileID"] != str(document.file_id):
@@ -110,7 +116,7 @@ class OneFile:
         if parent and not parent.stripped and {"fileID": str(document.file_id)} not in parent.fields["m_Children"]:
             yield f"{document.line}: Transform is not among the children of its parent"
 
-    def check_scene(self):
+    def check_scene(self) -> Iterator[str]:
         roots = [document for document in self.documents if document.type_name == "SceneRoots"]
         if len(roots) != 1:
             yield "1: a scene has one SceneRoots"
@@ -120,7 +126,7 @@ class OneFile:
         for file_id in sorted(roots_found ^ listed):
             yield f"{roots[0].line}: SceneRoots: object {file_id} is {'not listed' if file_id in roots_found else 'not a root'}"
 
-    def check_script(self, document):
+    def check_script(self, document: Document) -> Iterator[str]:
         script = self.script_of(document)
         if script is None:
             # check_reference has reported this.
@@ -133,16 +139,16 @@ class OneFile:
             if path.split(".")[0] not in COMMON_FIELDS:
                 yield from self.check_field(document.line, known, path, value)
 
-    def check_field(self, line, known, path, value):
+    def check_field(self, line: int, known: ScriptClass, path: str, value: Any) -> Iterator[str]:
         kind = known.fields.get(path)
         if kind is None:
             yield f"{line}: {known.name} has no serialised field {path}"
         elif not fits(kind, value):
             yield f"{line}: {known.name}.{path} is a {kind}, not {value!r}"
 
-    def check_instance(self, document):
+    def check_instance(self, document: Document) -> Iterator[str]:
         source = self.assets.guids.get(document.fields["m_SourcePrefab"].get("guid"))
-        targets = {str(target.file_id): target for target in self.files.get(source, [])}
+        targets = {str(target.file_id): target for target in self.files.get(source or "", [])}
         for change in document.fields["m_Modification"]["m_Modifications"]:
             target = targets.get(change["target"]["fileID"])
             if target is None:
@@ -155,23 +161,23 @@ class OneFile:
                 if known and path not in known.fields:
                     yield f"{document.line}: {known.name} has no serialised field {path}"
 
-    def script_of(self, document):
+    def script_of(self, document: Document) -> str | None:
         return self.assets.guids.get(document.fields["m_Script"].get("guid"))
 
-    def class_of(self, script):
+    def class_of(self, script: str) -> ScriptClass | None:
         """Returns the class with the name of the script file, which Unity uses."""
         name = os.path.basename(script)[:-len(".cs")]
         namespace = re.search(r"^namespace ([\w.]+)", self.assets.read(script), re.M)
         return self.classes.get(f"{namespace[1]}.{name}" if namespace else name)
 
 
-def is_root(document):
+def is_root(document: Document) -> bool:
     if document.type_name == "Transform" and not document.stripped:
-        return document.fields["m_Father"]["fileID"] == "0"
-    return document.type_name == "PrefabInstance" and document.fields["m_Modification"]["m_TransformParent"]["fileID"] == "0"
+        return bool(document.fields["m_Father"]["fileID"] == "0")
+    return document.type_name == "PrefabInstance" and bool(document.fields["m_Modification"]["m_TransformParent"]["fileID"] == "0")
 
 
-def references(value, where=""):
+def references(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, str]]]:
     """Yields the references in a value and their paths."""
     if isinstance(value, dict):
         if "fileID" in value:
@@ -184,7 +190,7 @@ def references(value, where=""):
             yield from references(inner, where)
 
 
-def flattened(fields, prefix=""):
+def flattened(fields: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Yields paths and values of a script's fields. Elements of a list have the path of the list."""
     for key, value in fields.items():
         path = prefix + key
@@ -197,12 +203,12 @@ def flattened(fields, prefix=""):
                     yield from flattened(element, path + ".")
 
 
-def is_vector(value):
+def is_vector(value: dict[str, Any]) -> bool:
     """Returns whether a value is a vector, colour or mask, whose parts are not checked."""
     return set(value) <= set("xyzwrgba") or "m_Bits" in value
 
 
-def fits(kind, value):
+def fits(kind: str, value: Any) -> bool:
     if kind == "list":
         return isinstance(value, list)
     if kind == "reference":

@@ -4,20 +4,20 @@
 class ScriptClass:
     """One class: its full name, `component` or `asset`, and its fields' kinds by path."""
 
-    def __init__(self, name, kind) -> None:
+    def __init__(self, name: str, kind: str) -> None:
         self.name = name
         self.kind = kind
-        self.fields = {}
+        self.fields: dict[str, str] = {}
 
 
-def parse(text):
+def parse(text: str) -> dict[str, ScriptClass]:
     """The classes by full name."""
-    classes = {}
-    current = None
+    classes: dict[str, ScriptClass] = {}
     for line in text.splitlines():
         words = line.split()
         if words[0] == "class":
-            current = classes[words[1]] = ScriptClass(words[1], words[2])
+            current = ScriptClass(words[1], words[2])
+            classes[words[1]] = current
         else:
             current.fields[words[0]] = words[1]
     return classes

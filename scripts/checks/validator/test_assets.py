@@ -11,7 +11,7 @@ import validate
 
 from build import managed, metas
 from build.places import CSHARP, ROOT
-from validator import serialized_fields
+from validator import assets, guids, serialized_fields
 
 PREFAB = "unity/Prefabs/Simulation Manager.prefab"
 NODE = "unity/Prefabs/Node.prefab"
@@ -20,7 +20,7 @@ ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
 
 
 @functools.cache
-def classes():
+def classes() -> dict[str, serialized_fields.ScriptClass]:
     """Returns the fields of each component that Unity serialises."""
     command = managed.command("mono-sgen", CSHARP / "Collektive.SerializedFields.exe", CSHARP / "Collektive.Unity.dll", CSHARP / "Collektive.Samples.dll")
     output = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True, check=True).stdout
@@ -46,9 +46,9 @@ class ValidatorTest(unittest.TestCase):
                 shutil.copy(path, self.root)
             shutil.copy(path + ".meta", self.root)
         self.ledger = os.path.join(self.root, "guids.txt")
-        shutil.copy(validate.guids.LEDGER, self.ledger)
+        shutil.copy(guids.LEDGER, self.ledger)
 
-    def change(self, path, pattern, new) -> None:
+    def change(self, path: str, pattern: str, new: str) -> None:
         path = os.path.join(self.root, path)
         with open(path) as file:
             text, count = re.subn(pattern, new, file.read(), count=1, flags=re.M)
@@ -56,7 +56,10 @@ class ValidatorTest(unittest.TestCase):
         with open(path, "w") as file:
             file.write(text)
 
-    def assert_problem(self, *words) -> None:
+    def guid_of(self, path: str) -> str:
+        return str(assets.guid_of(os.path.join(self.root, path + ".meta")))
+
+    def assert_problem(self, *words: str) -> None:
         """Asserts that one problem contains all words."""
         problems = list(validate.problems(self.root, classes(), self.ledger))
         self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "no problem was found")
@@ -70,9 +73,7 @@ class ValidatorTest(unittest.TestCase):
         self.assert_problem("TickTimes.cs.meta", "its asset does not exist")
 
     def test_finds_a_guid_used_twice(self) -> None:
-        with open(os.path.join(self.root, ASMDEF + ".meta")) as file:
-            guid = re.search("guid: (.*)", file.read())[1]
-        self.change(PREFAB + ".meta", "guid: .*", f"guid: {guid}")
+        self.change(PREFAB + ".meta", "guid: .*", f"guid: {self.guid_of(ASMDEF)}")
         self.assert_problem("duplicate GUID")
 
     def test_finds_a_changed_guid(self) -> None:
@@ -86,10 +87,10 @@ class ValidatorTest(unittest.TestCase):
     def test_an_update_lists_what_is_new_and_forgets_nothing(self) -> None:
         os.remove(os.path.join(self.root, PREFAB))
         os.remove(os.path.join(self.root, PREFAB + ".meta"))
-        before = validate.guids.read(self.ledger)
+        before = guids.read(self.ledger)
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
-        validate.guids.update(validate.Assets(self.root), classes(), self.ledger)
-        self.assertEqual(validate.guids.read(self.ledger), before)
+        guids.update(assets.Assets(self.root), classes(), self.ledger)
+        self.assertEqual(guids.read(self.ledger), before)
         self.assert_problem(PREFAB, "its GUID", "is missing")
 
     def test_finds_a_script_reference_to_nothing(self) -> None:
@@ -97,8 +98,7 @@ class ValidatorTest(unittest.TestCase):
         self.assert_problem(PREFAB, "MonoBehaviour.m_Script", 32 * "b")
 
     def test_finds_a_script_reference_to_something_else(self) -> None:
-        with open(os.path.join(self.root, "unity/Runtime/Unity/Simulation/TickTimes.cs.meta")) as file:
-            guid = re.search("guid: (.*)", file.read())[1]
+        guid = self.guid_of("unity/Runtime/Unity/Simulation/TickTimes.cs")
         self.change(PREFAB, r"guid: [0-9a-f]{32}", f"guid: {guid}")
         self.assert_problem(PREFAB, "TickTimes.cs", "contains no component")
 

@@ -31,7 +31,7 @@ class Block:
         kinds = {
             "story": self.page in STORIES and (self.title or self.language in ("sh", "text")),  # test_stories.py
             "project": self.page in PROJECTS and self.language in ("fbs", "kotlin", "csharp"),  # test_readme.py and test_pages.py
-            "fragment": self.page.startswith("Documentation~/") and self.language in ("csharp", "kotlin", "json"),  # test_fragments.py
+            "fragment": self.page.startswith("Documentation~/") and self.language in ("csharp", "fbs", "json", "kotlin"),  # test_fragments.py
             "contract": self.page == "docs/boundary.md" and self.language == "java",  # test_blocks.py
             "command": self.language in ("sh", "console"),  # test_blocks.py
             "diagram": self.language == "mermaid",  # scripts/tests/site.mjs

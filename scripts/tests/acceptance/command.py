@@ -11,7 +11,7 @@ import time
 import unittest
 from pathlib import Path
 
-from build import inputs, projects
+from build import inputs, lock, projects
 from build.jdk import find_jdk
 from build.places import COLLEKTIVE, ROOT
 
@@ -53,6 +53,14 @@ def jdk():
     return str(find_jdk())
 
 
+def compiled(compile_part, *parts):
+    """Compiles a part of a project, and releases the lock on the outputs: commands that the test starts may have to build."""
+    try:
+        return str(compile_part(*parts))
+    finally:
+        lock.release()
+
+
 class Folder(unittest.TestCase):
     """A test with an empty folder."""
 
@@ -92,7 +100,8 @@ class Project(Folder):
 
     def programs_jar(self):
         """Returns the jar of the current programs, which a run has built."""
-        return str(projects.programs_jar(inputs.schema(Path(self.path("project", "light.fbs"))), inputs.programs(Path(self.path("project", "programs")))))
+        project = Path(self.path("project"))
+        return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"))
 
     def change(self, file, old, new) -> None:
         path = self.path("project", file)

@@ -7,11 +7,11 @@ import struct
 
 
 def read(path):
-    """Returns metadata and a list of frames: (time, {id: (x, y, z, first field or None)}, set of links)."""
+    """Returns metadata and a list of frames: (time, {id: (x, y, z, first field or None)}, set of links (from, to))."""
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
-    assert header["version"] == 4
+    assert header["version"] == 5
     assert header["length"] == sum(1 + len(line) for line in lines[1:])
     times, frames = iter(header["times"]), []
     for line in lines[1:]:
@@ -71,9 +71,10 @@ class _Segment:
         pairs, a, b = [], -1, 0
         for _ in range(self.number()):
             step = self.number()
-            b = (b if step == 0 else a + step) + self.number()
+            rest = self.number()
+            b = (b if step == 0 else a + step) + (rest >> 2)
             a += step
-            pairs.append((a, b))
+            pairs += [(a, b)] * (rest & 1) + [(b, a)] * (rest >> 1 & 1)
         return pairs
 
     def signed(self):

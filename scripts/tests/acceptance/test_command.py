@@ -56,7 +56,7 @@ class InvalidDemoOptionsTest(Folder):
         manifest = Path(self.path("out", "manifest.json"))
         manifest.parent.mkdir()
         manifest.write_text("earlier")
-        for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "no room for 20000"), (["--nodes", "many"], "--nodes"),
+        for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "too small for 20000"), (["--nodes", "many"], "--nodes"),
                                 (["--seconds", "-1"], "--seconds"), (["--seed", "1.5"], "--seed")]:
             result = collektive("demo", *arguments, "--out", self.path("out"), "--overwrite")
             self.assertEqual(result.returncode, 1, arguments)

@@ -25,7 +25,7 @@ class WholeRuns(Project):
 
     def run_it(self, *arguments, **environment):
         return subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", *arguments],
-                              capture_output=True, text=True, env={**os.environ, **environment})
+                              capture_output=True, text=True, env={**os.environ, **environment}, cwd=self.folder)
 
     def at_tick_4(self, code):
         self.change("scene/Lamps.cs", "\n        protected override void Build(", self.SCRIPT % code)
@@ -36,6 +36,13 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("without its class archive", result.stdout + result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+
+    def test_an_unknown_program_is_refused_before_anything_is_compiled(self) -> None:
+        self.change("programs/Brightest.kt", "val mine", "val mine = ")
+        result = self.run_it("--set", "program=brigthest")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("unknown program 'brigthest'; '", last_error(result))
+        self.assertIn("contains brightest", last_error(result))
 
     def test_runs_that_cannot_be_are_refused(self) -> None:
         for old, new, words in [
@@ -96,7 +103,7 @@ class WholeRuns(Project):
                 result = self.at_tick_4(code)
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 1)
-                self.assertIn(f"4 of 10 ticks were done: a script {cause}; ", last_error(result))
+                self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
     def test_ticks_may_be_as_long_as_an_hour(self) -> None:
@@ -115,6 +122,13 @@ class WholeRuns(Project):
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
+
+    def test_a_script_that_quits_with_a_code_has_not_ended_with_0(self) -> None:
+        for code, expected in [(3, 3), (256, 1)]:
+            with self.subTest(code):
+                result = self.at_tick_4(f"Application.Quit({code});")
+                self.change("scene/Lamps.cs", self.SCRIPT % f"Application.Quit({code});", "\n        protected override void Build(")
+                self.assertEqual(result.returncode, expected, result.stderr)
 
     def fails_at_tick_4(self, code):
         """Runs a script with this code at tick 4, expects an incomplete run, and returns its messages."""
@@ -182,7 +196,7 @@ class WholeRuns(Project):
                 result = self.run_it()
                 self.change("scene/Lamps.cs", line, "data.Brightness = Brightness;")
                 self.assertEqual(result.returncode, 1, result.stderr)
-                message = "stopped at tick 5: sensors, actuators, rules or scripts took more than 'stepLimitMs', 700 ms"
+                message = "stopped at tick 5: sensors, actuators, rules or scripts exceeded 'stepLimitMs', 700 ms"
                 self.assertIn(message, last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
 
@@ -203,7 +217,7 @@ class WholeRuns(Project):
             result = self.run_it()
             self.change("scene/Lamps.cs", f'{{ "{name}"', '{ "agreeing"')
             self.assertEqual(result.returncode, 1)
-            self.assertIn(f"names the metric '{name}', which is the name of another column of metrics.csv: rename it", last_error(result))
+            self.assertIn(f"has the metric '{name}', but metrics.csv already has a column of that name: rename the metric", last_error(result))
             self.assertFalse(os.path.exists(self.path("out", "metrics.csv")))
 
     def test_fields_are_set_to_whole_values_only(self) -> None:

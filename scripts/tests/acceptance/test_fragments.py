@@ -7,17 +7,11 @@ import unittest
 from pathlib import Path
 
 from blocks import of_kind
-from command import Folder
+from command import Folder, compiled
 
 from build import inputs, projects
 from build.places import ROOT
 
-SCHEMA = """
-include "types.fbs";
-namespace swarm;
-table SensorData { intensity: float; source: bool; position: org.collektive.schema.Vector3; }
-struct ActuatorData { target: org.collektive.schema.Vector3; hops: float; distance: float; leader: int; }
-"""
 USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
 # Code around members and statements.
 CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
@@ -61,6 +55,9 @@ def kotlin(number, place, code):
 
 
 class Fragments(Folder):
+    def test_a_page_has_the_schema_of_the_fragments(self) -> None:
+        self.assertEqual(len(fragments("fbs")), 1)
+
     def written(self, kind, made):
         """A folder with the fragments, one a file."""
         os.makedirs(self.path(kind))
@@ -70,16 +67,16 @@ class Fragments(Folder):
                 with open(self.path(kind, f"Fragment{number}.{'cs' if kind == 'csharp' else 'kt'}"), "w") as file:
                     file.write(made(number, place, code))
         with open(self.path("swarm.fbs"), "w") as file:
-            file.write(SCHEMA)
+            file.write(fragments("fbs")[0][1])
         return self.path(kind)
 
     def test_csharp_compiles(self) -> None:
         folder = Path(self.written("csharp", csharp))
-        projects.scripts_dll(inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
+        compiled(projects.scripts_dll, inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
 
     def test_kotlin_compiles(self) -> None:
         folder = Path(self.written("kotlin", kotlin))
-        projects.programs_jar(inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
+        compiled(projects.programs_jar, inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
 
     def test_json_is_json(self) -> None:
         for place, code in fragments("json"):

@@ -27,8 +27,8 @@ class Messages(Project):
     def test_a_run_without_nodes_is_a_failure(self) -> None:
         result = self.run_it("--set", "lamps=0")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("there was no node in any tick: the scene builder must make GameObjects with the component Node", last_error(result))
-        self.assertEqual(self.manifest(self.path("out"))["outcome"], "there was no node in any tick")
+        self.assertIn("the run had no nodes: create GameObjects with the component Node in the scene builder", last_error(result))
+        self.assertEqual(self.manifest(self.path("out"))["outcome"], "the run had no nodes")
 
     def test_programs_without_a_runtime_mark_are_rejected_with_the_solution(self) -> None:
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
@@ -44,7 +44,7 @@ class Messages(Project):
                         '    check(mine < 0) { "always" }')
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
-        self.assertIn("stopped at tick 1: all its rounds failed; the messages are above (--keep-going goes on)", last_error(result))
+        self.assertIn("stopped at tick 1: all rounds failed; the errors are above. To continue anyway, use --keep-going", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
         # The message about a full heap contains the setting, and errors in inlined code the line of the call.
         told = result.stderr + result.stdout
@@ -66,9 +66,9 @@ class Messages(Project):
     def test_pipes_and_whole_disks_are_refused_at_once(self) -> None:
         os.mkfifo(self.path("pipe"))
         result = subprocess.run([COLLEKTIVE, "run", self.path("pipe")], capture_output=True, text=True, timeout=60)
-        self.assertIn("there is no file", last_error(result))
+        self.assertIn("pipe' is not a file", last_error(result))
         self.change("lamps.json", '"light.fbs"', '"../pipe"')
-        self.assertIn("'schema' names no file", last_error(self.run_it()))
+        self.assertIn("'schema' does not name a file", last_error(self.run_it()))
         self.change("lamps.json", '"../pipe"', '"light.fbs"')
         self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
         self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
@@ -87,7 +87,7 @@ class Messages(Project):
         self.assertEqual(small.returncode, 1)
         self.assertIn("the stack limit is 64 KB, and the tools need 1024 KB: run ulimit -s 8192", small.stderr)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run nowhere.json 2>&-"], capture_output=True, text=True)
-        self.assertIn("there is no file 'nowhere.json'", closed.stdout)
+        self.assertIn("'nowhere.json' is not a file", closed.stdout)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run {self.path('project', 'lamps.json')} --out {self.path('out')} <&- >&- 2>&-"])
         self.assertEqual(closed.returncode, 0)
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "complete")

@@ -35,6 +35,29 @@ class Outputs(Project):
         brightest = {round(value, 3) for *_, value in nodes.values()}
         self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
 
+    def test_capsules_and_directions_of_links_are_in_the_replay(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        self.change("scene/Lamps.cs", "lamp.AddComponent<LampActuator>();", """lamp.AddComponent<LampActuator>();
+                lamp.AddComponent<CapsuleCollider>().height = 3;
+                var reach = lamp.AddComponent<SphereCollider>();
+                reach.isTrigger = true;
+                reach.radius = 9;""")
+        self.change("scene/Lamps.cs", "if (loop)", """var post = new GameObject("Post").AddComponent<CapsuleCollider>();
+            post.transform.position = new Vector3(4, 1, 5);
+            post.direction = 2;
+            post.height = 6;
+            manager.AddLink(nodes[0].Id, nodes[2].Id, true);
+            if (loop)""")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        metadata, frames = replay.read(self.path("out", "replay.html"))
+        self.assertEqual((metadata["nodeRadius"], metadata["nodeHeight"]), (0.5, 3))
+        shape = {"kind": "capsule", "radius": 0.5, "height": 6, "axis": 2, "centre": [4, 1, 5], "rotation": [0, 0, 0, 1]}
+        self.assertEqual(metadata["shapes"], [shape])
+        _, nodes, links = frames[-1]
+        first, second, third = sorted(nodes)[:3]
+        self.assertEqual({link for link in links if first in link}, {(first, second), (second, first), (first, third)})
+
     def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')
         self.assertEqual(self.run_it().returncode, 0)
@@ -71,7 +94,7 @@ class Outputs(Project):
         self.assertNotIn("replay.html", self.contents())
         repeated = collektive("repeat", self.path("out", "manifest.json"), "--out", self.path("again"))
         self.assertEqual(repeated.returncode, 1)
-        self.assertIn("the run did not come to its end", last_error(repeated))
+        self.assertIn("the run was not completed", last_error(repeated))
 
     def test_links_in_the_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
@@ -86,6 +109,29 @@ class Outputs(Project):
         with open(self.path("outside")) as file:
             self.assertEqual(file.read(), "mine")
         self.assertEqual([name for name in os.listdir(self.path("out")) if os.path.islink(self.path("out", name))], ["metrics.csv.part"])
+
+    def test_a_script_that_changes_the_current_folder_changes_nothing_about_the_outputs(self) -> None:
+        os.mkdir(self.path("elsewhere"))
+        self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
+                    f'            System.IO.Directory.SetCurrentDirectory("{self.path("elsewhere")}");')
+        result = collektive("run", "project/lamps.json", "--out", "out", "--recording", "run.jfr", cwd=self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
+        self.assertTrue(os.path.exists(self.path("run.jfr")))
+        self.assertEqual(os.listdir(self.path("elsewhere")), [])
+
+    def test_a_link_to_a_folder_is_one_for_outputs(self) -> None:
+        os.mkdir(self.path("out"))
+        os.symlink("out", self.path("link"))
+        result = self.run_it(out="link")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.outcome(), "complete")
+
+    def test_a_player_that_a_limit_of_the_shell_ends_is_one_sentence(self) -> None:
+        command = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")]
+        result = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 128 + signal.SIGXFSZ)
+        self.assertIn("the player was ended by SIGXFSZ", last_error(result))
 
     def test_a_run_whose_pictures_fail_is_not_complete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"replay": true, "pictures": true')

@@ -140,7 +140,7 @@ class PackageTest(Packaged):
     def test_without_a_jvm_it_says_how_to_get_one(self) -> None:
         result = self.project.play()
         self.assertEqual(result.returncode, 1)
-        self.assertIn("install org.collektive.unity.jvm.linux-x64, set JAVA_HOME, or choose a folder", last_error(result))
+        self.assertIn("install org.collektive.unity.jvm.linux-x64, set JAVA_HOME, or select a folder", last_error(result))
 
     def test_unknown_arguments_are_named(self) -> None:
         result = collektive("package", "--nonesuch")

@@ -112,6 +112,15 @@ class ProjectTest(Project):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")
 
+    def test_paths_that_tools_cannot_read_are_refused(self) -> None:
+        for name, words in [("a\nb", "has a line break or is not UTF-8"), ("\udcff", "is not UTF-8, which the player and the JVM need")]:
+            os.rename(self.path("project"), self.path(name))
+            result = collektive("run", self.path(name, "lamps.json"), "--out", self.path("out"))
+            os.rename(self.path(name), self.path("project"))
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(words, last_error(result))
+            self.assertFalse(os.path.exists(self.path("out")))
+
     def test_csharp_that_does_not_compile_is_shown_with_file_and_line(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness", "data.Lightness")
         self.refused("Lamps.cs(", "Lightness")

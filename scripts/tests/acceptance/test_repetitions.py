@@ -35,7 +35,7 @@ class Repetitions(Project):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, "not as in the run of .*: scripts is ")
         self.assertNotRegex(result.stderr, "not as in the run of .*: (schema|programs) is ")
-        self.assertRegex(last_error(result), "the run differs from that of .*: digest is [0-9a-f]{16}, it was [0-9a-f]{16}")
+        self.assertRegex(last_error(result), "the run differs from the one in .*: digest is [0-9a-f]{16}, previously [0-9a-f]{16}")
 
     def test_a_project_that_was_moved_is_found_with_folder(self) -> None:
         os.rename(self.path("project"), self.path("moved"))

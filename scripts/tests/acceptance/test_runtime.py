@@ -8,7 +8,7 @@ import re
 import zipfile
 from pathlib import Path
 
-from command import Project, collektive
+from command import Project, collektive, compiled
 
 from build import inputs, projects
 from build.places import ROOT
@@ -65,8 +65,8 @@ class Runtimes(Project):
     def collektive_jar(self):
         """The jar that a run on Collektive has made of the programs as they are now."""
         project = Path(self.path("project"))
-        return str(projects.programs_jar(inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"), inputs.jars(project / "collektive"),
-                                         inputs.jar(project / "plugin.jar")))
+        return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"), inputs.jars(project / "collektive"),
+                        inputs.jar(project / "plugin.jar"))
 
     def use_jar(self, jar, change=lambda name, data: data) -> None:
         repack(jar, self.path("project", "programs.jar"), change=change)
@@ -166,7 +166,7 @@ class Runtimes(Project):
         self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')
         self.refused("the key 'runtimeJars' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "collektive", "runtimeJars": "nowhere"')
-        self.refused("'runtimeJars' names no folder: " + self.path("project", "nowhere"))
+        self.refused("'runtimeJars' does not name a folder: " + self.path("project", "nowhere"))
         self.change("lamps.json", "nowhere", "collektive")
         self.refused("the key 'runtimePlugin' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "alchemist"')

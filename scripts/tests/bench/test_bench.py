@@ -3,6 +3,7 @@ import json
 import os
 import subprocess
 import unittest
+from typing import Any
 
 from build.places import ROOT
 
@@ -11,6 +12,10 @@ KEYS = ["name", "variant", "program", "topology", "nodes", "threads", "median_us
 
 
 class BenchTick(unittest.TestCase):
+    result: subprocess.CompletedProcess[str]
+    whole: dict[str, Any]
+    rows: list[dict[str, Any]]
+
     @classmethod
     def setUpClass(cls) -> None:
         command = [os.path.join(ROOT, "collektive"), "bench", "tick", "--quick", "--nodes", "12,500", "--out", OUT]
@@ -47,8 +52,8 @@ class BenchTick(unittest.TestCase):
                 self.assertEqual(row["managed_bytes_per_tick"], 0, row)
 
     def test_the_jvm_allocates_for_rounds_only(self) -> None:
-        def bytes_of(variant):
-            return next(row["jvm_bytes_per_tick"] for row in self.rows if row["variant"] == variant and row["nodes"] == 500)
+        def bytes_of(variant: str) -> float:
+            return next(float(row["jvm_bytes_per_tick"]) for row in self.rows if row["variant"] == variant and row["nodes"] == 500)
         self.assertLess(bytes_of("in-process"), bytes_of("engine-only") * 1.5 + 1000)
 
     def test_the_table_is_printed(self) -> None:
@@ -58,6 +63,8 @@ class BenchTick(unittest.TestCase):
 
 class BenchScene(unittest.TestCase):
     OUT = os.path.join(ROOT, "build/bench/test-scene.json")
+    result: subprocess.CompletedProcess[str]
+    whole: dict[str, Any]
 
     @classmethod
     def setUpClass(cls) -> None:

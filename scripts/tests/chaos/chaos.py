@@ -2,10 +2,11 @@
 """Disturbs runs of a small scenario with signals, full disks, clock changes and little memory. Prints a table of trials and outcomes, then
 "N passed, N failed".
 
-chaos.py KILLS DISKS SIGNALS OTHERS [--seed N] [--results FILE.xml]: the number of trials of each kind. OTHERS are clock and memory trials.
+chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]: the number of trials of each kind. OTHERS are clock and memory trials.
+In each of FAULTS, one system call fails in a run that replaces earlier results.
 
-After each trial, exit code 0 requires all ticks, a manifest with the outcome "complete" requires complete results, no process may be left, and
-earlier results in another folder must be unchanged. At the end, another run must succeed.
+After each trial, exit code 0 requires all ticks, a manifest with the outcome "complete" requires complete results, no process may be left, earlier
+results in another folder must be unchanged, and replaced results must exist until the new run began. At the end, another run must succeed.
 """
 import argparse
 import collections
@@ -22,10 +23,11 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
+from typing import Any
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
-from build.places import COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
+from build.places import BUILD, COLLEKTIVE, ROOT  # noqa: E402  (lies in a folder above)
 from tests import junit  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
@@ -47,12 +49,14 @@ class Outcome:
 class Trial:
     """A disturbed run in a separate folder."""
 
-    def __init__(self, kind: str, number: int, seed: int, reference: dict, took: float) -> None:
-        self.kind, self.reference, self.took = kind, reference, took
+    def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], took: float) -> None:
+        self.kind, self.number, self.count, self.reference, self.took = kind, number, count, reference, took
         self.mark = f"{os.getpid()}-{kind}-{number}"
         self.random = random.Random(f"{seed} {kind} {number}")
         self.folder = tempfile.mkdtemp(prefix="collektive-chaos-")
         self.detail = ""
+        self.is_edited = self.random.random() < 0.2
+        self.problems: list[str] = []
 
     def path(self, *parts: str) -> str:
         return os.path.join(self.folder, *parts)
@@ -61,14 +65,13 @@ class Trial:
         try:
             shutil.copytree(PROJECT, self.path("project"))
             write_scenario(self.path("project", "lamps.json"))
-            if self.random.random() < 0.2:
+            if self.is_edited:
                 # The run begins with compilation, which is also disturbed.
                 with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
                     file.write(f"// {self.mark}\n")
             shutil.copytree(self.reference["folder"], self.path("earlier"))
             code, output, out = getattr(self, self.kind)()
-            problems = self.wait_for_the_last()
-            problems += broken(out, code, self.reference)
+            problems = self.problems + self.wait_for_the_last() + broken(out, code, self.reference)
             if digest_of(self.path("earlier")) != self.reference["files"]:
                 problems.append("earlier results have changed")
             if problems:
@@ -77,12 +80,12 @@ class Trial:
         finally:
             shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start(self, prefix: tuple[str, ...] = (), out: str = "out", **environment: str) -> subprocess.Popen:
-        command = [*prefix, COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path(out)]
+    def start(self, prefix: tuple[str, ...] = (), out: str = "out", words: tuple[str, ...] = (), **environment: str) -> subprocess.Popen[str]:
+        command = [*prefix, str(COLLEKTIVE), "run", self.path("project", "lamps.json"), "--out", self.path(out), *words]
         return subprocess.Popen(command, cwd=self.folder, env={**os.environ, MARK: self.mark, **environment}, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
 
-    def end(self, process: subprocess.Popen) -> tuple[int, str]:
+    def end(self, process: subprocess.Popen[str]) -> tuple[int, str]:
         try:
             output = process.communicate(timeout=LIMIT_S)[0]
         except subprocess.TimeoutExpired:
@@ -152,6 +155,24 @@ class Trial:
         self.detail = f"{kilobytes} KB of address space"
         return (*self.end(self.start(("bash", "-c", f'ulimit -v {kilobytes}; "$@"', "bash"))), self.path("out"))
 
+    def fault(self) -> tuple[int, str, str]:
+        """One write, rename, deletion, sync or start of a process fails in a run that replaces earlier results."""
+        at = self.random.randint(1, 1000) if self.is_edited else 1 + self.number * self.reference["calls"] // self.count
+        self.detail = f"call {at} fails"
+        shutil.copytree(self.reference["folder"], self.path("out"))
+        process = self.start((), "out", ("--overwrite",), **failing(at, self.folder))
+        code, output = self.end(process)
+        if "Traceback" in output:
+            self.problems.append("a traceback")
+        kept = next((folder for folder in (self.path("out"), self.path("out", "earlier.part")) if os.path.exists(os.path.join(folder, "manifest.json"))), None)
+        if kept is None:
+            self.problems.append("the earlier results are lost")
+        elif content(os.path.join(kept, "manifest.json")) == content(os.path.join(self.reference["folder"], "manifest.json")):
+            found = {**digest_of(self.path("out")), **(digest_of(self.path("out", "earlier.part")) if os.path.isdir(self.path("out", "earlier.part")) else {})}
+            if not self.reference["files"].items() <= found.items():
+                self.problems.append("the earlier results are not whole")
+        return code, output, self.path("out")
+
     def wait_for_the_last(self) -> list[str]:
         end = time.monotonic() + GONE_S
         while time.monotonic() < end:
@@ -213,8 +234,8 @@ def content(path: str) -> bytes:
         return file.read()
 
 
-def broken(out: str, code: int, reference: dict) -> list[str]:
-    """Returns the error in the outputs of a run that ended with a code, or an empty text."""
+def broken(out: str, code: int, reference: dict[str, Any]) -> list[str]:
+    """Returns the errors in the outputs of a run that ended with a code."""
     path = os.path.join(out, "manifest.json")
     if not os.path.exists(path):
         return ["exit code 0 without a manifest"] if code == 0 else []
@@ -244,7 +265,7 @@ def ending(code: int) -> str:
     return f"ended by {signal.Signals(code - 128).name}" if 128 < code < 160 else "killed" if code < 0 else "refused or failed"
 
 
-def make_reference(work: str) -> tuple[dict, float]:
+def make_reference(work: str) -> tuple[dict[str, Any], float]:
     """Makes an undisturbed run, and returns it with its duration without compilation."""
     shutil.copytree(PROJECT, os.path.join(work, "project"))
     scenario, out = os.path.join(work, "project", "lamps.json"), os.path.join(work, "out")
@@ -255,8 +276,18 @@ def make_reference(work: str) -> tuple[dict, float]:
         if result.returncode != 0:
             sys.exit(f"collektive: chaos: the undisturbed run failed:\n{result.stderr}")
     took = time.monotonic() - began
+    subprocess.run([COLLEKTIVE, "run", scenario, "--out", out, "--overwrite"], check=True, capture_output=True, env={**os.environ, **failing(0, work)})
+    calls = int.from_bytes(content(os.path.join(work, "calls")), sys.byteorder)
     digest = json.loads(content(os.path.join(out, "manifest.json")))["digest"]
-    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario}, took
+    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario, "calls": calls}, took
+
+
+def failing(at: int, folder: str) -> dict[str, str]:
+    """The environment of a command in which the call with that number fails."""
+    calls = os.path.join(folder, "calls")
+    with open(calls, "wb") as file:
+        file.write(bytes(8))
+    return {"LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_CALLS": calls, "FAILING_AT": str(at), "FAILING_BELOW": f"{folder}:{BUILD}"}
 
 
 def clock_library() -> str:
@@ -270,14 +301,14 @@ def can_mount() -> bool:
 
 def main() -> int:
     parser = argparse.ArgumentParser()
-    for kind in ("kills", "disks", "signals", "others"):
+    for kind in ("kills", "disks", "signals", "others", "faults"):
         parser.add_argument(kind, type=int)
     parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
     parser.add_argument("--results")
     given = parser.parse_args()
     # Background jobs of shells ignore SIGINT, and children inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others}
+    counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others, "fault": given.faults}
     if not can_mount():
         print("disk: skipped, this system lets nobody mount")
         counts["disk"] = 0
@@ -289,7 +320,7 @@ def main() -> int:
         reference, took = make_reference(work)
         print(f"an undisturbed run takes {took:.1f} s; seed {given.seed}\n{'kind':8} {'trials':>6} {'wrong':>6}  ends", flush=True)
         for kind, count in counts.items():
-            trials = [Trial(kind, number, given.seed, reference, took) for number in range(count)]
+            trials = [Trial(kind, number, count, given.seed, reference, took) for number in range(count)]
             outcomes = list(pool.map(Trial.run, trials))
             ends = collections.Counter(outcome.end for outcome in outcomes)
             wrong = [outcome for outcome in outcomes if outcome.problems]

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+from typing import Any
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 from build import managed
@@ -31,7 +32,7 @@ SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
 LIMIT_S = 180
 
 
-def command(places, kind, runtime, jdk, folder):
+def command(places: dict[str, Any], kind: str, runtime: str, jdk: str, folder: str) -> list[str]:
     """Returns the command line of the player, or on CoreCLR of a program that runs the same scene."""
     flag = "-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")
     if runtime == "coreclr":
@@ -44,14 +45,14 @@ def command(places, kind, runtime, jdk, folder):
             places["host"], "--java-home", jdk, "--out", os.path.join(folder, "out"), "--set", "how=" + kind, "--trust-jvm"]
 
 
-def scenario(places, folder, seconds, flag):
+def scenario(places: dict[str, Any], folder: str, seconds: int, flag: str) -> dict[str, Any]:
     return {"version": 1, "scene": "Collektive.Headless.Faults.Ending", "scripts": folder, "schema": places["schema"],
             "programs": places["jar"], "program": "fault", "seconds": seconds, "threads": 2,
             "jvm": {"maximumHeapMb": 128, "collector": "Serial", "flags": [flag]},
             "outputs": {"metrics": True}}
 
 
-def recording_problem(path):
+def recording_problem(path: str) -> str:
     """Returns the error in a flight recording, or an empty text. Unfinished chunks have no length in their header."""
     if not os.path.exists(path):
         return "there is no flight recording"
@@ -68,7 +69,7 @@ def recording_problem(path):
     return "" if data else "the flight recording is empty"
 
 
-def run(places, kind, index):
+def run(places: dict[str, Any], kind: str, index: int) -> str:
     """Returns the error, or an empty text."""
     runtime = places["runtimes"][index % len(places["runtimes"])]
     jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
@@ -79,6 +80,7 @@ def run(places, kind, index):
         watchdog = threading.Timer(LIMIT_S, process.kill)
         watchdog.start()
         text = b""
+        assert process.stdout
         for line in process.stdout:
             text += line
             if kind in SIGNALS and b"ten ticks done" in line:

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+from typing import Any
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(os.path.dirname(HERE)))
@@ -30,20 +31,20 @@ ORDER = ["next tick", "next session", "next start", "restart"]
 class Trial:
     """The files of one fault in a separate folder."""
 
-    def __init__(self, fault, places, runtime, jdk, folder) -> None:
+    def __init__(self, fault: dict[str, Any], places: dict[str, Any], runtime: str, jdk: str, folder: str) -> None:
         self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
 
-    def path(self, *parts):
+    def path(self, *parts: str) -> str:
         return os.path.join(self.folder, *parts)
 
-    def cut(self, source, name):
+    def cut(self, source: str, name: str) -> str:
         with open(source, "rb") as file:
             data = file.read()
         with open(self.path(name), "wb") as file:
             file.write(data[:len(data) // 2])
         return self.path(name)
 
-    def home(self, kind):
+    def home(self, kind: str) -> str:
         """Returns a JVM with one invalid file and links to the other files."""
         if kind == "missing":
             return "/nowhere/jvm"
@@ -74,17 +75,18 @@ class Trial:
                 file.write('JAVA_VERSION="11.0.2"\n')
         return home
 
-    def host(self, kind):
-        return {"missing": lambda: self.path("host.jar"), "cut": lambda: self.cut(self.places["host"], "host.jar"),
-                "incompatible": lambda: self.places["incompatible"]}[kind]()
+    def host(self, kind: str) -> str:
+        if kind == "cut":
+            return self.cut(self.places["host"], "host.jar")
+        return {"missing": self.path("host.jar"), "incompatible": str(self.places["incompatible"])}[kind]
 
-    def jar(self, kind):
+    def jar(self, kind: str) -> str:
         if kind == "missing":
             return self.path("programs.jar")
         if kind == "cut":
             return self.cut(self.places["jar"], "programs.jar")
         if kind == "other-schema":
-            return self.places["incompatible"]
+            return str(self.places["incompatible"])
         with open(self.path("programs.jar"), "wb") as file:
             if kind == "newer":
                 with zipfile.ZipFile(file, "w") as made, zipfile.ZipFile(self.places["jar"]) as real:
@@ -93,7 +95,7 @@ class Trial:
                         made.writestr(name, data[:6] + struct.pack(">H", 99) + data[8:] if name.endswith(".class") else data)
         return self.path("programs.jar")
 
-    def command(self):
+    def command(self) -> list[str]:
         fault = self.fault
         words = [self.runtime, "--debug", self.places["program"], "home=" + self.jdk, "host=" + self.places["host"], "jar=" + self.places["jar"]]
         words += [f"bad-{what}=" + getattr(self, what)(fault[what]) for what in ("home", "host", "jar") if what in fault]
@@ -105,36 +107,36 @@ class Trial:
     def limit_files(self) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
-    def run(self):
+    def run(self) -> tuple[str, str, str]:
         """Returns the failure or an empty text, the line that the user sees, and which parts still work."""
         environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                     preexec_fn=self.limit_files if "file_limit" in self.fault else None, timeout=LIMIT_S)
         except subprocess.TimeoutExpired as expired:
-            return "hangs", "", "", (expired.stdout or b"").decode(errors="replace")
+            return "hangs", "", (expired.stdout or b"").decode(errors="replace")
         text = result.stdout.decode(errors="replace")
         read = next((line for line in text.splitlines() if re.search(self.fault.get("reads", "^$"), line)), "")
         works = re.findall(r"^still works: (.*), JVM (\w+)$", text, re.M)
         if result.returncode != 0 or not works:
-            return f"ends with code {result.returncode}", read, "", text
-        works, state = works[0]
-        best = next((step for step in ORDER if step in works), "restart")
+            return f"ends with code {result.returncode}", read, text
+        last, state = works[0]
+        best = next((step for step in ORDER if step in last), "restart")
         wrong = []
         if best != self.fault["works"]:
-            wrong.append(f"works afterwards: {works}")
+            wrong.append(f"works afterwards: {last}")
         if "reads" in self.fault and not read:
             wrong.append("the user reads nothing of it")
-        if best == "next tick" and "next play" not in works:
+        if best == "next tick" and "next play" not in last:
             wrong.append("no next play")
-        if not works.endswith("C#"):
+        if not last.endswith("C#"):
             wrong.append("C# does not work afterwards")
         if state != ("Lost" if best == "restart" else "Stopped"):
             wrong.append(f"the JVM is {state} at the end")
-        return "; ".join(wrong), read, best, text
+        return "; ".join(wrong), read, text
 
 
-def attempt(places, fault, runtime, jdk):
+def attempt(places: dict[str, Any], fault: dict[str, Any], runtime: str, jdk: str) -> tuple[str, str, str]:
     folder = tempfile.mkdtemp(prefix="collektive-fault-")
     try:
         return Trial(fault, places, runtime, jdk, folder).run()
@@ -142,7 +144,7 @@ def attempt(places, fault, runtime, jdk):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def short(text, width):
+def short(text: str, width: int) -> str:
     return text if len(text) <= width else text[:width - 3] + "..."
 
 
@@ -170,10 +172,10 @@ def main() -> None:
         rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds]) for fault in faults]
         for fault, futures in rows:
             results = [future.result() for future in futures]
-            marks = " ".join(" !" if wrong else "ok" for wrong, _, _, _ in results)
-            read = next((read for _, read, _, _ in results if read), "")
+            marks = " ".join(" !" if wrong else "ok" for wrong, _, _ in results)
+            read = next((read for _, read, _ in results if read), "")
             print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
-            for (wrong, _, _, text), (runtime, jdk) in zip(results, kinds):
+            for (wrong, _, text), (runtime, jdk) in zip(results, kinds):
                 cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}", wrong))
                 if wrong:
                     lines = [short(line, 300) for line in text.splitlines()]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from build import jdk, lock, platforms, processes
+from build import fetch, jdk, lock, platforms, processes
 from build.console import Failure
 from build.places import ROOT
 from tests import junit
@@ -24,7 +24,7 @@ def run(results: Path, names: list[str]) -> int:
     except Failure as failure:
         notes.write_text(f"the emulators cannot be installed: {failure}\n")
     try:
-        platforms.fetch.fetch("zig")
+        fetch.fetch("zig")
     except Failure as failure:
         notes.write_text(f"nothing was built, as zig cannot be fetched: {failure}\n")
         return 0
@@ -46,8 +46,8 @@ def run(results: Path, names: list[str]) -> int:
     lock.release()
     environment = {**platforms.emulator_environment(), "COLLEKTIVE_CROSS": str(platforms.CROSS), "COLLEKTIVE_PLATFORMS": " ".join(names),
                    "COLLEKTIVE_JAVA_COMMANDS": json.dumps(java), "COLLEKTIVE_JDK": str(jdk.find_jdk())}
-    command = [sys.executable, "-I", "-B", "-m", "pytest", "-c", ROOT / "scripts/tests/pytest.ini", "--junitxml", results / "pytest.xml",
-               Path(__file__).parent]
+    command = [sys.executable, "-I", "-B", "-m", "pytest", "-c", str(ROOT / "scripts/tests/pytest.ini"), "--junitxml", str(results / "pytest.xml"),
+               str(Path(__file__).parent)]
     return processes.call(command, env=environment) or code
 
 
@@ -57,8 +57,8 @@ def run_shim(name: str, results: Path) -> int:
     environment = {**platforms.emulator_environment(), "CLK_TEST_JAVA_HOME": str(jre)}
     if name == "win-x64":
         subprocess.run([platforms.wine() or "wine", "wineboot", "-i"], env=environment, check=True)
-    return processes.call(["ctest", "--test-dir", platforms.CROSS / name, "--output-on-failure", "-j", "2", "-LE", LEFT_OUT,
-                           "--output-junit", results / f"{name}.xml"], env=environment)
+    return processes.call(["ctest", "--test-dir", str(platforms.CROSS / name), "--output-on-failure", "-j", "2", "-LE", LEFT_OUT,
+                           "--output-junit", str(results / f"{name}.xml")], env=environment)
 
 
 def describe(name: str, report: Path) -> list[str]:

@@ -3,6 +3,7 @@ import json
 import os
 import subprocess
 import tempfile
+from collections.abc import Iterator
 
 import pytest
 
@@ -15,7 +16,7 @@ JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
 
 
 @pytest.fixture(scope="module")
-def record():
+def record() -> Iterator[str]:
     sample = os.path.join(ROOT, "unity/Samples~/GradientAscent")
     with open(os.path.join(sample, "scenario.json")) as file:
         scenario = json.load(file)
@@ -30,7 +31,7 @@ def record():
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_replayed_there_each_tick_has_the_digest_of_the_record(platform, record) -> None:
+def test_replayed_there_each_tick_has_the_digest_of_the_record(platform: str, record: str) -> None:
     separator = ";" if platform.startswith("win") else ":"
     command = [*JAVA[platform], "-cp", TOOLS + separator + HOST, "org.collektive.tools.record.RecordsKt", "replay", record, "--trust"]
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all"}

@@ -15,49 +15,50 @@ MAC = {"mac-x64": (0x01000007, (10, 13)), "mac-arm64": (0x0100000C, (11, 0))}
 LINUX = {"linux-x64": "X86-64", "linux-arm64": "AArch64"}
 
 
-def library(platform):
+def library(platform: str) -> str:
     name = {"win": "collektive_shim.dll", "mac": "libcollektive_shim.dylib"}.get(platform[:3], "libcollektive_shim.so")
     return os.path.join(CROSS, platform, name)
 
 
-def functions():
+def functions() -> set[str]:
     """Returns the functions of the public header."""
     with open(os.path.join(ROOT, "native-shim/include/collektive_shim.h")) as file:
         return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M))
 
 
-def output(*command):
+def output(*command: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 class MachO:
     """A 64-bit Mach-O file: its processor and load commands."""
 
-    def __init__(self, path) -> None:
+    def __init__(self, path: str) -> None:
         with open(path, "rb") as file:
             self.bytes = file.read()
         magic, self.processor, _, _, count = struct.unpack_from("<5I", self.bytes)
         assert magic == 0xFEEDFACF
-        self.commands, at = [], 32
+        self.commands: list[tuple[int, bytes]] = []
+        at = 32
         for _ in range(count):
             kind, size = struct.unpack_from("<2I", self.bytes, at)
             self.commands.append((kind, self.bytes[at:at + size]))
             at += size
 
-    def command(self, *kinds):
-        """Returns the first load command of these kinds, or None."""
-        return next((body for kind, body in self.commands if kind in kinds), None)
+    def command(self, sought: int) -> bytes:
+        """Returns the first load command of this kind, or nothing."""
+        return next((body for kind, body in self.commands if kind == sought), b"")
 
-    def install_name(self):
+    def install_name(self) -> str:
         body = self.command(0xD)
         return body[struct.unpack_from("<I", body, 8)[0]:].split(b"\0")[0].decode()
 
-    def oldest_system(self):
+    def oldest_system(self) -> tuple[int, int]:
         build, minimum = self.command(0x32), self.command(0x24)
-        version = struct.unpack_from("<I", build, 12)[0] if build else struct.unpack_from("<I", minimum, 8)[0]
+        version: int = struct.unpack_from("<I", build, 12)[0] if build else struct.unpack_from("<I", minimum, 8)[0]
         return version >> 16, version >> 8 & 0xFF
 
-    def exports(self):
+    def exports(self) -> set[str]:
         """Names of its external, defined symbols."""
         symbols, count, strings, _ = struct.unpack_from("<4I", self.command(0x2), 8)
         found = set()
@@ -69,7 +70,7 @@ class MachO:
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform) -> None:
+def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform: str) -> None:
     file = MachO(library(platform))
     processor, system = MAC[platform]
     assert file.processor == processor
@@ -78,16 +79,16 @@ def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform
     # Names with an underscore are the linker's own.
     assert {name for name in file.exports() if not name.startswith("_")} == functions()
     # On Apple silicon, macOS loads only signed code.
-    assert (file.command(0x1D) is not None) == (platform == "mac-arm64")
+    assert bool(file.command(0x1D)) == (platform == "mac-arm64")
 
 
 @pytest.mark.parametrize("platform", [platform for platform in MAC if platform in PLATFORMS])
-def test_the_tests_of_macos_are_compiled(platform) -> None:
+def test_the_tests_of_macos_are_compiled(platform: str) -> None:
     assert MachO(os.path.join(CROSS, platform, "test/shim_test")).processor == MAC[platform][0]
 
 
 @pytest.mark.parametrize("platform", [platform for platform in LINUX if platform in PLATFORMS])
-def test_the_library_of_linux_runs_with_glibc_2_17(platform) -> None:
+def test_the_library_of_linux_runs_with_glibc_2_17(platform: str) -> None:
     assert LINUX[platform] in output("readelf", "-h", library(platform))
     versions = {tuple(map(int, version.split("."))) for version in re.findall(r"GLIBC_([\d.]+)", output("readelf", "-V", library(platform)))}
     assert versions and max(versions) <= (2, 17)

@@ -2,6 +2,7 @@
 import json
 import os
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -16,7 +17,7 @@ HERE = os.environ["COLLEKTIVE_JDK"]
 FOREIGN = "Programmgröße 場"
 
 
-def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
+def start(platform: str, home: str, case: str = "options_that_make_the_jvm_talk", **variables: str) -> tuple[int, str]:
     """Starts a JVM with the platform's native library. Returns the exit code, 0 for success, and the output."""
     program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}
@@ -25,13 +26,13 @@ def start(platform, home, case="options_that_make_the_jvm_talk", **variables):
     return result.returncode, result.stdout.decode(errors="replace")
 
 
-def home_of(platform):
+def home_of(platform: str) -> str:
     """Returns the JRE that the library's own tests use."""
     made = os.path.join(CROSS, "jre-" + platform)
     return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
 
 
-def without_release(home, folder):
+def without_release(home: str, folder: Path) -> str:
     """Copies the JVM without its file release, which names the platform."""
     made = os.path.join(folder, "home")
     os.mkdir(made)
@@ -41,13 +42,13 @@ def without_release(home, folder):
     return made
 
 
-def others(platform):
+def others(platform: str) -> list[str]:
     """JVMs of other platforms that are here."""
     return ([] if platform == "linux-x64" else [HERE]) + [home_of(other) for other in JAVA if other != platform]
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform, tmp_path) -> None:
+def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform: str, tmp_path: Path) -> None:
     for number, home in enumerate(others(platform)):
         folder = tmp_path / str(number)
         folder.mkdir()
@@ -60,7 +61,7 @@ def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(p
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform == "win-x64"])
-def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, tmp_path) -> None:
+def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform: str, tmp_path: Path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     code, text = start(platform, str(home))
@@ -70,7 +71,7 @@ def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform, t
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform != "win-x64"])
-def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform, tmp_path) -> None:
+def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform: str, tmp_path: Path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     assert start(platform, str(home), LC_ALL="C.UTF-8")[0] == 0

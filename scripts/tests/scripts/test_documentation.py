@@ -2,6 +2,7 @@
 import glob
 import os
 import re
+from collections.abc import Iterator
 
 import pytest
 
@@ -14,7 +15,7 @@ NAME = re.compile(r"\b(?:val|var|fun|class|interface|object|typealias)\s+(?:<[^>
 HEADER = "native-shim/include/collektive_shim.h"
 
 
-def undocumented_kotlin(text):
+def undocumented_kotlin(text: str) -> Iterator[str]:
     """Lines of public declarations without KDoc. That of a class may describe properties of its constructor by @property."""
     lines, last = text.splitlines(), ""
     for number, line in enumerate(lines):
@@ -34,7 +35,7 @@ def undocumented_kotlin(text):
             yield f"{number + 1}: {line.strip()}"
 
 
-def undocumented_c(text):
+def undocumented_c(text: str) -> Iterator[str]:
     """Declarations without a comment before them, or behind them on their line. The introduction describes `size`."""
     lines = text.splitlines()
     inside = False
@@ -47,7 +48,7 @@ def undocumented_c(text):
 
 
 @pytest.mark.parametrize("module", MODULES)
-def test_every_public_member_of_a_module_has_kdoc(module) -> None:
+def test_every_public_member_of_a_module_has_kdoc(module: str) -> None:
     found = []
     for path in sorted(glob.glob(os.path.join(ROOT, "jvm-host", module, "src/main/kotlin/**/*.kt"), recursive=True)):
         with open(path) as file:

@@ -1,5 +1,6 @@
 """Tests the metadata of native libraries and JVM packages."""
 import os
+from pathlib import Path
 
 import pytest
 
@@ -14,12 +15,12 @@ EXPECTED = {
 }
 
 
-def importer(platform, name):
+def importer(platform: str, name: str) -> str:
     return metas.meta_of(ROOT, f"unity/Runtime/Plugins/{platform}/{name}")
 
 
 @pytest.mark.parametrize("platform", EXPECTED)
-def test_a_native_library_is_for_its_own_editor_and_player_only(platform) -> None:
+def test_a_native_library_is_for_its_own_editor_and_player_only(platform: str) -> None:
     processor, system, player = EXPECTED[platform]
     text = importer(platform, "libcollektive_shim.x")
     assert "Any: \n    second:\n      enabled: 0" in text
@@ -40,7 +41,7 @@ def test_guids_of_native_libraries_stay_and_differ() -> None:
 
 
 @pytest.mark.parametrize("platform", metas.NATIVE)
-def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform, tmp_path) -> None:
+def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform: str, tmp_path: Path) -> None:
     manifest.write_jvm(ROOT, platform, tmp_path)
     assert sorted(os.listdir(tmp_path)) == ["package.json", "package.json.meta"]
     written = manifest.for_jvm(ROOT, platform)
@@ -54,7 +55,7 @@ def test_metas_and_manifests_name_the_platforms_that_are_built() -> None:
 
 
 @pytest.mark.parametrize("platform", platforms.PLATFORMS)
-def test_java_of_a_platform_is_run_by_its_emulator(platform) -> None:
+def test_java_of_a_platform_is_run_by_its_emulator(platform: str) -> None:
     words = platforms.java_command(platform)
     assert words[:-1] == platforms.emulator(platform)
     assert words[-1].endswith(f"build/jre-{platform}/bin/java" + (".exe" if platform == "win-x64" else ""))

@@ -14,7 +14,7 @@ def test_the_notes_are_the_section_of_the_version() -> None:
 
 
 @pytest.mark.parametrize("version", ["Unreleased", "1.2.0", "1.1"])
-def test_a_version_without_a_section_has_no_notes(version) -> None:
+def test_a_version_without_a_section_has_no_notes(version: str) -> None:
     with pytest.raises(Failure, match="has no section"):
         release.notes(CHANGES, version)
 

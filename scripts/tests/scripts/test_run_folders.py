@@ -6,10 +6,12 @@ import pytest
 from build import outputs
 from build.console import Failure
 
+MANIFEST = '{"outcome": "complete"}'
+
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (tmp_path / "manifest.json").write_text("earlier")
+    (tmp_path / "manifest.json").write_text(MANIFEST)
     (tmp_path / "profile.jfr").write_text("earlier")
     (tmp_path / "notes.txt").write_text("of the user")
     return tmp_path
@@ -47,3 +49,29 @@ def test_after_a_command_that_was_killed_they_come_back_with_the_next_one(folder
     with pytest.raises(Failure, match="has results of a run"), outputs.open_folder(folder, False):
         pass
     assert contents(folder) == before
+
+
+def test_files_that_no_run_has_written_are_kept(folder: Path) -> None:
+    (folder / "manifest.json").write_text('{"name": "a page of the user"}')
+    before = contents(folder)
+    with pytest.raises(Failure, match="but no manifest of a run"), outputs.open_folder(folder, True):
+        pass
+    assert contents(folder) == before
+
+
+def test_a_folder_of_the_user_is_not_emptied(folder: Path) -> None:
+    (folder / outputs.EARLIER).mkdir()
+    thesis = folder / outputs.EARLIER / "thesis.txt"
+    thesis.write_text("all of it")
+    with pytest.raises(Failure, match="cannot write to the output folder"), outputs.open_folder(folder, True):
+        pass
+    assert thesis.read_text() == "all of it"
+
+
+def test_a_link_to_a_folder_of_the_user_is_not_followed(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    (elsewhere / "metrics.csv").write_text("of the user")
+    (folder / outputs.EARLIER).symlink_to(elsewhere)
+    with pytest.raises(Failure, match="cannot write to the output folder"), outputs.open_folder(folder, True):
+        pass
+    assert (elsewhere / "metrics.csv").read_text() == "of the user"

@@ -14,17 +14,17 @@ from build.places import BUILD, ROOT
 POM = "{http://maven.apache.org/POM/4.0.0}"
 
 
-def text(path):
+def text(path: str) -> str:
     with open(os.path.join(ROOT, path)) as file:
         return file.read()
 
 
-def pom(path):
+def pom(path: str) -> ElementTree.Element:
     return ElementTree.fromstring(text(path))
 
 
 @pytest.mark.parametrize("pattern", version.NAMED)
-def test_each_file_that_names_the_products_version_has_it(pattern) -> None:
+def test_each_file_that_names_the_products_version_has_it(pattern: str) -> None:
     files = [path for path, named in version.files() if named == version.NAMED[pattern] and fnmatch.fnmatch(path, pattern)]
     assert files
     for path in files:
@@ -48,17 +48,23 @@ def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with() -> N
         assert f'"flatbuffers", "{json.load(file)["version"]}"' in text("unity/Headless~/Player/Manifest.cs")
 
 
-def third_party(name):
+def found(pattern: str, text: str) -> str:
+    """Returns the first group of a pattern, which must occur."""
+    match = re.search(pattern, text)
+    assert match, pattern
+    return match[1]
+
+
+def third_party(name: str) -> str:
     """The version in the row of THIRD-PARTY.md about a name."""
-    row = re.search(rf"(?m)^\|[^|]*(?<![\w@/-]){re.escape(name)}(?![\w-])[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))
-    return row and row[1]
+    return found(rf"(?m)^\|[^|]*(?<![\w@/-]){re.escape(name)}(?![\w-])[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))
 
 
 def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None:
     with open(os.path.join(BUILD, "flatbuffers/package.json")) as file:
         flatbuffers = json.load(file)["version"]
-    crate = re.search(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))[1]
-    physx = re.search(r'physx-sys = "=([^"]+)"', text("tools/physx/Cargo.toml"))[1]
+    crate = found(r'flatc-fork = "=([^"]+)"', text("tools/flatbuffers/Cargo.toml"))
+    physx = found(r'physx-sys = "=([^"]+)"', text("tools/physx/Cargo.toml"))
     with open(os.path.join(BUILD, "physx/physx/physx/include/foundation/PxPhysicsVersion.h")) as file:
         physx_version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
     assert third_party("PhysX") == f"{physx_version} ({physx})"

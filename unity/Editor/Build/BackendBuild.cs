@@ -2,20 +2,20 @@ using System.IO;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Makes the package anew from a source checkout, for people who work on the package itself.</summary>
+    /// <summary>Builds the package from a source checkout, for developers of the package.</summary>
     internal static class BackendBuild
     {
-        /// <returns>The path of the new tarball; null when it failed, and the console says why.</returns>
-        /// <exception cref="ToolException">There is no source checkout.</exception>
+        /// <returns>The path of the new tarball, or null after a failed build, which is logged.</returns>
+        /// <exception cref="ToolException">The project settings do not name a source checkout.</exception>
         internal static string Make()
         {
             var checkout = ProjectSettings.instance.sourceCheckout;
             if (checkout.Length == 0)
-                throw new ToolException("the backend is built from a source checkout of the package: name its folder in Project Settings > Collektive");
+                throw new ToolException("Rebuild Backend needs a source checkout of the package: set its folder in Project Settings > Collektive");
             var command = Path.Combine(checkout, "collektive");
             if (!File.Exists(command))
                 throw new ToolException(checkout
-                    + " is no source checkout of the package (it has no command collektive): correct it in Project Settings > Collektive");
+                    + " is not a source checkout of the package (the command collektive is missing): correct the folder in Project Settings > Collektive");
             var (code, output) = ToolRun.Try(checkout, command, "package");
             ToolConsole.Show("collektive package", code, output);
             if (code != 0) return null;

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Builds programs whose sources changed when Play is pressed, so that the next Play runs what was edited.</summary>
+    /// <summary>Builds programs with changed sources when Play is pressed.</summary>
     internal static class BuildBeforePlay
     {
         [InitializeOnLoadMethod]
@@ -19,7 +19,7 @@ namespace Collektive.Unity.Editor
             var manager = Object.FindAnyObjectByType<SimulationManager>();
             if (manager == null) return;
             foreach (var jar in ProgramBuild.Refresh(manager.Settings))
-                Debug.LogWarning(jar + " is older than its sources: it could not be built, see above", manager);
+                Debug.LogWarning(jar + " is older than its sources because the build failed: fix the errors above", manager);
         }
     }
 }

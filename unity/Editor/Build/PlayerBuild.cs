@@ -9,7 +9,7 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Takes along into a player what its simulations need and Unity does not know of: the JVM, the host's jars and the jars of programs. They come
+    /// Adds the JVM, the host's jars and the programs' jars to players with simulations. They are copied
     /// below the player's streaming assets, where <see cref="Installation"/> finds them.
     /// </summary>
     internal sealed class PlayerBuild : BuildPlayerProcessor
@@ -25,8 +25,8 @@ namespace Collektive.Unity.Editor
             var platforms = PlatformsOf(options.target);
             if (platforms.Length == 0)
             {
-                Debug.LogWarning("Collektive does not run on " + options.target + ": in this player the simulation of " + simulations[0].Scene
-                    + " and all others stay off");
+                Debug.LogWarning("Collektive does not support " + options.target + ": the simulation of " + simulations[0].Scene
+                    + " and all others are disabled in this player");
                 return;
             }
 
@@ -37,7 +37,7 @@ namespace Collektive.Unity.Editor
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
         }
 
-        /// <summary>The package's names of what a build for this target can run on; none where Collektive does not run.</summary>
+        /// <summary>Returns the names of the platforms that a build for this target runs on, empty for unsupported targets.</summary>
         private static string[] PlatformsOf(BuildTarget target)
         {
             switch (target)
@@ -57,17 +57,18 @@ namespace Collektive.Unity.Editor
             var problem = settings.FindProblem();
             if (problem != null) throw simulation.Failure(problem);
             var failed = ProjectSettings.instance.buildBeforePlay ? ProgramBuild.Refresh(settings) : new List<string>();
-            if (failed.Count > 0) throw simulation.Failure(failed[0] + " is older than its sources and could not be built: the console says why");
+            if (failed.Count > 0) throw simulation.Failure(failed[0] + " is older than its sources because the build failed: fix the errors in the console");
             foreach (var jar in JarsOf(simulation))
             {
                 if (!File.Exists(Installation.PathOf(jar)))
-                    throw simulation.Failure("there is no jar " + jar
-                        + ": make it with Tools > Collektive > Rebuild Programs, or correct the Simulation Manager's jars");
+                    throw simulation.Failure("jar " + jar + " does not exist"
+                        + ": build it with Tools > Collektive > Rebuild Programs, or correct the Simulation Manager's jars");
                 Add(jar, files);
             }
             if (settings.runtime == AggregateRuntime.BuiltIn) return;
             if (!Directory.Exists(Installation.PathOf(settings.runtimeJars)))
-                throw simulation.Failure("there is no folder " + settings.runtimeJars + " of Collektive's jars");
+                throw simulation.Failure("the folder of Collektive's jars, " + settings.runtimeJars
+                    + ", does not exist: correct Runtime Jars in the Simulation Manager's settings");
             Add(settings.runtimeJars, files);
         }
 
@@ -85,14 +86,14 @@ namespace Collektive.Unity.Editor
 
         private static void AddJvms(List<SceneSimulation> simulations, string[] platforms, SortedDictionary<string, string> files)
         {
-            var needy = simulations.Find(simulation => simulation.NeedsJvm);
-            if (needy == null) return;
+            var dependent = simulations.Find(simulation => simulation.NeedsJvm);
+            if (dependent == null) return;
             var missing = Array.FindAll(platforms, platform => !Directory.Exists(Installation.BundledFor(platform)));
             var packages = string.Join(" or ", Array.ConvertAll(missing, platform => "org.collektive.unity.jvm." + platform));
             if (missing.Length == platforms.Length)
-                throw needy.Failure("no JVM is installed that the player could take along: install " + packages
-                    + ", or choose JAVA_HOME or a folder as Location in the JVM settings, and have a JVM there on each machine that runs the player");
-            if (missing.Length > 0) Debug.LogWarning("the player has no JVM for " + string.Join(" and ", missing) + ": to take one along, install " + packages);
+                throw dependent.Failure("no JVM package is installed for the player: install " + packages
+                    + ", or set Location in the JVM settings to JAVA_HOME or a folder, and install a JVM there on each machine that runs the player");
+            if (missing.Length > 0) Debug.LogWarning("the player has no JVM for " + string.Join(" and ", missing) + ": to include one, install " + packages);
             foreach (var platform in platforms)
             {
                 if (Array.IndexOf(missing, platform) < 0) files[Installation.NameInPlayer(Installation.OwnFile(platform))] = Installation.BundledFor(platform);

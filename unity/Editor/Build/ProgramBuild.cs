@@ -4,35 +4,35 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Makes the jar of a schema's Kotlin programs.</summary>
+    /// <summary>Builds the jar of a schema's Kotlin programs.</summary>
     internal static class ProgramBuild
     {
-        /// <summary>The Kotlin compiler's exit code for an exception of its own, or of a plugin.</summary>
-        private const int CompilerBroke = 2;
+        /// <summary>The exit code of the Kotlin compiler after an exception in the compiler or in a plugin.</summary>
+        private const int CompilerCrashed = 2;
 
-        /// <summary>Makes those jars anew that the settings name, the project has the programs of, and are older than these.</summary>
-        /// <returns>The jars for which it did not work; the console says why.</returns>
+        /// <summary>Rebuilds the jars in the settings that are older than their programs in the project.</summary>
+        /// <returns>The jars that could not be built; the errors are logged.</returns>
         internal static List<string> Refresh(SimulationSettings settings)
         {
             var failed = new List<string>();
-            // What is wrong with the schema is told where the simulation starts.
+            // The start of the simulation reports errors of the schema.
             var schema = settings.jars.Count > 0 ? null : Schemas.TryFind(settings.schema);
             var jars = schema != null ? settings.JarsFor(schema) : settings.jars;
             foreach (var project in SchemaProject.FindAll(new ProgramRuntime(settings)))
             {
                 // An imported sample has sources too, but runs from the package's own jar.
                 if (!jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
-                if (!ToolsMenu.Guarded(() => Make(project))) failed.Add(project.Jar);
+                if (!ToolsMenu.TryRun(() => Make(project))) failed.Add(project.Jar);
             }
             return failed;
         }
 
-        /// <returns>Whether it worked; if not, the console says why and the jar is as before.</returns>
+        /// <returns>Whether the jar was built. Otherwise the errors are logged, and the jar is unchanged.</returns>
         internal static bool Make(SchemaProject project)
         {
             var jdk = Toolchain.FindJdk();
             var kotlin = Toolchain.FindKotlin(project.Runtime.Kind);
-            var work = FinishedFile.NameOfPart(Path.GetFullPath(project.Jar));
+            var work = AtomicFile.TemporaryPath(Path.GetFullPath(project.Jar));
             var generated = Path.Combine(work, "generated");
             var classes = Path.Combine(work, "classes");
             Directory.CreateDirectory(classes);
@@ -80,7 +80,7 @@ namespace Collektive.Unity.Editor
             if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
                 { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;
-            FinishedFile.Rename(part, project.Jar);
+            AtomicFile.Rename(part, project.Jar);
             project.NoteMade();
             return true;
         }
@@ -89,8 +89,8 @@ namespace Collektive.Unity.Editor
         {
             var (code, output) = ToolRun.Try(".", program, arguments.ToArray());
             ToolConsole.Show(name, code, output);
-            if (code == CompilerBroke)
-                Debug.LogError(name + " broke off: the compiler plugin may be made for another version of the compiler; use that of the plugin");
+            if (code == CompilerCrashed)
+                Debug.LogError(name + " crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
             return code == 0;
         }
     }

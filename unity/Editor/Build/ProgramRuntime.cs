@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>What programs are compiled for: the built-in runtime, or Collektive with jars and a compiler plugin of the user's.</summary>
+    /// <summary>The runtime that programs are compiled for: the built-in one, or Collektive with the user's jars and compiler plugin.</summary>
     internal sealed class ProgramRuntime
     {
         private const string PluginEntry = "META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar";
@@ -24,7 +24,7 @@ namespace Collektive.Unity.Editor
             plugin = settings.runtimePlugin;
         }
 
-        /// <summary>That of the open scene's manager; the built-in one where there is none.</summary>
+        /// <summary>Returns the runtime of the open scene's manager, or the built-in one without a manager.</summary>
         internal static ProgramRuntime OfScene()
         {
             var manager = Object.FindAnyObjectByType<SimulationManager>();
@@ -33,25 +33,25 @@ namespace Collektive.Unity.Editor
 
         internal AggregateRuntime Kind { get; } = AggregateRuntime.BuiltIn;
 
-        /// <summary>What the host reads of a jar to refuse programs of another runtime.</summary>
-        /// <exception cref="ToolException">There is no folder of jars.</exception>
+        /// <summary>The value in a jar's manifest by which the host refuses programs of another runtime.</summary>
+        /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal string Mark => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
 
         /// <summary>The jars that programs are compiled against, beside the host's.</summary>
-        /// <exception cref="ToolException">There is no folder of jars.</exception>
+        /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal IReadOnlyList<string> Library => Kind == AggregateRuntime.BuiltIn ? new[] { Installation.LibraryJar } : Jars();
 
         /// <summary>Options of the Kotlin compiler, and sources that are compiled with the programs.</summary>
-        /// <exception cref="ToolException">The compiler plugin is none.</exception>
+        /// <exception cref="ToolException">The compiler plugin is missing, or not a compiler plugin.</exception>
         internal string[] Arguments()
         {
             if (Kind == AggregateRuntime.BuiltIn) return new[] { "-Xplugin=" + Toolchain.CompilerPlugin };
             var path = string.IsNullOrWhiteSpace(plugin) ? "" : Installation.PathOf(plugin);
             if (!File.Exists(path))
-                throw new ToolException("programs for Collektive are compiled with its compiler plugin, and there is no jar '" + plugin
-                    + "': name it as Runtime Plugin in the Simulation Manager's settings");
+                throw new ToolException("Collektive's compiler plugin '" + plugin + "' does not exist: select it "
+                    + "as Runtime Plugin in the Simulation Manager's settings");
             if (!IsPlugin(path))
-                throw new ToolException(path + " is no plugin of the Kotlin compiler: name Collektive's compiler-plugin as Runtime Plugin");
+                throw new ToolException(path + " is not a plugin of the Kotlin compiler: select Collektive's compiler-plugin as Runtime Plugin");
             return new[] { "-Xplugin=" + path, "-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", Toolchain.Links };
         }
 
@@ -60,8 +60,8 @@ namespace Collektive.Unity.Editor
             var folder = string.IsNullOrWhiteSpace(jars) ? "" : Installation.PathOf(jars);
             var found = Directory.Exists(folder) ? Directory.GetFiles(folder, "*.jar") : new string[0];
             if (found.Length == 0)
-                throw new ToolException("there are no jars of Collektive in '" + jars
-                    + "': put its dsl and stdlib and all that they need into a folder, and name it as Runtime Jars in the Simulation Manager's settings");
+                throw new ToolException("the folder '" + jars + "' contains no jars of Collektive: put dsl, stdlib and their "
+                    + "dependencies into a folder, and select it as Runtime Jars in the Simulation Manager's settings");
             Array.Sort(found, StringComparer.Ordinal);
             return found;
         }

@@ -6,7 +6,7 @@ namespace Collektive.Unity.Editor
     internal static class SchemaCode
     {
         /// <summary>Makes the C# that sensors and actuators use.</summary>
-        /// <returns>Whether it worked; if not, the console says why.</returns>
+        /// <returns>Whether the code was generated; otherwise the errors are logged.</returns>
         internal static bool MakeCSharp(SchemaProject project) => Make(project, "--csharp", project.Generated);
 
         /// <summary>Makes the Java that programs use.</summary>

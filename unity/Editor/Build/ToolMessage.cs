@@ -5,7 +5,7 @@ using System.Text.RegularExpressions;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>What a tool says about a place in a source file.</summary>
+    /// <summary>A tool's message about a position in a source file.</summary>
     internal readonly struct ToolMessage
     {
         // flatc: "x.fbs:3: 12: error: text", on Windows "x.fbs(3, 12): error: text". Kotlin: "X.kt:3:12: error: text". javac: "X.java:3: error: text".
@@ -13,7 +13,7 @@ namespace Collektive.Unity.Editor
             @"^\s*(?:file://)?(?<file>(?:[A-Za-z]:)?[^:(]+\.(?:fbs|kt|kts|java))"
             + @"(?::(?<line>\d+)(?::\s?(?<column>\d+))?|\((?<line>\d+)(?:,\s*(?<column>\d+))?\)):\s*(?<kind>error|warning):\s*(?<text>.*)$");
 
-        // flatc finds some errors at the end of a file, and adds where they come from.
+        // flatc reports some errors at the end of a file, and appends their origin.
         private static readonly Regex Origin = new Regex(@", originally at: (?<file>(?:[A-Za-z]:)?[^:]+):(?<line>\d+)$");
 
         internal ToolMessage(string file, int line, int column, bool isError, string text)
@@ -30,14 +30,14 @@ namespace Collektive.Unity.Editor
         /// <summary>From 1.</summary>
         internal int Line { get; }
 
-        /// <summary>From 1; 0 when the tool does not say.</summary>
+        /// <summary>From 1; 0 if the tool does not report it.</summary>
         internal int Column { get; }
 
         internal bool IsError { get; }
 
         internal string Text { get; }
 
-        /// <summary>All messages in the output of flatc, the Kotlin compiler or javac.</summary>
+        /// <summary>Returns all messages in the output of flatc, the Kotlin compiler or javac.</summary>
         internal static List<ToolMessage> Parse(string output)
         {
             var messages = new List<ToolMessage>();

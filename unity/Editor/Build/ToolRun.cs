@@ -31,7 +31,7 @@ namespace Collektive.Unity.Editor
                 }
                 catch (System.ComponentModel.Win32Exception error)
                 {
-                    throw new ToolException(program + " cannot be run: " + error.Message);
+                    throw new ToolException(program + " cannot be started: " + error.Message);
                 }
                 process.BeginOutputReadLine();
                 process.BeginErrorReadLine();
@@ -45,7 +45,7 @@ namespace Collektive.Unity.Editor
         internal static void Do(string program, params string[] arguments)
         {
             var (code, output) = Try(".", program, arguments);
-            if (code != 0) throw new ToolException(program + " ended with code " + code + ":\n" + output);
+            if (code != 0) throw new ToolException(program + " exited with code " + code + ":\n" + output);
         }
 
         private static void Append(StringBuilder output, string line)

@@ -24,63 +24,64 @@ namespace Collektive.Unity.Editor
 
         internal static string CompilerPlugin => Shipped("collektive-compiler-plugin.jar");
 
-        /// <summary>Source of what programs know of their links: part of the built-in library, compiled with the programs for another one.</summary>
+        /// <summary>Source of the functions on links: part of the built-in library, and compiled with programs for other runtimes.</summary>
         internal static string Links => Shipped("Links.kt");
 
         /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
         internal static string SchemaFolder => Path.GetDirectoryName(Shipped("types.fbs"));
 
-        /// <summary>flatc, where it may be executed: package managers drop the permission, and the package's folder is not to be written to.</summary>
+        /// <summary>Returns an executable copy of flatc: package managers drop the permission, and the package's folder is read-only.</summary>
         internal static string Flatc()
         {
             if (Installation.Platform == "mac-x64" || Installation.Platform == "linux-arm64")
-                throw new ToolException("there is no flatc for " + Installation.Platform + ": generate the code on another machine and commit it");
+                throw new ToolException("flatc is not available for " + Installation.Platform + ": generate the code on another machine and commit it");
             var shipped = Shipped(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
             // By content: package managers set arbitrary file times.
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped) + (Windows ? ".exe" : ""));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
-            var part = FinishedFile.NameOfPart(copy);
+            var part = AtomicFile.TemporaryPath(copy);
             File.Copy(shipped, part, true);
             if (!Windows) ToolRun.Do("/bin/chmod", "755", part);
-            FinishedFile.Rename(part, copy);
+            AtomicFile.Rename(part, copy);
             return copy;
         }
 
         /// <summary>
-        /// The command java of version 17 or newer, for what needs no compiler: the package's own, else that of the JDK in the settings, of
-        /// <c>JAVA_HOME</c>, or of the usual folders.
+        /// Returns the command java of version 17 or newer, for steps without a compiler: from the JVM package, the JDK in the settings,
+        /// <c>JAVA_HOME</c>, or the usual folders.
         /// </summary>
-        /// <exception cref="ToolException">There is none.</exception>
+        /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJava()
         {
             var candidates = new List<string> { Installation.Bundled, ProjectSettings.instance.jdk };
             AddInstalled(candidates);
             var found = candidates.Find(home => IsJre(home) && Version(home) >= 17);
             return found != null ? Command(found, "java") : throw new ToolException(
-                "no Java 17 or newer was found: install a JVM package of ours, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, else "
-                + "adoptium.net), and set JAVA_HOME or name its folder in Project Settings > Collektive");
+                "no Java 17 or newer was found: install a JVM package of Collektive, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, otherwise "
+                + "adoptium.net), and set JAVA_HOME or its folder in Project Settings > Collektive");
         }
 
-        /// <summary>Root of the JDK: what the settings name, else <c>JAVA_HOME</c>, else the newest of the usual folders.</summary>
-        /// <exception cref="ToolException">There is none.</exception>
+        /// <summary>Returns the root of the JDK: from the settings, <c>JAVA_HOME</c>, or the newest of the usual folders.</summary>
+        /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJdk()
         {
             var named = ProjectSettings.instance.jdk;
             if (named.Length > 0)
                 return IsJdk(named) ? named
-                    : throw new ToolException("the JDK of the project settings, " + named + ", has no bin/javac: correct it in Project Settings > Collektive");
+                    : throw new ToolException("the JDK in the project settings, " + named
+                        + ", has no bin/javac: correct its folder in Project Settings > Collektive");
             var candidates = new List<string>();
             AddInstalled(candidates);
             var found = candidates.Find(home => IsJdk(home) && Version(home) >= 17);
             return found ?? throw new ToolException(
-                "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, else adoptium.net) "
-                + "and name its folder in Project Settings > Collektive, or set JAVA_HOME");
+                "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, otherwise adoptium.net) "
+                + "and set its folder in Project Settings > Collektive, or JAVA_HOME");
         }
 
-        /// <summary>Root of the Kotlin compiler: what the settings name, else <c>KOTLIN_HOME</c>, else the one on <c>PATH</c>.</summary>
-        /// <param name="runtime">Collektive's plugin works with a version that is not known here.</param>
-        /// <exception cref="ToolException">There is none, or it is of another version.</exception>
+        /// <summary>Returns the root of the Kotlin compiler: from the settings, <c>KOTLIN_HOME</c> or <c>PATH</c>.</summary>
+        /// <param name="runtime">With Collektive, any version is accepted, because its plugin determines it.</param>
+        /// <exception cref="ToolException">Not found, or of another version.</exception>
         internal static string FindKotlin(AggregateRuntime runtime)
         {
             var candidates = new List<string> { ProjectSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
@@ -92,12 +93,12 @@ namespace Collektive.Unity.Editor
                     candidates.Add(parent);
             }
             var home = candidates.Find(candidate => candidate.Length > 0);
-            var wanted = "get kotlin-compiler-" + KotlinVersion
-                + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and name its folder kotlinc in Project Settings > Collektive";
+            var wanted = "download kotlin-compiler-" + KotlinVersion
+                + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and set its folder kotlinc in Project Settings > Collektive";
             if (home == null) throw new ToolException("no Kotlin compiler was found: " + wanted);
             var version = Path.Combine(home, "build.txt");
             if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version))
-                throw new ToolException(home + " is no Kotlin compiler (it has no lib and build.txt): " + wanted);
+                throw new ToolException(home + " is not a Kotlin compiler (lib or build.txt is missing): " + wanted);
             var text = File.ReadAllText(version).Trim();
             if (runtime == AggregateRuntime.BuiltIn && !text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal))
                 throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
@@ -113,7 +114,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>That of <c>JAVA_HOME</c>, then those of the usual folders, the newest first.</summary>
+        /// <summary>Adds the JVM of <c>JAVA_HOME</c>, then those of the usual folders, the newest first.</summary>
         private static void AddInstalled(List<string> candidates)
         {
             candidates.Add(Environment.GetEnvironmentVariable("JAVA_HOME") ?? "");
@@ -128,7 +129,7 @@ namespace Collektive.Unity.Editor
             candidates.AddRange(installed);
         }
 
-        /// <summary>Where installers put JDKs, one a folder.</summary>
+        /// <summary>Returns the folders in which installers create JDKs.</summary>
         private static string[] UsualFolders()
         {
             if (RuntimeInformation.IsOSPlatform(OSPlatform.OSX)) return new[] { "/Library/Java/JavaVirtualMachines" };
@@ -137,7 +138,7 @@ namespace Collektive.Unity.Editor
             return new[] { programs + "/Eclipse Adoptium", programs + "/Java", programs + "/Microsoft", programs + "/Zulu" };
         }
 
-        /// <summary>Path of a command of a JVM.</summary>
+        /// <summary>Returns the path of a command of a JVM.</summary>
         internal static string Command(string home, string name) =>
             Path.Combine(home, "bin/" + name + (Windows ? ".exe" : ""));
 
@@ -145,7 +146,7 @@ namespace Collektive.Unity.Editor
 
         private static bool IsJdk(string home) => IsJre(home) && File.Exists(Command(home, "javac"));
 
-        /// <summary>The major version of a JDK; 0 when it does not say.</summary>
+        /// <summary>Returns the major version of a JDK, or 0 if it is unknown.</summary>
         private static int Version(string home)
         {
             var release = Path.Combine(home, "release");

@@ -4,7 +4,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>What the diagnostics window shows of one manager, from its attaching on.</summary>
+    /// <summary>Collects the data of the diagnostics window for one manager.</summary>
     internal sealed class Diagnostics : IDisposable
     {
         internal const int LogLines = 500;

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The inspector of JVM settings: each with its unit, what is in effect in the JVM that runs, and what is wrong with it.</summary>
+    /// <summary>The inspector of JVM settings. Shows the unit, the value in effect and the error of each.</summary>
     [CustomEditor(typeof(JvmSettingsAsset))]
     internal sealed class JvmSettingsEditor : UnityEditor.Editor
     {
@@ -16,7 +16,7 @@ namespace Collektive.Unity.Editor
         public override void OnInspectorGUI()
         {
             var settings = ((JvmSettingsAsset)target).settings;
-            Look(settings);
+            Check(settings);
             serializedObject.Update();
             if (report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
             var fields = serializedObject.FindProperty("settings");
@@ -38,8 +38,8 @@ namespace Collektive.Unity.Editor
             if (problem.Length > 0) EditorGUILayout.HelpBox(problem, MessageType.Error);
         }
 
-        /// <summary>Checks the settings anew when they, or the JVM's state, changed: it takes a moment.</summary>
-        private void Look(JvmSettings settings)
+        /// <summary>Checks the settings again if they or the JVM's state changed.</summary>
+        private void Check(JvmSettings settings)
         {
             var now = Jvm.State + TextOf(settings);
             if (now == reported) return;

@@ -12,7 +12,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Root of a Kotlin compiler (the folder kotlinc); empty to look for one.</summary>
         public string kotlin = "";
 
-        /// <summary>Root of a source checkout of the package; empty when there is none.</summary>
+        /// <summary>Root of a source checkout of the package; empty for most projects.</summary>
         public string sourceCheckout = "";
 
         /// <summary>Whether programs whose sources changed are built when Play is pressed.</summary>

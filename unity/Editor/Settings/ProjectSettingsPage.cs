@@ -21,22 +21,22 @@ namespace Collektive.Unity.Editor
         {
             var settings = ProjectSettings.instance;
             EditorGUI.BeginChangeCheck();
-            settings.jdk = EditorGUILayout.TextField(new GUIContent("JDK", "Root folder of a JDK 17 or newer. Empty: JAVA_HOME, else the newest one found."),
+            settings.jdk = EditorGUILayout.TextField(new GUIContent("JDK", "Root folder of a JDK 17 or newer. Empty: JAVA_HOME, or the newest installed JDK."),
                 settings.jdk);
             Show(Toolchain.FindJdk);
             settings.kotlin = EditorGUILayout.TextField(new GUIContent("Kotlin compiler",
-                "The folder kotlinc of a Kotlin compiler. Empty: KOTLIN_HOME, else the one on PATH."), settings.kotlin);
+                "Folder kotlinc of a Kotlin compiler. Empty: KOTLIN_HOME, or the compiler on PATH."), settings.kotlin);
             Show(() => Toolchain.FindKotlin(AggregateRuntime.BuiltIn));
             settings.buildBeforePlay = EditorGUILayout.Toggle(
-                new GUIContent("Build before Play", "Programs whose Kotlin or schema changed are built when Play is pressed."), settings.buildBeforePlay);
+                new GUIContent("Build before Play", "Build programs with changed Kotlin or schema when Play is pressed."), settings.buildBeforePlay);
             settings.sourceCheckout = EditorGUILayout.TextField(
                 new GUIContent("Source checkout",
-                    "Root folder of the package's own repository, for Tools > Collektive > Rebuild Backend. Most projects have none."),
+                    "Root folder of a clone of the package's repository, for Tools > Collektive > Rebuild Backend. Most projects leave it empty."),
                     settings.sourceCheckout);
             if (EditorGUI.EndChangeCheck()) settings.Store();
         }
 
-        /// <summary>What was found, or why not.</summary>
+        /// <summary>Shows the found tool, or the error.</summary>
         private static void Show(System.Func<string> find)
         {
             try

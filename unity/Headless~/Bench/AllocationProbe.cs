@@ -31,7 +31,7 @@ namespace Collektive.Headless.Bench
                 if (at >= 0) return long.Parse(line.Substring(at + Mark.Length), CultureInfo.InvariantCulture);
                 Console.Error.WriteLine(line);
             }
-            throw new BenchException("the JVM does not say how much it has allocated");
+            throw new BenchException("the JVM does not report its allocations");
         }
 
         public void Dispose() => session.Dispose();

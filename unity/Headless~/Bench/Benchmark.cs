@@ -35,7 +35,7 @@ namespace Collektive.Headless.Bench
                 Measure(0, () => new List<Variant> { new InProcess(settings, probe, "crossing", "in-process", 0, 1) });
                 foreach (var nodes in new[] { 500, 10000 })
                     if (Array.IndexOf(settings.Nodes, nodes) >= 0) Measure(nodes, () => new List<Variant> { new Spawn(settings, probe, nodes, Threads) });
-                if (!settings.Quick) rows.Add(new Soak(settings, probe, Say).Run());
+                if (!settings.Quick) rows.Add(new Soak(settings, probe, Log).Run());
             }
             Write();
             Table.Print(rows, Console.Out);
@@ -73,12 +73,12 @@ namespace Collektive.Headless.Bench
                 var times = new double[WarmUp(0)];
                 foreach (var variant in variants)
                 {
-                    Say(variant.Row.Name + ", " + variant.Row.Variant + ", " + nodes + " nodes: warming up");
+                    Log(variant.Row.Name + ", " + variant.Row.Variant + ", " + nodes + " nodes: warming up");
                     variant.Run(variant.IsPaced ? 20 : Math.Min(times.Length, WarmUp(Weight(variant))), times);
                 }
                 for (var batch = 0; batch < Batches; batch++)
                 {
-                    Say(nodes + " nodes: batch " + (batch + 1) + " of " + Batches);
+                    Log(nodes + " nodes: batch " + (batch + 1) + " of " + Batches);
                     foreach (var variant in variants) MeasureBatch(variant, times);
                 }
             }
@@ -134,6 +134,6 @@ namespace Collektive.Headless.Bench
             return match.Success ? match.Groups[1].Value : "unknown processor";
         }
 
-        private void Say(string text) => Console.Error.WriteLine("[" + (int)clock.Elapsed.TotalSeconds + " s] " + text);
+        private void Log(string text) => Console.Error.WriteLine("[" + (int)clock.Elapsed.TotalSeconds + " s] " + text);
     }
 }

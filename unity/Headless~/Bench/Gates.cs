@@ -4,7 +4,7 @@ using System.IO;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>The speed that is promised for a machine of two cores that does nothing else, and what was measured.</summary>
+    /// <summary>The required speed on an idle machine with two cores, and the measured one.</summary>
     internal static class Gates
     {
         internal static void Print(List<Row> rows, TextWriter output)

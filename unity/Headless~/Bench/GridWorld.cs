@@ -68,7 +68,7 @@ namespace Collektive.Headless.Bench
             request.AddDue(node);
         }
 
-        /// <summary>Reads all answers; their sum, so that nothing is optimised away.</summary>
+        /// <summary>Reads all answers and returns their sum, which prevents dead-code elimination.</summary>
         internal static float Act(StepAnswer answer)
         {
             var actuators = (ActuatorBuffer<ActuatorData>)answer.Actuators;

@@ -69,7 +69,7 @@ namespace Collektive.Headless.Bench
             for (var done = 0; done < length;)
             {
                 var sent = (int)send(descriptor, bytes + done, (IntPtr)(length - done), 0);
-                if (sent <= 0) throw new BenchException("the second process does not listen any more");
+                if (sent <= 0) throw new BenchException("the second process no longer listens");
                 done += sent;
             }
             var have = 0;
@@ -135,7 +135,7 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>What the second process can be asked for; the numbers are those of <c>Server.kt</c>.</summary>
+    /// <summary>Requests to the second process, with the numbers of <c>Server.kt</c>.</summary>
     internal enum PeerRequest
     {
         Open = 1,

@@ -22,7 +22,7 @@ namespace Collektive.Headless.Faults
                 case "unknown-node": SendUnknownNode(manager); break;
                 case "other-options": StartOtherwise(); break;
                 case "record-nowhere": JvmRecording.Start("/proc/nowhere/record.jfr"); break;
-                default: throw new ArgumentException("there is no act '" + act + "'");
+                default: throw new ArgumentException("unknown act '" + act + "'");
             }
         }
 

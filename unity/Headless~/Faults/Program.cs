@@ -6,16 +6,16 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Faults
 {
     /// <summary>
-    /// One fault in a process of its own: plays a scene, has the fault happen in its fourth tick or at its start, and tells what still
+    /// Tests one fault in its own process: plays a scene, causes the fault in the fourth tick or at the start, and prints what still
     /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, limit (of a tick, in milliseconds), fault (of
     /// the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0. With act=exit it ends in the way that
-    /// how says.
+    /// <c>how</c> selects.
     /// </summary>
     internal static class Program
     {
         private const int StopLimitMs = 4000;
 
-        private static readonly List<string> said = new List<string>();
+        private static readonly List<string> results = new List<string>();
         private static int limitMs;
 
         private static int Main(string[] arguments)
@@ -50,9 +50,9 @@ namespace Collektive.Headless.Faults
         {
             var works = act == "domains" ? Domains.Play() : Play(faulty, fault, act);
             // A running JVM keeps its options.
-            if (!works) works = Jvm.State == JvmState.Running ? Said("next session", Play(faulty.With(good), "none", "none"))
-                : Said("next start", Play(good, "none", "none"));
-            else works = Said("next tick", true) && Said("next play", Play(faulty, "none", "none"));
+            if (!works) works = Jvm.State == JvmState.Running ? Report("next session", Play(faulty.With(good), "none", "none"))
+                : Report("next start", Play(good, "none", "none"));
+            else works = Report("next tick", true) && Report("next play", Play(faulty, "none", "none"));
             var csharp = Acts.CSharpWorks();
             try
             {
@@ -63,13 +63,13 @@ namespace Collektive.Headless.Faults
                 Console.WriteLine("stop: " + error.Message);
             }
             for (var log = new HostLog(); log.TryRead(out _, out var line);) Console.WriteLine(line);
-            said.Add(csharp ? "C#" : "C# does not");
-            return string.Join(", ", said);
+            results.Add(csharp ? "C#" : "C# does not");
+            return string.Join(", ", results);
         }
 
-        private static bool Said(string what, bool works)
+        private static bool Report(string what, bool works)
         {
-            if (works) said.Add(what);
+            if (works) results.Add(what);
             return works;
         }
 

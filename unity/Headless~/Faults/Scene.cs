@@ -5,7 +5,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Faults
 {
-    /// <summary>Two nodes that count their rounds; the second one does what the fault says.</summary>
+    /// <summary>Two nodes that count their rounds; the second one causes the fault.</summary>
     internal sealed class Scene
     {
         private readonly SimulationManager manager;

@@ -4,11 +4,11 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>Shades for a scene that has none of its own: its nodes' answers.</summary>
+    /// <summary>Shades of the nodes' answers, for scenes without shades.</summary>
     internal static class AnswerShades
     {
         /// <summary>Each costs time and room in every frame.</summary>
-        private const int Most = 8;
+        private const int MaxShades = 8;
 
         /// <summary>A shade for each number, truth value and enum of the answers; the first eight.</summary>
         internal static List<NodeShade> Of(SimulationManager manager)
@@ -16,7 +16,7 @@ namespace Collektive.Headless
             var shades = new List<NodeShade>();
             foreach (var field in AnswerField.Of(manager))
             {
-                if (shades.Count == Most) break;
+                if (shades.Count == MaxShades) break;
                 if (Converter(field.Type) is Func<object, double> convert) shades.Add(Shade(field, convert));
             }
             return shades;
@@ -26,8 +26,8 @@ namespace Collektive.Headless
         {
             var name = char.ToLowerInvariant(field.Name[0]) + field.Name.Substring(1);
             var shade = new NodeShade(name, node => node.Answer is object answer ? convert(field.Read(answer)) : double.NaN);
-            if (field.Type == typeof(bool)) (shade.IsCategory, shade.Words) = (true, new[] { "false", "true" });
-            else if (field.Type.IsEnum) (shade.IsCategory, shade.Words) = (true, Enum.GetNames(field.Type));
+            if (field.Type == typeof(bool)) (shade.IsCategory, shade.Categories) = (true, new[] { "false", "true" });
+            else if (field.Type.IsEnum) (shade.IsCategory, shade.Categories) = (true, Enum.GetNames(field.Type));
             return shade;
         }
 

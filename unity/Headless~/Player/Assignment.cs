@@ -48,7 +48,7 @@ namespace Collektive.Headless
             {
                 if (part[path[i]] == null) part.Add(path[i], new JObject());
                 part = part[path[i]] as JObject
-                    ?? throw new ScenarioException("'" + Key + "' cannot be set: '" + string.Join(".", path.Take(i + 1)) + "' is no object");
+                    ?? throw new ScenarioException("'" + Key + "' cannot be set: '" + string.Join(".", path.Take(i + 1)) + "' is not an object");
             }
             part[path[path.Length - 1]] = value;
         }

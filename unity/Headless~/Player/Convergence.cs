@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Says which metrics have converged: a metric has once its value stayed in a band for so many simulated seconds. Its time of convergence is the
+    /// Determines which metrics have converged: those whose value stayed in a band for a number of simulated seconds. Its time of convergence is the
     /// beginning of that stay. Values between two rows of the metrics do not count.
     /// </summary>
     internal sealed class Convergence
@@ -45,7 +45,7 @@ namespace Collektive.Headless
                 criterion.Index = new List<string>(names).IndexOf(criterion.Metric);
                 if (criterion.Index >= 0) continue;
                 throw new ScenarioException(
-                    "'converged." + criterion.Metric + "': the scene has no metric of that name; it has: " + string.Join(", ", names));
+                    "'converged." + criterion.Metric + "': unknown metric; the scene's metrics are: " + string.Join(", ", names));
             }
         }
 

@@ -18,13 +18,14 @@ namespace Collektive.Headless
             manifest = file.Root;
             File = file.Required<string>(manifest, "file");
             Folder = file.Required<string>(manifest, "folder");
-            if (manifest["ticks"] == null) throw new ScenarioException(path + ": the run did not come to its end: there is nothing to compare with");
+            if (manifest["ticks"] == null) throw new ScenarioException(path
+                + ": the run was not completed and has no results to compare with: choose the manifest of a complete run");
             Ticks = file.Required<int>(manifest, "ticks");
             file.Required<string>(manifest, "digest");
             file.Required<JObject>(manifest, "end");
             file.Required<JObject>(manifest, "inputs");
             file.Required<JObject>(manifest, "versions");
-            if (Ticks < 1) throw new ScenarioException(path + ": the run did no tick: there is nothing to repeat");
+            if (Ticks < 1) throw new ScenarioException(path + ": the run has no ticks to repeat: choose the manifest of a complete run");
         }
 
         /// <summary>Name of its scenario file.</summary>
@@ -42,19 +43,20 @@ namespace Collektive.Headless
             var differences = new List<string>();
             foreach (var key in new[] { "ticks", "digest", "end" })
             {
-                if (!JToken.DeepEquals(manifest[key], now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", it was " + Text(manifest[key]));
+                if (!JToken.DeepEquals(manifest[key], now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously "
+                    + Text(manifest[key]));
             }
             if (differences.Count == 0)
             {
-                Console.WriteLine("repeated: " + Ticks + " ticks, digest " + Text(manifest["digest"]) + " and all metrics at the end are those of " + path);
+                Console.WriteLine("repeated: " + Ticks + " ticks, digest " + Text(manifest["digest"]) + " and the final metrics are equal to those in " + path);
                 return true;
             }
-            Console.Error.WriteLine("collektive: the run differs from that of " + path + ": " + string.Join("; ", differences));
+            Console.Error.WriteLine("collektive: the run differs from the one in " + path + ": " + string.Join("; ", differences));
             return false;
         }
 
         /// <summary>Prints a line for each of the "inputs" or "versions" that has changed since.</summary>
-        internal void TellDifferences(Manifest now, string key)
+        internal void PrintDifferences(Manifest now, string key)
         {
             foreach (var property in ((JObject)now.Root[key]).Properties())
             {

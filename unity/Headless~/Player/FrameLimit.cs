@@ -36,7 +36,7 @@ namespace Collektive.Headless
         internal bool IsExceeded { get; private set; }
 
         internal string Message =>
-            "stopped at tick " + tick + ": sensors, actuators, rules or scripts took more than 'stepLimitMs', " + manager.Settings.stepLimitMs + " ms";
+            "stopped at tick " + tick + ": sensors, actuators, rules or scripts exceeded 'stepLimitMs', " + manager.Settings.stepLimitMs + " ms";
 
         internal void Begin(int nextTick)
         {

@@ -36,7 +36,7 @@ namespace Collektive.Headless
                 var isFirst = number == 0;
                 number = (int)signal.Signum;
                 if (isPlaying && isFirst) continue;
-                Console.Error.WriteLine("collektive: interrupted " + (isPlaying ? "twice: the outputs are not complete" : "before the first tick"));
+                Console.Error.WriteLine("collektive: interrupted " + (isPlaying ? "twice: the outputs are incomplete" : "before the first tick"));
                 Syscall._exit(ExitCode);
             }
         }

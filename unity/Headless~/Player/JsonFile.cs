@@ -33,14 +33,14 @@ namespace Collektive.Headless
 
         internal static JsonFile Read(string path)
         {
-            if (!RegularFile.Exists(path)) throw new ScenarioException("there is no file '" + path + "': give the path of a scenario file (JSON)");
-            if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too long for a scenario or a manifest: over 64 MB");
+            if (!RegularFile.Exists(path)) throw new ScenarioException("'" + path + "' is not a file: give the path of a scenario file (JSON)");
+            if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too large for a scenario or a manifest (over 64 MB)");
             var text = File.ReadAllText(path);
             try
             {
                 RefuseDuplicates(path, text);
                 var root = Parse(text, LineInfoHandling.Load) as JObject;
-                if (root == null) throw new ScenarioException(path + ": the file must hold one JSON object");
+                if (root == null) throw new ScenarioException(path + ": the file must contain one JSON object");
                 return new JsonFile(path, root);
             }
             catch (JsonReaderException error)
@@ -59,7 +59,7 @@ namespace Collektive.Headless
                 if (!match.Groups["number"].Success) continue;
                 var before = text.Substring(0, match.Index);
                 var line = before.Length - before.Replace("\n", "").Length + 1;
-                throw new JsonReaderException("'" + match.Value + "' is not a number of JSON", "", line, match.Index - before.LastIndexOf('\n'), null);
+                throw new JsonReaderException("'" + match.Value + "' is not a JSON number", "", line, match.Index - before.LastIndexOf('\n'), null);
             }
             var reader = Reader(text);
             var value = JToken.ReadFrom(reader, new JsonLoadSettings { LineInfoHandling = lines });
@@ -79,13 +79,13 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>An object in a part of the file, with no other keys than those known; an empty one where there is none.</summary>
+        /// <summary>An object in a part of the file, with known keys only; empty if missing.</summary>
         internal JObject Part(JObject whole, string place, string key, IEnumerable<string> known)
         {
             var token = whole[key];
             if (token == null) return new JObject();
             if (!(token is JObject part))
-                throw Error(token, NotOfType(token, place + key, typeof(JObject)) + "; known in it: " + string.Join(", ", known));
+                throw Error(token, NotOfType(token, place + key, typeof(JObject)) + "; its keys are: " + string.Join(", ", known));
             RefuseUnknown(part, place + key + ".", known);
             return part;
         }
@@ -210,7 +210,7 @@ namespace Collektive.Headless
                 else if (reader.TokenType == JsonToken.EndObject) keys.Pop();
                 else if (reader.TokenType == JsonToken.PropertyName && !keys.Peek().Add((string)reader.Value))
                 {
-                    throw new ScenarioException(path + ":" + reader.LineNumber + ": the key '" + reader.Value + "' is given twice");
+                    throw new ScenarioException(path + ":" + reader.LineNumber + ": the key '" + reader.Value + "' occurs twice");
                 }
             }
         }

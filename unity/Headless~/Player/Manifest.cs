@@ -18,7 +18,7 @@ namespace Collektive.Headless
         /// <summary><see cref="Outcome"/> of a run that did all its ticks, or that a script ended in order.</summary>
         internal const string Complete = "complete";
 
-        /// <summary><see cref="Outcome"/> of a run that lacks nothing but its pictures, which the command makes and then sets <see cref="Complete"/>.</summary>
+        /// <summary><see cref="Outcome"/> of a complete run whose pictures the command still has to make. It then sets <see cref="Complete"/>.</summary>
         internal const string WithoutPictures = "the pictures are missing";
 
         /// <summary>The other files of a run.</summary>
@@ -94,7 +94,7 @@ namespace Collektive.Headless
 
         internal void Write() => ResultFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
 
-        /// <summary>Writes the manifest after all other files are on disk: it says whether they are complete.</summary>
+        /// <summary>Writes the manifest after all other files, because it records whether they are complete.</summary>
         internal void WriteLast()
         {
             foreach (var name in Files) ResultFile.Sync(Path.Combine(Path.GetDirectoryName(path), name));

@@ -10,7 +10,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// metrics.csv: a row per interval, by default a simulated second; messages are sums over the interval's ticks. Times are means in milliseconds, so that
-    /// the phases of a tick add up to it: what is no phase of <see cref="TickTimes"/> is "other".
+    /// the phases of a tick add up to it: "other" is the rest, outside the phases of <see cref="TickTimes"/>.
     /// </summary>
     internal sealed class MetricsTable : IDisposable
     {
@@ -38,7 +38,7 @@ namespace Collektive.Headless
         /// <summary>The scene's metrics at the last row.</summary>
         internal IReadOnlyList<double> Values => values;
 
-        /// <summary>The metrics of a row that are no times of the machine: the scene's, then those of links and messages.</summary>
+        /// <summary>The reproducible metrics of a row: the scene's, then those of links and messages.</summary>
         internal static IEnumerable<string> NamesOf(SceneBuilder scene)
         {
             foreach (var name in scene.MetricNames) yield return name;
@@ -53,8 +53,8 @@ namespace Collektive.Headless
             {
                 if (known.Add(name)) continue;
                 throw new ScenarioException(
-                    "the scene " + scene.GetType().FullName + " names the metric '" + name
-                        + "', which is the name of another column of metrics.csv: rename it");
+                    "the scene " + scene.GetType().FullName + " has the metric '" + name
+                        + "', but metrics.csv already has a column of that name: rename the metric");
             }
         }
 

@@ -59,7 +59,7 @@ namespace Collektive.Headless
                 known.Add(field.Name);
             }
             throw new ScenarioException(
-                "'outputs.nodes.fields': the answers have no field '" + wanted + "' that is a number, a string, true or false, or a vector; there are: "
+                "'outputs.nodes.fields': the answers have no field '" + wanted + "' of type number, string, boolean or vector; the fields are: "
                     + string.Join(", ", known));
         }
 

@@ -30,7 +30,7 @@ namespace Collektive.Headless
 
         internal string Out { get; private set; }
 
-        /// <summary>Where the scenario's relative paths start; null: where the file says.</summary>
+        /// <summary>The folder of the scenario's relative paths; null for the default.</summary>
         internal string Folder { get; private set; }
 
         /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>
@@ -63,7 +63,7 @@ namespace Collektive.Headless
         /// <summary>The same for fields of the scene, as <c>FIELD=VALUE</c>.</summary>
         internal List<string> FieldAssignments { get; } = new List<string>();
 
-        /// <summary>The options of one of several runs, with a folder of its own.</summary>
+        /// <summary>The options of one of several runs, with its own folder.</summary>
         internal Options For(string folder)
         {
             var options = (Options)MemberwiseClone();

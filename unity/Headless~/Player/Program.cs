@@ -2,6 +2,7 @@ using System;
 using System.IO;
 using Collektive.Bridge;
 using Mono.Unix.Native;
+using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
@@ -31,7 +32,7 @@ namespace Collektive.Headless
             }
             catch (BridgeException error)
             {
-                Console.Error.WriteLine("collektive: the JVM did not end: " + error.Message);
+                Console.Error.WriteLine("collektive: the JVM did not shut down: " + error.Message);
                 return Math.Max(code, 1);
             }
             return code;
@@ -69,21 +70,20 @@ namespace Collektive.Headless
             if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
             else if (error is IOException || error is UnauthorizedAccessException)
                 Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
-            else Console.Error.WriteLine("collektive: the run ended with an exception that nobody handled: " + error);
+            else Console.Error.WriteLine("collektive: the run ended with an unhandled exception: " + error);
             return 1;
         }
 
-        /// <summary>What the command must build before the run, one "key=value" a line.</summary>
-        private static void Plan(Scenario scenario)
-        {
-            Console.WriteLine("scripts=" + scenario.Scripts);
-            Console.WriteLine("schema=" + scenario.Schema);
-            Console.WriteLine("programs=" + scenario.Programs);
-            Console.WriteLine("runtimeJars=" + scenario.RuntimeJars);
-            Console.WriteLine("runtimePlugin=" + scenario.RuntimePlugin);
-            Console.WriteLine("seed=" + scenario.Settings.seed);
-            Console.WriteLine("replay=" + (scenario.Replay ? "yes" : "no"));
-            Console.WriteLine("pictures=" + (scenario.Pictures ? "yes" : "no"));
-        }
+        /// <summary>What the command must build before the run, as JSON.</summary>
+        private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(
+            new JProperty("scripts", scenario.Scripts),
+            new JProperty("schema", scenario.Schema),
+            new JProperty("programs", scenario.Programs),
+            new JProperty("program", scenario.Settings.program),
+            new JProperty("runtimeJars", scenario.RuntimeJars),
+            new JProperty("runtimePlugin", scenario.RuntimePlugin),
+            new JProperty("seed", scenario.Settings.seed.ToString()),
+            new JProperty("replay", scenario.Replay),
+            new JProperty("pictures", scenario.Pictures)));
     }
 }

@@ -2,7 +2,7 @@ using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
-    /// <summary>Files with contents of their own: reading a pipe or a device may wait for ever.</summary>
+    /// <summary>Tests for regular files: reading a pipe or a device may block.</summary>
     internal static class RegularFile
     {
         /// <summary>Whether it is there, links followed.</summary>

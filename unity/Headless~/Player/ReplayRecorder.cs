@@ -12,16 +12,16 @@ namespace Collektive.Headless
     internal sealed class ReplayRecorder : IDisposable
     {
         /// <summary>Frames of a simulated second, at most; ticks in between are left out.</summary>
-        private const double MostFrames = 10;
+        private const double MaxFrames = 10;
 
         /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
-        private const double MostNodes = 50000;
+        private const double MaxNodes = 50000;
 
         /// <summary>Moving shapes that are recorded, at most: their poses lie in the page's header.</summary>
-        private const int MostMovers = 64;
+        private const int MaxMovers = 64;
 
         /// <summary>Along each side of a terrain that is drawn, at most.</summary>
-        private const int MostSquaresOfTerrain = 64;
+        private const int MaxTerrainSquares = 64;
 
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
@@ -32,7 +32,7 @@ namespace Collektive.Headless
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
         private readonly Dictionary<int, IColors> colours;
-        // By node id; null unless the scene gives nothing else to colour nodes by.
+        // By node id; null if the scene has shades.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
@@ -70,7 +70,7 @@ namespace Collektive.Headless
         /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
-            if (time >= last + Math.Max(1 / MostFrames, manager.Nodes.Count / MostNodes) - 1e-6) Record(time);
+            if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
         /// <summary>Writes the page, which ends with this moment.</summary>
@@ -86,7 +86,8 @@ namespace Collektive.Headless
         {
             clock.Start();
             last = time;
-            writer.BeginFrame(time, CountLinks());
+            if (neighbours != null) CountNeighbours();
+            writer.BeginFrame(time, manager.Simulation.PresentLinks.Count);
             var nodes = manager.Nodes;
             // Of many nodes that left.
             if (colours?.Count > 2 * nodes.Count) colours.Clear();
@@ -104,24 +105,23 @@ namespace Collektive.Headless
                 mover.Value.Add(place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
-                if (pair.IsHeld) writer.Link(pair.Low, pair.High);
+            {
+                if (pair.Up.Holders > 0) writer.Link(pair.Low, pair.High);
+                if (pair.Down.Holders > 0) writer.Link(pair.High, pair.Low);
+            }
             writer.EndFrame();
             clock.Stop();
         }
 
-        private int CountLinks()
+        private void CountNeighbours()
         {
-            var count = 0;
-            if (neighbours != null) neighbours = new int[manager.Simulation.IdCapacity];
+            neighbours = new int[manager.Simulation.IdCapacity];
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
                 if (!pair.IsHeld) continue;
-                count++;
-                if (neighbours == null) continue;
                 neighbours[pair.Low]++;
                 neighbours[pair.High]++;
             }
-            return count;
         }
 
         private void Describe(ReplayMetadata metadata)
@@ -133,18 +133,24 @@ namespace Collektive.Headless
             var arena = floor == null ? new Bounds() : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
             foreach (var collider in colliders)
             {
-                if (collider == floor) continue;
+                if (collider == floor || collider.isTrigger) continue;
                 if (arena.size == Vector3.zero) arena = collider.bounds;
                 else arena.Encapsulate(collider.bounds);
                 if (collider.GetComponentInParent<Node>() != null)
                 {
                     if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
+                    if (collider is CapsuleCollider upright)
+                    {
+                        metadata.NodeRadius = Radius(upright);
+                        // The page does not know how nodes are turned.
+                        metadata.NodeHeight = upright.direction == 1 ? Height(upright) : 0;
+                    }
                     continue;
                 }
-                if (collider.isTrigger) continue;
                 if (collider.attachedRigidbody != null) AddMover(metadata, collider);
                 else if (collider is BoxCollider box) Add(metadata, box);
                 else if (collider is SphereCollider sphere) Add(metadata, sphere);
+                else if (collider is CapsuleCollider capsule) Add(metadata, capsule);
                 else if (collider is MeshCollider mesh && mesh.sharedMesh != null) Add(metadata, mesh);
                 else if (collider is TerrainCollider terrain && terrain.terrainData != null) Add(metadata, terrain);
             }
@@ -177,7 +183,7 @@ namespace Collektive.Headless
         private void Add(List<ReplayField> fields, NodeShade shade)
         {
             var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
-            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Words = shade.Words });
+            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Categories = shade.Categories });
             readers.Add(shade.Read);
         }
 
@@ -207,7 +213,7 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws a floor of its own there.</summary>
+        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws its own floor there.</summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
@@ -242,7 +248,8 @@ namespace Collektive.Headless
                 mover = metadata.AddMovingBox(size.x, size.y, size.z);
             }
             if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
-            if (mover != null && movers.Count < MostMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
+            if (collider is CapsuleCollider capsule) mover = metadata.AddMovingCapsule(Radius(capsule), Height(capsule), capsule.direction);
+            if (mover != null && movers.Count < MaxMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
         }
 
         private static void Add(ReplayMetadata metadata, MeshCollider collider)
@@ -256,7 +263,7 @@ namespace Collektive.Headless
         private static void Add(ReplayMetadata metadata, TerrainCollider collider)
         {
             var data = collider.terrainData;
-            var step = Math.Max(1, (data.heightmapResolution - 1) / MostSquaresOfTerrain);
+            var step = Math.Max(1, (data.heightmapResolution - 1) / MaxTerrainSquares);
             var triangles = TerrainMesh.Triangles((data.heightmapResolution - 1) / step + 1);
             Add(metadata, TerrainMesh.Points(data, step), triangles, collider.transform.position, Quaternion.identity);
         }
@@ -278,6 +285,21 @@ namespace Collektive.Headless
             var turn = box.transform.rotation;
             metadata.AddBox(centre.x, centre.y, centre.z, size.x, size.y, size.z, turn.x, turn.y, turn.z, turn.w);
         }
+
+        private static void Add(ReplayMetadata metadata, CapsuleCollider capsule)
+        {
+            var centre = capsule.transform.TransformPoint(capsule.center);
+            var turn = capsule.transform.rotation;
+            metadata.AddCapsule(centre.x, centre.y, centre.z, Radius(capsule), Height(capsule), capsule.direction, turn.x, turn.y, turn.z, turn.w);
+        }
+
+        private static float Radius(CapsuleCollider capsule)
+        {
+            var scale = capsule.transform.lossyScale;
+            return capsule.radius * Mathf.Max(scale[(capsule.direction + 1) % 3], scale[(capsule.direction + 2) % 3]);
+        }
+
+        private static float Height(CapsuleCollider capsule) => capsule.height * capsule.transform.lossyScale[capsule.direction];
 
         private static void Add(ReplayMetadata metadata, SphereCollider sphere)
         {

@@ -1,5 +1,4 @@
-using System;
-using System.Globalization;
+using Collektive.Unity;
 
 namespace Collektive.Headless
 {
@@ -13,11 +12,11 @@ namespace Collektive.Headless
         private readonly double deltaTime;
         private int rows = 1;
 
-        /// <param name="interval">Simulated seconds from one row to the next; the first row is that of second 0.</param>
+        /// <param name="interval">Simulated seconds from one row to the next; the first row is at second 0.</param>
         internal RowSchedule(double interval, float deltaTime)
         {
             this.interval = interval;
-            this.deltaTime = Exact(deltaTime);
+            this.deltaTime = SimulatedSeconds.Exact(deltaTime);
         }
 
         /// <summary>The second of the next row.</summary>
@@ -28,8 +27,5 @@ namespace Collektive.Headless
 
         /// <summary>Goes on to the row after the next one.</summary>
         internal void Advance() => rows++;
-
-        /// <summary>The decimal number that a scenario gives, such as 0.02, instead of the float next to it.</summary>
-        internal static double Exact(float number) => double.Parse(number.ToString("R", CultureInfo.InvariantCulture), CultureInfo.InvariantCulture);
     }
 }

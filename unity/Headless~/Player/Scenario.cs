@@ -24,7 +24,7 @@ namespace Collektive.Headless
             "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "converged", "stopWhenConverged", "jvm", "outputs",
         };
 
-        /// <summary>The inspector's settings that are keys of a scenario, too. For the others a scenario has keys of its own.</summary>
+        /// <summary>The settings that are also keys of a scenario. The other settings have different keys.</summary>
         private static readonly FieldInfo[] Shared = typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Where(field =>
             !new[]
             {
@@ -58,7 +58,7 @@ namespace Collektive.Headless
             Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
             StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
             if (StopWhenConverged && Convergence.Criteria.Count == 0)
-                throw file.Error(root["stopWhenConverged"], "'stopWhenConverged' needs 'converged', which says when a metric has converged");
+                throw file.Error(root["stopWhenConverged"], "'stopWhenConverged' needs 'converged', which defines when a metric has converged");
             if (Settings.runtime == AggregateRuntime.Collektive)
             {
                 RuntimeJars = Existing(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
@@ -87,7 +87,7 @@ namespace Collektive.Headless
         /// <summary>Folder that relative paths start from.</summary>
         internal string Folder { get; }
 
-        /// <summary>The run to repeat; null when the file is no manifest.</summary>
+        /// <summary>The run to repeat; null if the file is not a manifest.</summary>
         internal FormerRun Former { get; private set; }
 
         internal string Scene { get; }
@@ -155,7 +155,7 @@ namespace Collektive.Headless
             var former = new FormerRun(file, path);
             folder = FullPath(folder ?? former.Folder);
             if (!Directory.Exists(folder))
-                throw new ScenarioException(path + ": the run's folder is not there: " + folder + " (--folder says where it is now)");
+                throw new ScenarioException(path + ": the run's folder does not exist: " + folder + " (if it was moved, use --folder)");
             return new Scenario(file, path, run, folder, trustsJvm) { Former = former };
         }
 
@@ -211,13 +211,13 @@ namespace Collektive.Headless
 
         private double ReadInterval(JsonFile file, JObject part, string place)
         {
-            var interval = file.Optional(part, "interval", System.Math.Max(1.0, Settings.deltaTime));
-            // Of a delta time of 0.1f, 0.1 is a little less. What is wrong with the delta time itself is told with the settings.
-            if (interval >= Settings.deltaTime * (1 - 1e-6) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
+            var interval = file.Optional(part, "interval", System.Math.Max(1.0, SimulatedSeconds.Exact(Settings.deltaTime)));
+            // An invalid delta time is reported with the settings.
+            if (interval >= SimulatedSeconds.Exact(Settings.deltaTime) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
                 "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds " + (interval > MaxTicks
-                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(Settings.deltaTime)));
+                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -255,7 +255,7 @@ namespace Collektive.Headless
         private void Count(System.Func<string, ScenarioException> error)
         {
             // An invalid delta time is refused together with the other settings.
-            var deltaTime = RowSchedule.Exact(Settings.deltaTime);
+            var deltaTime = SimulatedSeconds.Exact(Settings.deltaTime);
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
             if (ticks > MaxTicks)
@@ -278,29 +278,29 @@ namespace Collektive.Headless
                 setting.Set(settings, isFolder ? System.IO.Path.Combine(folder, (string)value) : value);
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
-            if (!trusted) RefuseHarmful(file, root, settings);
+            if (!trusted) RefuseUnsafe(file, root, settings);
             return settings;
         }
 
         /// <summary>A scenario file may come from anybody: what its settings of the JVM do to this machine is the user's decision.</summary>
-        private static void RefuseHarmful(JsonFile file, JObject root, JvmSettings settings)
+        private static void RefuseUnsafe(JsonFile file, JObject root, JvmSettings settings)
         {
             const string advice = "; add --trust-jvm if you trust the file, or remove it";
             if (settings.home.Length > 0)
-                throw file.Error(root[nameof(settings.home)], "'jvm.home' is refused, as it runs the JVM of a folder that the file names" + advice);
+                throw file.Error(root[nameof(settings.home)], "'jvm.home' is refused because it runs a JVM from a folder that the file chooses" + advice);
             if (settings.debugPort != 0)
             {
                 throw file.Error(
                     root[nameof(settings.debugPort)],
-                    "'jvm.debugPort' is refused, as whoever reaches a debugger's port, any user of this machine, runs code of his own" + advice);
+                    "'jvm.debugPort' is refused because any user of this machine who can reach the port can run code" + advice);
             }
             for (var i = 0; i < settings.flags.Count; i++)
             {
-                if (HarmlessFlags.Contains(settings.flags[i])) continue;
+                if (SafeJvmFlags.Contains(settings.flags[i])) continue;
                 throw file.Error(
                     root[nameof(settings.flags)],
                     "'jvm.flags[" + i + "]', " + settings.flags[i]
-                        + ", is refused: it is none of the flags that neither write files nor open ports nor load code" + advice);
+                        + ", is refused because it is not known to be safe: it may write files, open ports or load code" + advice);
             }
         }
 
@@ -316,7 +316,7 @@ namespace Collektive.Headless
             var isFile = RegularFile.Exists(path);
             if (directory == null ? isDirectory || isFile : directory.Value ? isDirectory : isFile) return path;
             var kind = directory == null ? "jar or folder" : directory.Value ? "folder" : "file";
-            throw file.Error(root[key], "'" + key + "' names no " + kind + ": " + path);
+            throw file.Error(root[key], "'" + key + "' does not name a " + kind + ": " + path);
         }
     }
 }

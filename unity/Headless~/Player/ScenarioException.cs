@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>Something that the user gave is wrong; the message says what and what to do.</summary>
+    /// <summary>An error in the user's input. The message explains it and how to fix it.</summary>
     public sealed class ScenarioException : Exception
     {
         /// <summary>Makes an exception with its one-line message.</summary>

@@ -43,7 +43,7 @@ namespace Collektive.Headless
             if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
                 throw new ScenarioException(scenario.Path
-                    + ": a manifest's run is repeated as it was: leave out --seed, --seconds and --set, or run its scenario");
+                    + ": a run is repeated without changes: omit --seed, --seconds and --set, or run its scenario");
             }
             scenario.Override(options.Seed, options.Seconds);
         }
@@ -73,7 +73,7 @@ namespace Collektive.Headless
             {
                 Thread.ResetAbort();
                 manifest.Outcome = "failed: " + limit.Message;
-                throw new ScenarioException(limit.Message + "; its stack is above");
+                throw new ScenarioException(limit.Message + "; the stack trace is above");
             }
             catch (Exception error)
             {
@@ -88,7 +88,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Throws a <see cref="ScenarioException"/> for what is wrong with a scenario and with its scene's fields. Nothing is built or started.
+        /// Checks a scenario and its scene's fields, and throws a <see cref="ScenarioException"/> for an error. Builds and starts nothing.
         /// </summary>
         /// <returns>Names of the scene's metrics.</returns>
         internal static IReadOnlyList<string> Check(Scenario scenario, Options options)
@@ -143,20 +143,21 @@ namespace Collektive.Headless
             var holder = new GameObject("Scene");
             var scene = AddScene(holder);
             manifest = new Manifest(scenario, options, SceneFields.Get(scene));
-            scenario.Former?.TellDifferences(manifest, "inputs");
+            scenario.Former?.PrintDifferences(manifest, "inputs");
             holder.SetActive(true);
             if (manager.Failure.Length > 0) throw new ScenarioException(manager.Failure);
             return scene;
         }
 
-        /// <summary>Adds the scene builder to an object, which it leaves inactive: nothing is built yet.</summary>
+        /// <summary>Adds the scene builder to an object, which stays inactive.</summary>
         private SceneBuilder AddScene(GameObject holder)
         {
             var type = Assembly.LoadFrom(options.Scripts).GetType(scenario.Scene);
             if (type == null || !typeof(SceneBuilder).IsAssignableFrom(type) || type.IsAbstract)
             {
                 throw new ScenarioException(
-                    scenario.Path + ": 'scene' names '" + scenario.Scene + "': there must be a class of that full name in " + scenario.Scripts
+                    scenario.Path + ": 'scene' names '" + scenario.Scene + "': no class with this full name that derives from SceneBuilder in "
+                        + scenario.Scripts
                         + " that derives from SceneBuilder");
             }
             holder.name = type.Name;
@@ -206,7 +207,8 @@ namespace Collektive.Headless
                     }
                     hadNodes |= manager.Nodes.Count > 0;
                     if (stopsAtFailures && manager.Simulation.NoRoundWorked)
-                        throw new ScenarioException("stopped at tick " + done + ": all its rounds failed; the messages are above (--keep-going goes on)");
+                        throw new ScenarioException("stopped at tick " + done
+                            + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
                     parameters = parameters ?? ProgramsWithParameters(manager);
                     replay?.Add(manager.SimulatedTime);
                     var now = Stopwatch.GetTimestamp();
@@ -235,34 +237,36 @@ namespace Collektive.Headless
                 manifest.AddFirstTick(firstTick);
                 if (replay != null) manifest.AddReplay(replay.Milliseconds);
             }
-            scenario.Former?.TellDifferences(manifest, "versions");
+            scenario.Former?.PrintDifferences(manifest, "versions");
             if (interrupt.Requested)
             {
-                Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end there");
+                Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end at that time");
                 manifest.Outcome = "interrupted";
                 return interrupt.ExitCode;
             }
             if (done < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
             {
-                var problem = done + " of " + ticks + " ticks were done" + cause;
+                var problem = done + " of " + ticks + " ticks were completed" + cause;
                 Console.Error.WriteLine("collektive: " + problem + "; to end a run early, use Application.Quit or a stop condition");
                 manifest.Outcome = problem;
                 return 1;
             }
-            // A script that quits says itself how the run ended.
+            // A script that quits determines the exit code.
             if (!hadNodes && !Loop.QuitRequested)
             {
-                const string Problem = "there was no node in any tick";
-                Console.Error.WriteLine("collektive: " + Problem + ": the scene builder must make GameObjects with the component Node");
+                const string Problem = "the run had no nodes";
+                Console.Error.WriteLine("collektive: " + Problem + ": create GameObjects with the component Node in the scene builder");
                 manifest.Outcome = Problem;
                 return 1;
             }
             manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
             var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
-            if (Loop.QuitRequested) return isRepeated ? Loop.ExitCode : Math.Max(1, Loop.ExitCode);
+            // Processes end with eight bits of their code: 256 would become 0.
+            var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
+            if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine(
-                "collektive: the run ended, but " + manager.ErrorCount + " rounds, sensors, actuators, rules or handlers failed; the messages are above");
+                "collektive: the run ended, but " + manager.ErrorCount + " errors occurred in rounds, sensors, actuators, rules or handlers; they are above");
             return 1;
         }
 
@@ -290,7 +294,7 @@ namespace Collektive.Headless
                     if (known.Name == program.Key) found = known;
                 }
                 if (found == null)
-                    throw new ScenarioException("'parameters." + program.Key + "': there is no program of that name; there are: " + string.Join(", ", names));
+                    throw new ScenarioException("'parameters." + program.Key + "': unknown program; the programs are: " + string.Join(", ", names));
             }
             return ParameterValues.Of(manager);
         }

@@ -9,7 +9,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// What compiled scripts refer to outside of their assembly. Unless all of it is known to leave nothing behind in the process, such as a culture, a
-    /// thread or an environment variable, each run needs a process of its own.
+    /// thread or an environment variable, each run needs its own process.
     /// </summary>
     internal static class ScriptReferences
     {
@@ -58,11 +58,12 @@ namespace Collektive.Headless
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>
         {
             "System.ThreadStaticAttribute", "UnityEngine.GUI", "UnityEngine.GUIUtility", "UnityEngine.GUILayout", "UnityEngine.Event", "UnityEngine.Gizmos",
+            "UnityEngine.GUIContent", "Collektive.Bridge.Jvm", "Collektive.Bridge.JvmRecording", "Collektive.Bridge.Session", "Collektive.Unity.Installation",
         };
 
         private static readonly HashSet<string> ForbiddenMembers = new HashSet<string>
         {
-            "Intern", "GetInstanceID", "get_Method", "get_Module", "get_Assembly",
+            "Intern", "GetInstanceID", "Finalize", "get_Method", "get_Module", "get_Assembly",
         };
 
         private static readonly OpCode[] PointerCodes =
@@ -132,8 +133,8 @@ namespace Collektive.Headless
                 var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
-                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || typeof(Delegate).IsAssignableFrom(owner)
-                    || IsStateless(owner) || owner == typeof(RuntimeHelpers) || owner == typeof(UnityEngine.Shader);
+                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || IsStateless(owner) || owner == typeof(RuntimeHelpers)
+                    || owner == typeof(UnityEngine.Shader) || typeof(Delegate).IsAssignableFrom(owner) && called.IsConstructor;
                 if (!isHarmless) return true;
             }
             return false;

@@ -8,7 +8,7 @@ namespace Collektive.Headless
     /// <summary>
     /// What a scene's scripts could leave behind for the next run in the process. Static fields of numbers, strings, structs of these and arrays of all
     /// that are compared after each run. With any other static field, a list for instance, or a reference that <see cref="ScriptReferences"/> does not know,
-    /// each run needs a process of its own.
+    /// each run needs its own process.
     /// </summary>
     internal sealed class ScriptState
     {
@@ -66,7 +66,7 @@ namespace Collektive.Headless
             return true;
         }
 
-        /// <summary>Delegates, and what generated code tells the bridge of the schema.</summary>
+        /// <summary>Whether a type is a delegate or generated code of a schema.</summary>
         private static bool IsWithoutState(Type type) => typeof(Delegate).IsAssignableFrom(type) || type.Assembly == typeof(DataSchema).Assembly;
 
         private static bool IsPlain(Type type)

@@ -10,24 +10,26 @@ namespace Collektive.Headless
         private long[] other = new long[256];
         private int[] places = new int[64];
 
-        /// <param name="keys">The lesser slot of each link in the upper half, the other in the lower half.</param>
+        /// <param name="keys">As <see cref="ReplayFrame.LinkKeys"/>.</param>
         /// <param name="count">How many there are.</param>
         /// <param name="slots">Each slot is below it.</param>
         internal void Sort(long[] keys, int count, int slots)
         {
             if (other.Length < count) other = new long[keys.Length];
             if (places.Length <= slots) places = new int[(slots + 1) * 2];
-            Pass(keys, other, count, slots, 0);
-            Pass(other, keys, count, slots, 32);
+            Pass(keys, other, count, slots, 2);
+            Pass(other, keys, count, slots, 26);
         }
 
-        /// <summary>Copies the keys in the order of one half; equal ones stay in the order that they have.</summary>
+        /// <summary>Copies the keys in the order of one slot; equal ones stay in the order that they have.</summary>
         private void Pass(long[] from, long[] to, int count, int slots, int shift)
         {
             Array.Clear(places, 0, slots + 1);
-            for (var i = 0; i < count; i++) places[(int)(from[i] >> shift) + 1]++;
+            for (var i = 0; i < count; i++) places[SlotOf(from[i], shift) + 1]++;
             for (var slot = 1; slot < slots; slot++) places[slot] += places[slot - 1];
-            for (var i = 0; i < count; i++) to[places[(int)(from[i] >> shift)]++] = from[i];
+            for (var i = 0; i < count; i++) to[places[SlotOf(from[i], shift)]++] = from[i];
         }
+
+        private static int SlotOf(long key, int shift) => (int)(key >> shift) & 0xFFFFFF;
     }
 }

@@ -21,7 +21,13 @@ namespace Collektive.Headless
     /// <summary>A value that each node has in each frame, and that can colour it.</summary>
     public sealed class ReplayField
     {
-        private const int MostOfWhole = 1 << 30;
+        private const int MaxInteger = 1 << 30;
+
+        // Categories with a colour in the order of their appearance.
+        private const int MostInOrder = 256;
+
+        private readonly HashSet<int> known = new HashSet<int>();
+        private readonly JArray order = new JArray();
 
         /// <param name="name">Shown in the legend; different for each field.</param>
         /// <param name="kind">What the values are.</param>
@@ -44,18 +50,18 @@ namespace Collektive.Headless
         public float? Max { get; set; }
 
         /// <summary>What the categories 0, 1, ... are called; without a word a category is shown by its number.</summary>
-        public IReadOnlyList<string> Words { get; set; } = new string[0];
+        public IReadOnlyList<string> Categories { get; set; } = new string[0];
 
         internal double Least { get; private set; } = double.PositiveInfinity;
         internal double Greatest { get; private set; } = double.NegativeInfinity;
         internal bool SomeWithout { get; private set; }
 
-        /// <summary>Says why a value cannot be stored; null: it can.</summary>
+        /// <summary>Returns why a value cannot be stored, or null if it can.</summary>
         internal string Refuse(double value)
         {
             if (double.IsNaN(value)) return null;
             if (double.IsInfinity(value)) return "an infinite " + Name;
-            if (Kind == ReplayFieldKind.Number || value == Math.Floor(value) && Math.Abs(value) < MostOfWhole) return null;
+            if (Kind == ReplayFieldKind.Number || value == Math.Floor(value) && Math.Abs(value) < MaxInteger) return null;
             return "the " + Name + " " + value.ToString("R", CultureInfo.InvariantCulture) + ", no whole number below 2^30";
         }
 
@@ -63,6 +69,7 @@ namespace Collektive.Headless
         internal void Include(double value)
         {
             if (double.IsNaN(value)) SomeWithout = true;
+            else if (Kind == ReplayFieldKind.Category && known.Count < MostInOrder && known.Add((int)value)) order.Add((int)value);
             // Neither is true of NaN.
             if (value < Least) Least = value;
             if (value > Greatest) Greatest = value;
@@ -74,7 +81,8 @@ namespace Collektive.Headless
             if (Unit != null) json["unit"] = Unit;
             if (Min.HasValue) json["min"] = ReplayMetadata.Number(Min.Value);
             if (Max.HasValue) json["max"] = ReplayMetadata.Number(Max.Value);
-            if (Words.Count > 0) json["words"] = new JArray(Words);
+            if (Kind == ReplayFieldKind.Category) json["order"] = order;
+            if (Categories.Count > 0) json["words"] = new JArray(Categories);
             // No value at all: no range either.
             json["least"] = Least <= Greatest ? Least : 0;
             json["greatest"] = Least <= Greatest ? Greatest : 0;

@@ -27,15 +27,19 @@ namespace Collektive.Headless
         /// <summary>By axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
-        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, else what FORMAT.md says.</summary>
+        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, otherwise as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
-        /// <summary>Links that the frame has; <see cref="LinkCount"/> of them are kept.</summary>
+        /// <summary>Links that the frame has, each direction counted.</summary>
         internal int Links { get; set; }
 
-        internal int LinkCount { get; private set; }
+        /// <summary>Linked pairs of nodes that are kept.</summary>
+        internal int PairCount { get; private set; }
 
-        /// <summary>The lesser slot in the upper half. Sorted and each once after <see cref="End"/>.</summary>
+        /// <summary>
+        /// From bit 26 the lesser slot of a pair, from bit 2 the greater one; bit 0 is set for a link to the greater slot, bit 1 for one to the lesser.
+        /// Sorted and each pair once after <see cref="End"/>.
+        /// </summary>
         internal long[] LinkKeys { get; private set; } = new long[256];
 
         internal void Begin(int slots)
@@ -43,7 +47,7 @@ namespace Collektive.Headless
             Reserve(slots);
             Slots = slots;
             Array.Clear(present, 0, present.Length);
-            LinkCount = 0;
+            PairCount = 0;
         }
 
         internal bool Has(int slot) => slot < present.Length && present[slot];
@@ -61,21 +65,25 @@ namespace Collektive.Headless
 
         internal void SetValue(int field, int slot, double value) => values[field][slot] = value;
 
-        internal void Link(int slotA, int slotB)
+        internal void Link(int from, int to)
         {
-            if (LinkCount == LinkKeys.Length) LinkKeys = Larger(LinkKeys, LinkCount * 2);
-            LinkKeys[LinkCount++] = slotA < slotB ? (long)slotA << 32 | (uint)slotB : (long)slotB << 32 | (uint)slotA;
+            if (PairCount == LinkKeys.Length) LinkKeys = Larger(LinkKeys, PairCount * 2);
+            LinkKeys[PairCount++] = from < to ? (long)from << 26 | (long)to << 2 | 1 : (long)to << 26 | (long)from << 2 | 2;
         }
 
-        /// <summary>Sorts the links and returns how many are kept.</summary>
+        /// <summary>Sorts the links, joins those of a pair, and returns how many are kept, each direction counted.</summary>
         internal int End(LinkSorter sorter)
         {
-            sorter.Sort(LinkKeys, LinkCount, Slots);
-            var distinct = 0;
-            for (var i = 0; i < LinkCount; i++)
-                if (i == 0 || LinkKeys[i] != LinkKeys[i - 1]) LinkKeys[distinct++] = LinkKeys[i];
-            LinkCount = distinct;
-            return distinct;
+            sorter.Sort(LinkKeys, PairCount, Slots);
+            int pairs = 0, links = 0;
+            for (var i = 0; i < PairCount; i++)
+            {
+                if (pairs > 0 && LinkKeys[pairs - 1] >> 2 == LinkKeys[i] >> 2) LinkKeys[pairs - 1] |= LinkKeys[i];
+                else LinkKeys[pairs++] = LinkKeys[i];
+            }
+            PairCount = pairs;
+            for (var i = 0; i < pairs; i++) links += (LinkKeys[i] & 3) == 3 ? 2 : 1;
+            return links;
         }
 
         /// <summary>Widens a range by the frame's values of a field.</summary>

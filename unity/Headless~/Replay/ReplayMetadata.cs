@@ -22,6 +22,9 @@ namespace Collektive.Headless
 
         public float NodeRadius { get; set; } = 0.25f;
 
+        /// <summary>Height of nodes that are upright capsules, both caps included; 0: they are spheres.</summary>
+        public float NodeHeight { get; set; }
+
         /// <summary>What can colour the nodes; the first one does when the page is opened. At least one.</summary>
         public IReadOnlyList<ReplayField> Fields { get; set; } = new[] { new ReplayField("value") };
 
@@ -71,6 +74,18 @@ namespace Collektive.Headless
             shapes.Add(new JObject { ["kind"] = "sphere", ["centre"] = Numbers(x, y, z), ["radius"] = Number(radius) });
         }
 
+        /// <summary>A static capsule, turned by the unit quaternion.</summary>
+        /// <param name="height">With both caps.</param>
+        /// <param name="axis">Its own axis that it lies along: 0, 1, 2 for x, y, z.</param>
+        public void AddCapsule(
+            float x, float y, float z, float radius, float height, int axis, float rotationX, float rotationY, float rotationZ, float rotationW)
+        {
+            shapes.Add(Placed(Capsule(radius, height, axis), x, y, z, rotationX, rotationY, rotationZ, rotationW));
+        }
+
+        /// <summary>A capsule that moves, as in <see cref="AddCapsule"/>; add its pose in each frame.</summary>
+        public ReplayMover AddMovingCapsule(float radius, float height, int axis) => AddMover(Capsule(radius, height, axis));
+
         /// <summary>A named place.</summary>
         public void AddMarker(string name, float x, float y, float z)
         {
@@ -91,6 +106,7 @@ namespace Collektive.Headless
                 ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),
+                ["nodeHeight"] = Number(NodeHeight),
                 ["arena"] = Arena.ToJson(),
                 ["shapes"] = shapes,
                 ["markers"] = markers,
@@ -106,6 +122,9 @@ namespace Collektive.Headless
 
         private static JObject Box(float width, float height, float depth) =>
             new JObject { ["kind"] = "box", ["size"] = Numbers(width, height, depth) };
+
+        private static JObject Capsule(float radius, float height, int axis) =>
+            new JObject { ["kind"] = "capsule", ["radius"] = Number(radius), ["height"] = Number(height), ["axis"] = axis };
 
         private static JObject Placed(
             JObject shape, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A shape that moves and is no node: where it was in each frame.</summary>
+    /// <summary>The positions of a moving shape without a node, by frame.</summary>
     public sealed class ReplayMover
     {
         private readonly JObject shape;

@@ -8,7 +8,7 @@ namespace Collektive.Headless
     {
         private const int Axes = 3;
         private const int NumberSteps = 65534;
-        private const int MostBytesOfNumber = 5;
+        private const int MaxBytesPerNumber = 5;
 
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
         private readonly ReplayField[] fields;
@@ -101,20 +101,20 @@ namespace Collektive.Headless
             WriteFloat(min);
             WriteFloat(max);
             least[field] = min;
-            // In double: the extent of two floats may be no float.
+            // In double: the difference of two floats may overflow.
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
         private void WriteIds(List<int> ids)
         {
-            Reserve(MostBytesOfNumber * (1 + ids.Count));
+            Reserve(MaxBytesPerNumber * (1 + ids.Count));
             WriteNumber((uint)ids.Count);
             for (var slot = 0; slot < ids.Count; slot++) WriteSigned(unchecked(ids[slot] - (slot == 0 ? 0 : ids[slot - 1])));
         }
 
         private void WritePresence(ReplayFrame frame)
         {
-            Reserve(MostBytesOfNumber + frame.Slots / 8 + 1);
+            Reserve(MaxBytesPerNumber + frame.Slots / 8 + 1);
             WriteNumber((uint)frame.Slots);
             for (var first = 0; first < frame.Slots; first += 8)
             {
@@ -128,7 +128,7 @@ namespace Collektive.Headless
         /// <summary>What each value differs from where its motion would have taken it. All sums wrap around.</summary>
         private void WriteColumn(ReplayFrame frame, int[] values, int[] last, int[] motion)
         {
-            Reserve(MostBytesOfNumber * frame.Slots);
+            Reserve(MaxBytesPerNumber * frame.Slots);
             unchecked
             {
                 for (var slot = 0; slot < frame.Slots; slot++)
@@ -145,9 +145,9 @@ namespace Collektive.Headless
 
         private void WriteLinks(ReplayFrame before, ReplayFrame frame)
         {
-            Reserve(MostBytesOfNumber * (3 + 2 * (frame.LinkCount + (before?.LinkCount ?? 0))));
+            Reserve(MaxBytesPerNumber * (3 + 2 * (frame.PairCount + (before?.PairCount ?? 0))));
             WriteNumber((uint)frame.Links);
-            // Each set is told by its size first.
+            // The size precedes each set.
             WritePairs(before, frame);
             WritePairs(frame, before);
         }
@@ -162,17 +162,17 @@ namespace Collektive.Headless
         private int WalkPairs(ReplayFrame of, ReplayFrame without, bool write)
         {
             if (of == null) return 0;
-            int others = without?.LinkCount ?? 0, other = 0, count = 0, a = -1, b = 0;
-            for (var i = 0; i < of.LinkCount; i++)
+            int others = without?.PairCount ?? 0, other = 0, count = 0, a = -1, b = 0;
+            for (var i = 0; i < of.PairCount; i++)
             {
                 var key = of.LinkKeys[i];
                 while (other < others && without.LinkKeys[other] < key) other++;
                 if (other < others && without.LinkKeys[other] == key) continue;
                 count++;
                 if (!write) continue;
-                int nextA = (int)(key >> 32), nextB = (int)key;
+                int nextA = (int)(key >> 26), nextB = (int)(key >> 2) & 0xFFFFFF;
                 WriteNumber((uint)(nextA - a));
-                WriteNumber((uint)(nextB - (nextA == a ? b : nextA)));
+                WriteNumber((uint)((nextB - (nextA == a ? b : nextA)) << 2 | (int)key & 3));
                 a = nextA;
                 b = nextB;
             }

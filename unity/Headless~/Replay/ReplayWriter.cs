@@ -21,11 +21,11 @@ namespace Collektive.Headless
         /// <summary>Frames that are compressed together; the first of them is a key frame.</summary>
         public const int FramesPerSegment = 20;
 
-        /// <summary>About how many links of a frame are kept at most.</summary>
-        public const int LinkBudget = 30000;
+        /// <summary>About how many links of a frame are kept at most, each direction counted.</summary>
+        public const int LinkBudget = 60000;
 
         internal const string Placeholder = "@@REPLAY@@";
-        internal const int Version = 4;
+        internal const int Version = 5;
 
         private const int MaxSlots = 1 << 24;
 
@@ -52,7 +52,7 @@ namespace Collektive.Headless
         private readonly List<double> times = new List<double>();
         private int slotOfLast;
         private int maxSlots;
-        private int maxLinks;
+        private int maxPairs;
 
         private ReplayFrame frame;
         private ulong linkLimit;
@@ -80,8 +80,8 @@ namespace Collektive.Headless
 
         /// <param name="time">Simulated seconds; later than the frame before.</param>
         /// <param name="links">
-        /// How many different links the frame has. Of more than <see cref="LinkBudget"/>, a share is kept: those with the least hash of their
-        /// nodes' ids, so that the same ones stay from frame to frame.
+        /// How many different links the frame has, each direction counted. Of more than <see cref="LinkBudget"/>, a share is kept: those
+        /// with the least hash of their nodes' ids, so that the same ones stay from frame to frame.
         /// </param>
         public void BeginFrame(double time, int links = 0)
         {
@@ -132,16 +132,18 @@ namespace Collektive.Headless
             fields[field].Include(value);
         }
 
-        /// <summary>A link between two different nodes of this frame. Directions and repetitions make no difference: the page draws one line.</summary>
-        public void Link(int a, int b)
+        /// <summary>A link between two different nodes of this frame. Repetitions make no difference.</summary>
+        /// <param name="from">Id of the sender.</param>
+        /// <param name="to">Id of the receiver.</param>
+        public void Link(int from, int to)
         {
             if (!inFrame) throw Order(nameof(Link), "no frame has begun");
-            if (Hash(Math.Min(a, b), Math.Max(a, b)) >= linkLimit) return;
-            int slotA = PresentSlot(a, a, b), slotB = PresentSlot(b, a, b);
-            if (slotA == slotB)
-                throw new ArgumentException("Node " + Number(a) + " is linked to itself in frame " + Number(Frames - 1)
+            if (Hash(Math.Min(from, to), Math.Max(from, to)) >= linkLimit) return;
+            int sender = PresentSlot(from, from, to), receiver = PresentSlot(to, from, to);
+            if (sender == receiver)
+                throw new ArgumentException("Node " + Number(from) + " is linked to itself in frame " + Number(Frames - 1)
                     + " of the replay: leave that link out.");
-            frame.Link(slotA, slotB);
+            frame.Link(sender, receiver);
         }
 
         public void EndFrame()
@@ -150,18 +152,18 @@ namespace Collektive.Headless
             inFrame = false;
             var kept = frame.End(sorter);
             if (frame.Links <= LinkBudget) frame.Links = kept;
-            maxLinks = Math.Max(maxLinks, kept);
+            maxPairs = Math.Max(maxPairs, frame.PairCount);
             if (segment.Count == FramesPerSegment) FlushSegment();
         }
 
         /// <summary>Writes the page: the template with the recording in it. Call it once, after the last frame.</summary>
         /// <param name="templatePath">The page that <c>build.mjs</c> makes.</param>
         /// <param name="outputHtmlPath">Made or replaced.</param>
-        /// <exception cref="InvalidDataException">The template is not one; nothing is written.</exception>
+        /// <exception cref="InvalidDataException">The file is not a template. No file is written.</exception>
         public void Finish(string templatePath, string outputHtmlPath)
         {
             if (inFrame || finished) throw Order(nameof(Finish), inFrame ? "the last frame is not ended" : "the replay is finished");
-            if (Frames == 0) throw Order(nameof(Finish), "there is no frame");
+            if (Frames == 0) throw Order(nameof(Finish), "the replay has no frames");
             var template = File.ReadAllText(templatePath);
             var start = template.IndexOf(Placeholder, StringComparison.Ordinal);
             if (start < 0 || template.IndexOf(Placeholder, start + 1, StringComparison.Ordinal) >= 0)
@@ -227,17 +229,17 @@ namespace Collektive.Headless
             return slot;
         }
 
-        private int PresentSlot(int id, int a, int b)
+        private int PresentSlot(int id, int from, int to)
         {
             if (slotOfId.TryGetValue(id, out var slot) && frame.Has(slot)) return slot;
-            throw new ArgumentException("Link " + Number(a) + " - " + Number(b) + ": node " + Number(id) + " is not in frame " + Number(Frames - 1)
+            throw new ArgumentException("Link " + Number(from) + " - " + Number(to) + ": node " + Number(id) + " is not in frame " + Number(Frames - 1)
                 + " of the replay. Give a frame's nodes before its links.");
         }
 
         private int Steps(float metres)
         {
-            const double Most = 1 << 30;
-            return (int)Math.Floor(Math.Max(-Most, Math.Min(Most, metres / positionStep)) + 0.5);
+            const double Limit = 1 << 30;
+            return (int)Math.Floor(Math.Max(-Limit, Math.Min(Limit, metres / positionStep)) + 0.5);
         }
 
         private string Header()
@@ -250,7 +252,7 @@ namespace Collektive.Headless
                 ["length"] = textLength,
                 ["positionStep"] = positionStep,
                 ["fields"] = new JArray(Array.ConvertAll(fields, field => (object)field.ToJson())),
-                ["maxLinks"] = maxLinks,
+                ["maxPairs"] = maxPairs,
                 ["times"] = new JArray(times),
                 ["slots"] = maxSlots,
                 ["ids"] = known.ToJson(),

@@ -1,11 +1,13 @@
 // Tests a replay page in headless Chromium: node [TEST OPTIONS] test.mjs replay.html [expected.json]
-// expected.json holds what some frames must show: [{ frame, time, nodes: [[id, x, y, z, scalar]], links: [[a, b]] }]. With it, only they are tested.
+// expected.json contains frames of a page of SampleReplay: [{ frame, time, nodes: [[id, x, y, z, scalar]], links: [[from, to]] }]. With it, only its
+// content is tested.
 import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { gunzipSync, gzipSync } from 'node:zlib';
 import { launch } from './browser.mjs';
 
 const [file, expected] = process.argv.slice(2);
@@ -21,11 +23,21 @@ const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
 const browser = await launch();
 const blind = await launch(undefined, ['--disable-3d-apis']);
 
-/** Opens a page and collects whatever it complains about or fetches. */
+/** Opens a page and collects its errors and requests. */
 async function open(path, { in: where = browser, ...options } = {}) {
   const context = await where.newContext({ viewport: { width: 1280, height: 720 }, ...options });
   const tab = await context.newPage();
   const url = pathToFileURL(resolve(path)).href;
+  // The texts of charts, and where they begin in their canvas.
+  await tab.addInitScript(() => {
+    const { prototype } = window.CanvasRenderingContext2D;
+    const { fillText } = prototype;
+    window.texts = [];
+    prototype.fillText = function record(text, x, y) {
+      window.texts.push({ text, left: this.getTransform().e + x - this.measureText(text).actualBoundingBoxLeft });
+      fillText.call(this, text, x, y);
+    };
+  });
   const complaints = [];
   tab.on('console', (message) => {
     const complains = ['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall due to ReadPixels');
@@ -38,8 +50,8 @@ async function open(path, { in: where = browser, ...options } = {}) {
 }
 
 const state = (tab) => tab.evaluate(() => {
-  const { frame, time, playing, nodes, links } = window.replay.state();
-  return { frame, time, playing, nodes: nodes.length, links: links.length };
+  const { frame, time, playing, nodes, links, other } = window.replay.state();
+  return { frame, time, playing, nodes: nodes.length, links: links.length, other };
 });
 
 const seek = (tab, frame) => tab.evaluate((i) => window.replay.seek(i), frame);
@@ -60,6 +72,28 @@ const colours = (tab) => tab.evaluate(() => {
   to.drawImage(from, 0, 0);
   return new Set(new Uint32Array(to.getImageData(0, 0, from.width, from.height).data.buffer)).size;
 });
+
+/** Points of the page, each for four square pixels, where a click selects a node; the one in their middle first. */
+const placesOf = (tab, node) => tab.evaluate((id) => {
+  const found = [];
+  for (let x = 0; x < window.innerWidth; x += 2) for (let y = 0; y < window.innerHeight; y += 2) if (window.replay.at(x, y) === id) found.push([x, y]);
+  return [[0, 1].map((axis) => found.reduce((sum, point) => sum + point[axis], 0) / found.length), ...found];
+}, node);
+
+/** How many pixels of the picture are near a colour; `element` limits them to those below it. */
+const pixels = (tab, wanted, element = '#canvas') => tab.evaluate(([rgb, selector]) => {
+  window.replay.draw();
+  const from = document.getElementById('canvas');
+  const { x, y, width, height } = document.querySelector(selector).getBoundingClientRect();
+  const to = new OffscreenCanvas(width, height).getContext('2d');
+  to.drawImage(from, -x, -y);
+  const { data } = to.getImageData(0, 0, width, height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (rgb.every((value, channel) => Math.abs(data[i + channel] - value) < 24)) count++;
+  return { count, share: count / (data.length / 4) };
+}, [wanted, element]);
+const ACCENT = [0xd6, 0x33, 0x6c];
+const BACKGROUND = [0xee, 0xf1, 0xf4];
 
 /** Waits until `holds` of the state is true. */
 async function eventually(tab, holds, message) {
@@ -93,6 +127,15 @@ async function download(tab, button) {
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
+/** A copy of the page whose recording has another header, or other segments. */
+const withHeader = (name, change) => withData(name, (data) => {
+  const [first, ...segments] = data.split('\n');
+  const header = JSON.parse(gunzipSync(Buffer.from(first, 'base64')));
+  change(header, segments);
+  header.length = segments.reduce((sum, segment) => sum + 1 + segment.length, 0);
+  return [gzipSync(JSON.stringify(header)).toString('base64'), ...segments].join('\n');
+});
+
 /** A copy of the page with other data. */
 function withData(name, change) {
   const path = join(folder, `${name}.html`);
@@ -115,9 +158,173 @@ async function expectMessage(path, words, options) {
   const controls = await tab.locator('#controls').isVisible();
   await close();
   assert.ok(error !== null, 'all frames are shown');
-  assert.ok(words.test(shown), `the page says: ${shown}`);
+  assert.ok(words.test(shown), `the page shows: ${shown}`);
   assert.ok(!controls, 'the controls are there');
   assert.deepEqual(complaints, []);
+}
+
+/** Tests what only a run with known content shows. */
+async function testSample(test, tab) {
+  await resize(tab, { width: 1280, height: 720 });
+  if (await tab.locator('#charts').isHidden()) await tab.click('#charts-shown');
+
+  await test('charts have room for all digits, and units', async () => {
+    const texts = await tab.evaluate(() => window.texts);
+    assert.ok(texts.some(({ text }) => text.includes('00,000')), 'no large number');
+    assert.deepEqual(texts.filter(({ left }) => left < 0), []);
+    assert.ok(texts.some(({ text }) => text === '10 s'), `no seconds: ${texts.map(({ text }) => text).join()}`);
+    assert.match(await tab.innerText('#ticks'), / lx$/);
+  });
+
+  await test('show(t) shows the frame of that time', async () => {
+    for (let frame = 0; frame < 200; frame++) {
+      await tab.evaluate((time) => window.replay.show(time), Number((0.1 * frame).toFixed(1)));
+      assert.equal((await state(tab)).frame, frame);
+    }
+  });
+
+  await test('header and chart have the same number of links', async () => {
+    await seek(tab, 50);
+    const { links } = await state(tab);
+    assert.equal(await tab.innerText('#link-count'), `${links} links`);
+    assert.equal(await tab.innerText('#charts figure:last-child output'), String(links));
+  });
+
+  await test('categories have colours far apart', async () => {
+    await tab.selectOption('#field', 'leader');
+    const found = await tab.$$eval('#categories i', (dots) => dots.map((dot) => getComputedStyle(dot).backgroundColor.match(/\d+/g).map(Number)));
+    assert.equal(found.length, 8);
+    for (const a of found) for (const b of found) assert.ok(a === b || Math.hypot(...a.map((value, i) => value - b[i])) > 60, `${a} and ${b}`);
+    await tab.selectOption('#field', { index: 0 });
+  });
+
+  await test('the histogram counts the nodes of each part of the scale', async () => {
+    const { values, range, label, heights } = await tab.evaluate(() => ({
+      values: window.replay.state().nodes.map(({ scalar }) => scalar).filter((value) => !Number.isNaN(value)),
+      range: ['range-min', 'range-max'].map((id) => document.getElementById(id).valueAsNumber),
+      label: document.getElementById('histogram').getAttribute('aria-label'),
+      heights: [...document.getElementById('histogram').children].map(({ style }) => parseFloat(style.height)),
+    }));
+    const counts = new Array(heights.length).fill(0);
+    for (const value of values) counts[Math.min(Math.floor(((value - range[0]) / (range[1] - range[0])) * counts.length), counts.length - 1)]++;
+    const most = Math.max(...counts);
+    assert.match(label, new RegExp(`at most ${most} nodes`));
+    assert.deepEqual(heights.map((height) => Math.round((height * most) / 100)), counts);
+  });
+
+  await test('the selected node has its values over time and its directions', async () => {
+    await tab.evaluate(() => window.replay.select(5));
+    await tab.locator('#history figure').waitFor();
+    for (const frame of [10, 150]) {
+      await seek(tab, frame);
+      const value = await tab.evaluate(() => window.replay.state().nodes.find(({ id }) => id === 5).scalar);
+      assert.ok(Math.abs(Number(await tab.innerText('#history output')) - value) < 0.01, `frame ${frame}`);
+    }
+    assert.match(await tab.getAttribute('#history .uplot', 'aria-label'), /^brightness \(lx\) from 0 to 19.9 s: .*minimum .* lx/);
+    const words = await tab.$$eval('#neighbour-list button', (buttons) => buttons.map((button) => button.textContent));
+    // As SampleReplay links them; node 7 is away.
+    assert.deepEqual(words, ['3', 'from 4', 'to 6']);
+  });
+
+  await test('the camera goes near a node to follow it', async () => {
+    const far = await placesOf(tab, 5);
+    await tab.check('#follow');
+    const near = await placesOf(tab, 5);
+    assert.ok(near.length > 100 && near.length > 1.3 * far.length, `4 x ${near.length} pixels, ${far.length} before`);
+    await tab.uncheck('#follow');
+  });
+
+  await test('Escape closes the list of keys, then deselects', async () => {
+    await tab.click('#help');
+    await tab.keyboard.press('Escape');
+    assert.deepEqual([await tab.locator('#keys').isVisible(), await tab.getAttribute('#help', 'aria-expanded')], [false, 'false']);
+    assert.ok(await tab.locator('#selection').isVisible(), 'it deselects');
+    await tab.keyboard.press('Escape');
+    assert.ok(await tab.locator('#selection').isHidden(), 'it does not deselect');
+  });
+
+  await test('the focus of the view is no frame around the page', async () => {
+    await tab.focus('#field');
+    await tab.keyboard.press('Shift+Tab');
+    assert.equal(await tab.evaluate(() => document.activeElement.id), 'canvas');
+    assert.equal(await tab.locator('#canvas').evaluate((view) => getComputedStyle(view).outlineStyle), 'none');
+    assert.ok(await tab.locator('#hint').isVisible(), 'nothing shows the focus');
+  });
+
+  await test('the legend covers nothing of the arena', async () => {
+    await tab.keyboard.press('r');
+    for (const [width, height] of [[1280, 720], [400, 800]]) {
+      await resize(tab, { width, height });
+      for (const field of [0, 1]) {
+        await tab.selectOption('#field', { index: field });
+        assert.equal((await pixels(tab, BACKGROUND, '#legend')).share, 1, `${width} pixels, field ${field}`);
+      }
+    }
+    await tab.selectOption('#field', { index: 0 });
+    await resize(tab, { width: 1280, height: 720 });
+  });
+
+  await test('capsules are drawn as capsules', async () => {
+    const pictures = new Set();
+    for (const [name, change] of [
+      ['upright', () => {}], ['ball', (header) => { header.metadata.nodeHeight = 0; }], ['lying', (header) => { header.metadata.shapes[2].axis = 0; }],
+      ['short', (header) => { header.metadata.shapes[2].height = 2; }],
+    ]) {
+      const page = await open(withHeader(name, change), { viewport: { width: 800, height: 500 } });
+      await page.tab.evaluate(() => window.replay.ready);
+      pictures.add(await canvas(page.tab));
+      await page.close();
+    }
+    assert.equal(pictures.size, 4);
+  });
+
+  await test('two runs are shown side by side on one clock', async () => {
+    await resize(tab, { width: 1000, height: 500 });
+    const alone = await canvas(tab);
+    await tab.setInputFiles('#other-file', withHeader('shorter', (header, segments) => {
+      header.times.length = 60;
+      segments.length = 60 / header.framesPerSegment;
+    }));
+    await tab.locator('.side >> nth=1').waitFor();
+    await eventually(tab, (now) => now.other !== null, 'no other run');
+    for (const [time, frame, otherFrame] of [[3, 30, 30], [10, 100, 59]]) {
+      await tab.evaluate((t) => window.replay.show(t), time);
+      const now = await state(tab);
+      assert.deepEqual([now.frame, now.other.frame], [frame, otherFrame]);
+    }
+    assert.equal((await state(tab)).other.nodes, await tab.innerText('#other-counts').then((text) => parseInt(text.replace(',', ''), 10)));
+    const [left, right] = await tab.$$eval('.side', (sides) => sides.map((side) => side.getBoundingClientRect()));
+    assert.ok(left.x + left.width <= right.x && right.x + right.width <= 1000, 'one covers the other');
+    const second = () => tab.evaluate(() => document.querySelectorAll('.side canvas')[1].toDataURL());
+    const [firstBefore, secondBefore] = [await canvas(tab), await second()];
+    await tab.mouse.move(right.x + 100, 200);
+    await tab.mouse.down();
+    await tab.mouse.move(right.x + 160, 220, { steps: 4 });
+    await tab.mouse.up();
+    await tab.waitForTimeout(300);
+    assert.notEqual(await canvas(tab), firstBefore, 'the first view does not turn with the second');
+    assert.notEqual(await second(), secondBefore);
+    await tab.evaluate(() => window.replay.select(8));
+    await tab.waitForFunction(() => document.querySelector('#history output')?.value.includes(' | '));
+    assert.match(await tab.innerText('#selected-values'), / \| /);
+    const { bytes } = await download(tab, '#picture');
+    assert.equal(bytes.readUInt32BE(16), 1000);
+    assert.deepEqual(await inaccessible(tab), []);
+    await tab.click('#compare');
+    await tab.evaluate(() => {
+      window.replay.select(NaN);
+      window.replay.view('above');
+      return window.replay.seek(150);
+    });
+    assert.equal(await tab.locator('.side').count(), 1);
+    assert.equal(await canvas(tab), alone, 'the view of one run does not come back');
+  });
+
+  await test('a file that is not a replay page gives a message', async () => {
+    await tab.setInputFiles('#other-file', expected);
+    await tab.locator('#compare-error').waitFor();
+    assert.match(await tab.innerText('#compare-error'), /not a replay page/);
+  });
 }
 
 await suite('replay page', async (page) => {
@@ -149,7 +356,7 @@ await suite('replay page', async (page) => {
             const near = node && [[node.x, x], [node.y, y], [node.z, z], [node.scalar, scalar ?? NaN]].every(same);
             assert.ok(near, `frame ${wanted.frame}: node ${id} is ${JSON.stringify(node)}`);
           }
-          const links = (pairs) => pairs.map((pair) => pair.sort((a, b) => a - b).join('-')).sort().join(' ');
+          const links = (pairs) => pairs.map((pair) => pair.join('-')).sort().join(' ');
           assert.equal(links(found.links), links(wanted.links), `links of frame ${wanted.frame}`);
         }
       });
@@ -189,7 +396,18 @@ await suite('replay page', async (page) => {
           const found = await colours(tab);
           assert.ok(found > 200, `${found} colours`);
         });
-      }
+
+        await test('the selected node is seen among thousands', async () => {
+          const before = await pixels(tab, ACCENT);
+          await tab.evaluate(() => window.replay.select(4001));
+          const marked = (await pixels(tab, ACCENT)).count - before.count;
+          assert.ok(marked > 60, `${marked} pixels`);
+        });
+
+        await test('its values over time appear soon', async () => {
+          await tab.locator('#history figure').waitFor({ state: 'attached', timeout: 5000 });
+        });
+      } else await testSample(test, tab);
       await test('no error, no warning, nothing fetched', async () => assert.deepEqual(complaints, []));
       await test('the page is there soon', async () => {
         // Two seconds in a browser with a graphics card on an idle machine.
@@ -221,12 +439,12 @@ await suite('replay page', async (page) => {
         assert.ok(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
       });
 
-      await test('the run stops at its end and starts anew', async () => {
+      await test('the run stops at its end and starts again', async () => {
         await seek(tab, frames - 2);
         await tab.evaluate(() => window.replay.play());
         await eventually(tab, (now) => !now.playing && now.frame === frames - 1, 'it does not stop at the last frame');
         await tab.evaluate(() => window.replay.play());
-        await eventually(tab, (now) => now.frame < frames - 1, 'it does not start anew');
+        await eventually(tab, (now) => now.frame < frames - 1, 'it does not start again');
         await tab.evaluate(() => window.replay.pause());
       });
 
@@ -317,14 +535,14 @@ await suite('replay page', async (page) => {
         const { id, neighbours } = await tab.evaluate(() => {
           const { nodes: all, links: pairs } = window.replay.state();
           const some = pairs.length ? pairs[0][0] : all[0].id;
-          return { id: some, neighbours: pairs.filter((pair) => pair.includes(some)).length };
+          return { id: some, neighbours: new Set(pairs.filter((pair) => pair.includes(some)).flat()).size - 1 };
         });
         const before = await canvas(tab);
         await tab.fill('#find', String(id));
         await tab.keyboard.press('Enter');
         const text = await tab.innerText('#selection');
-        assert.ok(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page says: ${text}`);
-        assert.ok((await canvas(tab)) !== before, 'nothing is highlighted');
+        assert.ok(text.includes(`Node ${id}`) && text.includes(`${neighbours.toLocaleString('en')} neighbour`), `the page shows: ${text}`);
+        assert.ok((await canvas(tab)) !== before, 'the node is not highlighted');
         await tab.click('#deselect');
         assert.ok((await canvas(tab)) === before, 'the highlight stays');
       });
@@ -398,7 +616,7 @@ await suite('replay page', async (page) => {
         const linked = await tab.evaluate(() => window.replay.state().links[0]);
         if (linked) {
           await tab.evaluate((id) => window.replay.select(id), linked[0]);
-          await tab.click(`#neighbour-list button:text-is("${linked[1]}")`);
+          await tab.click(`#neighbour-list button[aria-label$=": select node ${linked[1]}"]`);
           assert.equal(await selected(), `Node ${linked[1]}`);
         }
         await tab.keyboard.press('Escape');
@@ -411,7 +629,7 @@ await suite('replay page', async (page) => {
           const none = await canvas(tab);
           await tab.check('#links');
           await tab.check('#links-selected');
-          assert.equal(await canvas(tab), none, 'without a selected node there are none');
+          assert.equal(await canvas(tab), none, 'trails without a selected node');
           const linked = await tab.evaluate(() => window.replay.state().links[0][0]);
           await tab.evaluate((id) => window.replay.select(id), linked);
           const some = await canvas(tab);
@@ -442,11 +660,11 @@ await suite('replay page', async (page) => {
         const id = await tab.evaluate(() => window.replay.state().nodes[0].id);
         await tab.evaluate((some) => window.replay.select(some), id);
         await tab.check('#follow');
-        const bottom = await tab.evaluate(() => document.documentElement.clientHeight - document.getElementById('controls').getBoundingClientRect().top);
+        const [first] = await placesOf(tab, id);
         for (const frame of [0, middle, frames - 1]) {
           await seek(tab, frame);
           await canvas(tab);
-          assert.equal(await tab.evaluate(([x, y]) => window.replay.at(x, y), [400, (500 + 28 - bottom) / 2]), id, `frame ${frame}`);
+          assert.equal(await tab.evaluate(([x, y]) => window.replay.at(x, y), first), id, `frame ${frame}`);
         }
         await tab.uncheck('#follow');
         await tab.click('#deselect');
@@ -572,11 +790,11 @@ await suite('replay page', async (page) => {
   for (const [part, from, to] of [['header', 0, 0.01], ['recording', 0.4, 0.6]]) {
     await test(`a wrong letter in the ${part} gives a clear message`, () => expectMessage(withData(part, (data) => {
       const at = data.indexOf('A', from * data.length);
-      assert.ok(at >= 0 && at < to * data.length, 'there is no A');
+      assert.ok(at >= 0 && at < to * data.length, 'A is missing');
       return `${data.slice(0, at)}B${data.slice(at + 1)}`;
     }), /damaged or cut short/));
   }
-  await test('text that is no data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
-  await test('the empty template says so', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
+  await test('invalid data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
+  await test('the empty template gives a clear message', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
   await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
 });

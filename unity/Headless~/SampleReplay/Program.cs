@@ -6,7 +6,7 @@ using Newtonsoft.Json;
 namespace Collektive.Headless.Samples
 {
     /// <summary>
-    /// Writes a made-up run for the test of the page, which reads it back: nodes walk at random, come and go; each has links to the next two.
+    /// Writes a made-up run for the test of the page, which reads it back: nodes walk at random, come and go; each has a link to the next two, and each third one a link back.
     /// Beside it lies OUTPUT.html.expected.json, what some of its frames must show.
     /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html NODES FRAMES
     /// </summary>
@@ -18,11 +18,16 @@ namespace Collektive.Headless.Samples
         private static void Main(string[] args)
         {
             int nodeCount = int.Parse(args[2]), frames = int.Parse(args[3]);
-            var fields = new[] { new ReplayField("brightness") };
-            var metadata = new ReplayMetadata { Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, Fields = fields };
+            var fields = new[] { new ReplayField("brightness") { Unit = "lx" }, new ReplayField("leader", ReplayFieldKind.Category) };
+            var metrics = new ReplayMetrics(new[] { "bytes", "links" });
+            var metadata = new ReplayMetadata
+            {
+                Title = "Sample run", Seed = ulong.MaxValue, DeltaTime = Step, Fields = fields, Metrics = metrics, NodeHeight = 1.5f,
+            };
             metadata.SetArena(-50, 0, -30, 50, 5, 30);
             metadata.AddBox(9, 1.5f, -9, 1, 3, 5);
             metadata.AddSphere(-9, 1, 9, 1);
+            metadata.AddCapsule(15, 3, 15, 1, 6, 1, 0, 0, 0, 1);
             metadata.AddMarker("lamp \"A\"", 25, 0, 0);
             var random = new Random(42);
             var places = new float[2 * nodeCount];
@@ -43,8 +48,12 @@ namespace Collektive.Headless.Samples
                         if (!Exists(a, frame) || !Exists(b, frame)) continue;
                         writer.Link(a, b);
                         links.Add(new[] { a, b });
+                        if (a % 3 != 0) continue;
+                        writer.Link(b, a);
+                        links.Add(new[] { b, a });
                     }
                     writer.EndFrame();
+                    metrics.Add(frame * Step, new[] { 1234567.0 * frame, links.Count });
                     if (frame % Checked == 0) expected.Add(new { frame, time = frame * Step, nodes, links });
                 }
                 writer.Finish(args[0], args[1]);
@@ -58,6 +67,8 @@ namespace Collektive.Headless.Samples
         {
             float x = places[2 * id], z = places[2 * id + 1], scalar = id % 10 == 0 ? float.NaN : x + z;
             writer.Node(id, x, 0.25f, z, scalar);
+            // In most palettes by number, 0 and 144 are nearly equal.
+            writer.Value(1, 144 * (id % 9));
             return new[] { id, x, 0.25f, z, float.IsNaN(scalar) ? (float?)null : scalar };
         }
     }

@@ -65,7 +65,7 @@ namespace Collektive.Headless.Soak
             Loop.Frame(manager.Settings.deltaTime);
         }
 
-        /// <summary>What entering and leaving play mode costs the JVM: a session with programs of its own.</summary>
+        /// <summary>Enters and leaves play mode: a session with its own programs.</summary>
         internal void PlaySession()
         {
             var settings = new SessionSettings { Jars = new[] { manager.Settings.jars[0] }, Program = "fault" };

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Soak
 {
     /// <summary>
-    /// Plays a scene whose nodes come, fail and go, for as long as it is told, and tells whether anything grows that should not.
+    /// Plays a scene whose nodes join, fail and leave for a given time, and reports growing memory or resources.
     /// Arguments are key=value: home, host, jar, seconds and, if wanted, results (a file for JUnit XML). Exit code 1 when something grew.
     /// </summary>
     internal static class Program

@@ -19,7 +19,7 @@ namespace UnityEditor
         public static bool isPlaying { get; set; }
         public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
-        /// Calls the entry with that path, without a context; false when there is none.
+        /// Calls the entry with that path, without a context. False if it does not exist.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
 
         internal static void RaisePlayMode(PlayModeStateChange change)

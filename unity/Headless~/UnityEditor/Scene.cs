@@ -21,7 +21,7 @@ namespace UnityEditor
 
     public static class ObjectFactory
     {
-        /// Below the parent if there is one, under a name of its own there, and selected.
+        /// Puts the object below the parent, if any, with a unique name, and selects it.
         public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
             if (parent != null)

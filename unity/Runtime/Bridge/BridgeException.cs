@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>What went wrong behind the bridge; the numbers are those of <c>CLK_ERRORS</c> in the shim's header.</summary>
+    /// <summary>Kinds of errors, with the numbers of <c>CLK_ERRORS</c> in the shim's header.</summary>
     public enum BridgeError
     {
         /// <summary>An argument is out of range.</summary>
@@ -13,36 +13,36 @@ namespace Collektive.Bridge
         Handle = -3,
         /// <summary>The time limit passed before the engine answered.</summary>
         Timeout = -4,
-        /// <summary>No usable JVM at the given place.</summary>
+        /// <summary>The folder contains no usable JVM.</summary>
         JvmNotFound = -5,
-        /// <summary>The JVM refuses its options.</summary>
+        /// <summary>The JVM rejects its options.</summary>
         JvmOptions = -6,
         /// <summary>The JVM could not be created.</summary>
         JvmStart = -7,
-        /// <summary>The JVM is lost until the process restarts.</summary>
+        /// <summary>The JVM has crashed or stopped responding, until the process restarts.</summary>
         JvmLost = -8,
         /// <summary>No JVM is running.</summary>
         JvmNotRunning = -9,
-        /// <summary>A JVM runs already, with other settings.</summary>
+        /// <summary>A JVM is already running with other settings.</summary>
         JvmRunning = -10,
         /// <summary>The host's jar or the native library is missing or of another version.</summary>
         Host = -11,
-        /// <summary>The frame breaks a rule; it changed nothing.</summary>
+        /// <summary>The frame is invalid and was ignored.</summary>
         Frame = -12,
         /// <summary>C# and Kotlin were generated from different schemas.</summary>
         Schema = -13,
         /// <summary>A program cannot be loaded.</summary>
         Program = -14,
-        /// <summary>The session ended after a round that did not finish.</summary>
+        /// <summary>A round did not end, so the session ended.</summary>
         SessionFailed = -15,
         /// <summary>The host threw an unexpected exception.</summary>
         Java = -16,
     }
 
-    /// <summary>An error of the shim or of the JVM behind it; the message says what happened, to what, and what to do.</summary>
+    /// <summary>An error of the shim or of the JVM. The message explains what happened and how to fix it.</summary>
     public sealed class BridgeException : Exception
     {
-        /// <summary>Makes an exception of the given kind.</summary>
+        /// <summary>Creates an exception of the given kind.</summary>
         internal BridgeException(BridgeError error, string message) : base(message)
         {
             Error = error;

@@ -46,7 +46,7 @@ namespace Collektive.Samples.Channel
         /// <inheritdoc/>
         public override IReadOnlyList<NodeShade> Shades => new[]
         {
-            new NodeShade("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Words = new[] { "outside", "in the channel" } },
+            new NodeShade("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Categories = new[] { "outside", "in the channel" } },
             new NodeShade("distance to the source", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
@@ -80,7 +80,7 @@ namespace Collektive.Samples.Channel
         {
             if (nodes < 2 || !(range >= 0))
             {
-                manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m: a channel needs at least its two ends");
+                manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m: use at least 2 nodes and a range of 0 or greater");
                 return;
             }
             this.manager = manager;

@@ -9,11 +9,11 @@ namespace Collektive.Samples.Channel
     public sealed class EndSensor : Sensor<SensorData>
     {
         [SerializeField]
-        [Tooltip("Whether the channel begins here.")]
+        [Tooltip("On: the channel starts at this node.")]
         private bool source;
 
         [SerializeField]
-        [Tooltip("Whether the channel ends here.")]
+        [Tooltip("On: the channel ends at this node.")]
         private bool target;
 
         /// <summary>Whether the channel begins here.</summary>

@@ -44,7 +44,7 @@ namespace Collektive.Samples.Crowd
             new NodeShade("density", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0) { Unit = "walkers/m²" },
             new NodeShade("warning", node => node.TryGetAnswer(out ActuatorData answer) && answer.Warned ? 1 : 0)
             {
-                IsCategory = true, Words = new[] { "not warned", "warned" },
+                IsCategory = true, Categories = new[] { "not warned", "warned" },
             },
         };
 
@@ -72,7 +72,7 @@ namespace Collektive.Samples.Crowd
         {
             if (walkers < 2 || walkers > 300)
             {
-                manager.Fail("the scene has " + walkers + " walkers: there is room for 2 to 300");
+                manager.Fail("the scene has " + walkers + " walkers: use 2 to 300");
                 return;
             }
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };

@@ -9,7 +9,7 @@ namespace Collektive.Samples.Crowd
     public sealed class GoalSensor : Sensor<SensorData>
     {
         [SerializeField]
-        [Tooltip("Where the walker wants to go.")]
+        [Tooltip("Goal of the walker.")]
         private Vector3 goal;
 
         /// <summary>Where the walker wants to go.</summary>

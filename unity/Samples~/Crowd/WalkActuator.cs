@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Walks as the program says.</summary>
+    /// <summary>Moves the walker at the program's velocity.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Walk Actuator")]
     public sealed class WalkActuator : SetVelocityActuator<ActuatorData>
     {

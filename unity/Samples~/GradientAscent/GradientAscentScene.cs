@@ -35,7 +35,7 @@ namespace Collektive.Samples.GradientAscent
         /// <summary>Whether the four obstacles stand in the way.</summary>
         public bool obstacles = true;
 
-        /// <summary>Factor on the field's length and width, and on the source's reach. Where the source stands is a field of its own.</summary>
+        /// <summary>Factor on the field's length and width, and on the source's reach. It does not move the source.</summary>
         [Min(0.1f)]
         public float fieldScale = 1;
 
@@ -82,7 +82,7 @@ namespace Collektive.Samples.GradientAscent
             if (nodes < 1 || !(range >= 0) || !(bodyRadius > 0) || !(fieldScale > 0))
             {
                 manager.Fail("the scene has " + nodes + " nodes of radius " + bodyRadius + " m with a range of " + range + " m on a field of scale "
-                    + fieldScale + ": there must be at least one node, of some size, on a field of some size");
+                    + fieldScale + ": use at least one node, a radius and a scale above 0, and a range of 0 or greater");
                 return;
             }
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
@@ -114,7 +114,7 @@ namespace Collektive.Samples.GradientAscent
                     manager.Random.Range(-35f * fieldScale, 5f * fieldScale), bodyRadius, manager.Random.Range(-25f * fieldScale, 25f * fieldScale));
                 if (places.TryTake(place)) return place;
             }
-            manager.Fail("there is no room for " + nodes + " bodies of radius " + bodyRadius + " m: use fewer or smaller ones, or a larger field");
+            manager.Fail("the field is too small for " + nodes + " bodies of radius " + bodyRadius + " m: use fewer or smaller bodies, or a larger scale");
             return Vector3.zero;
         }
 

@@ -77,7 +77,7 @@ namespace Collektive.Samples.LeaderElection
             if (nodes < 1 || !(range >= 0) || !(radius > 0))
             {
                 manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m and regions of " + radius
-                    + " m: there must be at least one node, and regions of some size");
+                    + " m: use at least one node, regions above 0, and a range of 0 or greater");
                 return;
             }
             this.manager = manager;

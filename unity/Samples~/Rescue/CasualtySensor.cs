@@ -11,11 +11,11 @@ namespace Collektive.Samples.Rescue
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres within which a casualty is perceived.")]
+        [Tooltip("Range of the sensor in metres.")]
         private float reach = 4;
 
         [SerializeField]
-        [Tooltip("Whether this is the base.")]
+        [Tooltip("On: this node is the base.")]
         private bool isBase;
 
         private IReadOnlyList<Vector3> casualties;

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Rescue
 {
-    /// <summary>Drives as the program says.</summary>
+    /// <summary>Drives the robot at the program's velocity.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Drive Actuator")]
     public sealed class DriveActuator : SetVelocityActuator<ActuatorData>
     {

@@ -56,7 +56,10 @@ namespace Collektive.Samples.Rescue
         /// <inheritdoc/>
         public override IReadOnlyList<NodeShade> Shades => new[]
         {
-            new NodeShade("role", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Role : double.NaN) { IsCategory = true, Words = RoleColor.Names },
+            new NodeShade("role", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Role : double.NaN)
+            {
+                IsCategory = true, Categories = RoleColor.Names,
+            },
             new NodeShade("distance to the base", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
@@ -109,7 +112,7 @@ namespace Collektive.Samples.Rescue
         {
             if (robots < 1 || robots > 300 || !(range >= 0))
             {
-                manager.Fail("the scene has " + robots + " robots with a range of " + range + " m: there is room for 1 to 300");
+                manager.Fail("the scene has " + robots + " robots with a range of " + range + " m: use 1 to 300 robots, and a range of 0 or greater");
                 return;
             }
             this.manager = manager;

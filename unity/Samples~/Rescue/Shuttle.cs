@@ -9,16 +9,16 @@ namespace Collektive.Samples.Rescue
     public sealed class Shuttle : MonoBehaviour
     {
         [SerializeField]
-        [Tooltip("Where it turns, in metres.")]
+        [Tooltip("Turning point, in metres.")]
         private Vector3 from;
 
         [SerializeField]
-        [Tooltip("Where it turns, in metres.")]
+        [Tooltip("Turning point, in metres.")]
         private Vector3 to;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres per second.")]
+        [Tooltip("Speed in metres per second.")]
         private float speed = 1;
 
         private SimulationManager manager;

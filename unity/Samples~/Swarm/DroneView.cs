@@ -7,14 +7,14 @@ using UnityEngine;
 namespace Collektive.Samples.Swarm
 {
     /// <summary>
-    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers of their own: 10,000 of these would take
-    /// longer than the rest of a frame, and twenty draws of 500 instances do not. Nothing is drawn in batch mode.
+    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers: 10,000 of them would take
+    /// longer than the rest of a frame, and twenty draws of 500 instances do not. It draws nothing in batch mode.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
     public sealed class DroneView : MonoBehaviour
     {
         // Any graphics API takes so many at once.
-        private const int MostInstances = 500;
+        private const int MaxInstances = 500;
 
         private static readonly Color[] Colors =
         {
@@ -40,7 +40,7 @@ namespace Collektive.Samples.Swarm
             for (var i = 0; i < Colors.Length; i++)
             {
                 materials[i] = new Material(model.GetComponent<Renderer>().sharedMaterial) { color = Colors[i], enableInstancing = true };
-                places[i] = new Matrix4x4[MostInstances];
+                places[i] = new Matrix4x4[MaxInstances];
             }
             Destroy(model);
         }
@@ -69,7 +69,7 @@ namespace Collektive.Samples.Swarm
                 place.m23 = position.z;
                 var shape = drone.TryGetAnswer(out ActuatorData answer) ? Mathf.Clamp(answer.Shape + 1, 0, Colors.Length - 1) : 0;
                 places[shape][counts[shape]++] = place;
-                if (counts[shape] == MostInstances) Draw(shape);
+                if (counts[shape] == MaxInstances) Draw(shape);
             }
             for (var shape = 0; shape < Colors.Length; shape++) Draw(shape);
         }

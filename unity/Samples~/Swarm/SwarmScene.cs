@@ -8,7 +8,7 @@ namespace Collektive.Samples.Swarm
 {
     /// <summary>
     /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and the news
-    /// passes through the swarm from neighbour to neighbour. After a while whoever leads fails, and another drone takes its place.
+    /// passes through the swarm from neighbour to neighbour. After a while the leader fails, and another drone replaces it.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm Scene")]
     public sealed class SwarmScene : SceneBuilder
@@ -28,7 +28,7 @@ namespace Collektive.Samples.Swarm
         [Min(1)]
         public float hold = 15;
 
-        /// <summary>Simulated seconds after which whoever leads fails.</summary>
+        /// <summary>Simulated seconds after which the leader fails.</summary>
         [Min(0)]
         public float failAfter = 20;
 
@@ -81,7 +81,7 @@ namespace Collektive.Samples.Swarm
             if (drones < 1 || !(hold > 0) || !(speed > 0))
             {
                 manager.Fail("the scene has " + drones + " drones that fly " + speed + " m/s and hold a shape for " + hold
-                    + " s: there must be at least one drone, and some time and speed");
+                    + " s: use at least one drone, and a time and a speed above 0");
                 return;
             }
             this.manager = manager;

@@ -26,7 +26,7 @@ namespace Collektive.Unity.Tests
         [UnityTest]
         public IEnumerator A_scene_without_its_schema_says_what_to_do_and_stops()
         {
-            LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: schema 'nowhere.NoSchema' does not exist.*Name one in the Simulation Manager"));
+            LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: schema 'nowhere.NoSchema' does not exist.*Select one in the Simulation Manager"));
             var manager = Make<SimulationManager>("Manager");
             manager.Settings.schema = "nowhere.NoSchema";
             yield return null;
@@ -40,7 +40,7 @@ namespace Collektive.Unity.Tests
         public void A_second_manager_disables_itself()
         {
             var first = Make<SimulationManager>("First");
-            LogAssert.Expect(LogType.Error, new Regex("'Second' is a second Simulation Manager; 'First' runs the simulation"));
+            LogAssert.Expect(LogType.Error, new Regex("'Second' is a second Simulation Manager; 'First' already runs the simulation"));
             var second = Make<SimulationManager>("Second");
             Assert.That(first.enabled, Is.True);
             Assert.That(second.enabled, Is.False);
@@ -69,7 +69,7 @@ namespace Collektive.Unity.Tests
             holder.transform.SetParent(root.transform);
             holder.SetActive(false);
             holder.AddComponent<Node>().RequestedId = 0;
-            LogAssert.Expect(LogType.Error, new Regex("'Other' wants id 0, which node 'One' has"));
+            LogAssert.Expect(LogType.Error, new Regex("'Other' has id 0, which node 'One' already uses"));
             holder.SetActive(true);
             Assert.That(manager.enabled, Is.False);
         }

@@ -15,7 +15,7 @@ import java.util.concurrent.Executors
 import java.util.logging.LogManager
 import kotlin.concurrent.thread
 
-/** Counts its rounds; in one whose sensor says 1 it does what the parameter names. */
+/** Counts its rounds, and causes the parameter's fault in a round whose sensor is 1. */
 @Program("fault", parameters = [Parameter("fault", "none", "What goes wrong when the value is 1.")])
 public fun Aggregate<Int>.fault(sensors: SensorData, device: Device): ActuatorData {
     val rounds = evolve(0) { it + 1 }
@@ -99,7 +99,7 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
 
         "keep-view" -> evolve<Any>(0) { old -> if (old == 1) old else sensors }
 
-        else -> error("there is no fault '$fault'")
+        else -> error("unknown fault '$fault'")
     }
 }
 
@@ -132,7 +132,7 @@ private fun fillHeap(): Nothing {
     }
 }
 
-/** A loader that makes a class of its own from the bytes of this one. */
+/** A loader that defines another class from the bytes of this one. */
 private class Copies : ClassLoader(null) {
     fun make(): Class<*> = defineClass(NAME, BYTES, 0, BYTES.size)
 

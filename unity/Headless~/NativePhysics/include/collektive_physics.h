@@ -2,7 +2,7 @@
  * collektive_physics: the physics of the headless player, PhysX behind a C interface.
  *
  * A world holds actors (bodies, or places of static colliders) and their shapes. State crosses in blocks: the caller fills an array of commands,
- * physics_step applies it, moves the world and returns arrays of what moved and what touched. Nothing is called per body in steady state.
+ * physics_step applies it, moves the world and returns arrays of what moved and what touched. The steady state needs no calls per body.
  *
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
  * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step and queries of several rays use worker
@@ -51,7 +51,7 @@ PHYSICS_API const char *physics_error(void);
 
 /* ---- Worlds ---- */
 
-/* Makes an empty world. `threads` (1 or more, the calling one among them) work for it together. NULL when there is no memory. */
+/* Makes an empty world. `threads` (1 or more, the calling one among them) work for it together. NULL without memory. */
 PHYSICS_API physics_world *physics_world_create(int32_t threads);
 
 /* Frees the world with all that is in it. Meshes stay. */
@@ -126,7 +126,7 @@ PHYSICS_API void physics_shape_bounds(physics_world *world, int32_t shape, physi
 /* ---- Meshes ---- */
 
 /* Makes a mesh of points and triangles (three indices each). A convex one is the hull around the points, of at most 255 corners; a concave one has
- * no inside. NULL, with physics_error set, when there is no such hull or mesh. Any thread may call this. */
+ * no inside. NULL, with physics_error set, when the hull or mesh cannot be built. Any thread may call this. */
 PHYSICS_API physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_count, const int32_t *indices,
                                               int32_t index_count, int32_t convex);
 
@@ -158,7 +158,7 @@ PHYSICS_API void physics_joint_destroy(physics_world *world, int32_t joint);
 
 /* ---- Steps ---- */
 
-/* What commands ask for, in the order of the array. Unless said otherwise `value` holds x, y, z. Commands to static actors other than POSE do nothing. */
+/* What commands ask for, in the order of the array. By default `value` contains x, y, z. Commands to static actors other than POSE do nothing. */
 enum {
     PHYSICS_POSE = 0,   /* position and rotation: there at once */
     PHYSICS_TARGET = 1, /* position and rotation: a kinematic body gets there with the next step */
@@ -223,7 +223,7 @@ typedef struct {
 PHYSICS_API void physics_apply(physics_world *world, const physics_command *commands, int32_t count);
 
 /* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes lie in one
- * place than memory allows pairs of. `motions` has an item for each handle of a body; written are those of the bodies that move or fall asleep, with
+ * place than memory allows pairs of. `motions` has an item for each handle of a body; the bodies that move or fall asleep are written, with
  * the step's number. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
 PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds,
                                  const physics_vector *gravity, int32_t number, physics_motion *motions, physics_result *result);
@@ -283,7 +283,7 @@ PHYSICS_API int32_t physics_sweep(physics_world *world, const physics_geometry *
                                   const physics_vector *direction, float distance, const physics_filter *filter, physics_hit *hits,
                                   int32_t capacity);
 
-/* The same with all shapes of a body that are no triggers; the body itself is not hit. */
+/* The same with all shapes of a body except triggers; the body itself is not hit. */
 PHYSICS_API int32_t physics_sweep_actor(physics_world *world, int32_t actor, const physics_vector *direction, float distance,
                                         int32_t triggers, physics_hit *hits, int32_t capacity);
 

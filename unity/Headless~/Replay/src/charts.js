@@ -1,76 +1,99 @@
-// The metrics over time, one small chart for each, with a line where the clock is.
+// Values over time: a small chart for each, with a line for each run and a mark where the clock is.
 import './language.js';
 import uPlot from 'uplot';
-import { short } from './fields.js';
+import { extent, lastAt, nameOf, short, textOf } from './fields.js';
 import { part } from './legend.js';
 
-const HEIGHT = 74;
-const AXIS = 42;
+const HEIGHT = 80;
 
 export class Charts {
-  /** `onSeek` is called with the time of a click. */
-  constructor(holder, { times, series }, onSeek) {
-    this.times = times;
-    // The counts of a network without losses say nothing.
-    this.series = times.length < 2 ? [] : series.filter(({ values }) => values.some((value) => value !== 0 && value !== null));
-    this.charts = this.series.map(({ name, values }) => {
+  /** Each of `runs` has `times` and `series`, which are fields with `values`, null for none. `onSeek` is called with the time of a click. */
+  constructor(holder, runs, onSeek, time) {
+    this.time = time; // of the clock
+    this.axis = 0; // pixels, the same for all charts
+    holder.replaceChildren();
+    const all = runs.flatMap(({ times, series }) => (times.length < 2 ? [] : series.filter(({ values }) => values.some((value) => value !== null))));
+    this.charts = [...new Set(all.map(({ name }) => name))].map((name) => {
+      const field = all.find((each) => each.name === name);
+      const lines = runs.map(({ times, series }) => ({ times, values: series.find((each) => each.name === name)?.values ?? times.map(() => null) }));
       const figure = part('figure', '');
-      const caption = part('figcaption', name.replaceAll('_', ' '));
+      const caption = part('figcaption', nameOf({ ...field, name: name.replaceAll('_', ' ') }));
       const value = part('output', '');
       caption.append(value);
       const canvas = part('div', '');
       figure.append(caption, canvas);
       holder.append(figure);
-      const plot = new uPlot(this.options(holder), [times, values], canvas);
+      const plot = new uPlot(this.options(figure, field, lines), uPlot.join(lines.map(({ times, values }) => [times, values])), canvas);
       plot.root.setAttribute('role', 'img');
-      plot.root.setAttribute('aria-label', describe(name, times, values));
+      plot.root.setAttribute('aria-label', `${caption.firstChild.data} ${lines.map((line) => describe(field, line)).join('; other run ')}`);
       const line = part('div', '');
       line.className = 'now';
       plot.over.append(line);
       plot.over.addEventListener('click', (event) => onSeek(plot.posToVal(event.offsetX, 'x')));
-      return { plot, values, value, line };
+      return { figure, plot, field, lines, value, line };
     });
   }
 
-  options(holder) {
-    const style = (name) => () => getComputedStyle(holder).getPropertyValue(name);
+  options(figure, field, lines) {
+    const style = (name) => () => getComputedStyle(figure).getPropertyValue(name);
     const axis = {
       stroke: style('--quiet'), font: '10px system-ui, "Open Sans", sans-serif', grid: { stroke: style('--line'), width: 1 }, ticks: { show: false },
     };
+    const paths = field.kind === 'number' ? undefined : uPlot.paths.stepped({ align: 1 });
     return {
-      width: this.widthOf(holder), height: HEIGHT, legend: { show: false }, padding: [6, 6, 0, 0],
+      width: this.widthOf(figure), hooks: { draw: [() => this.show(this.time)] }, height: HEIGHT, legend: { show: false }, padding: [6, 6, 0, 0],
       cursor: { drag: { x: false, y: false }, points: { show: false }, y: false, x: false },
       scales: { x: { time: false } },
-      axes: [{ ...axis, size: 16, gap: 0, space: 50 }, { ...axis, size: AXIS, gap: 3, space: 22, values: (_, splits) => splits.map(short) }],
-      series: [{}, { stroke: style('--strong'), width: 1.5, points: { show: false } }],
+      axes: [
+        { ...axis, size: 20, gap: 4, space: 50, values: (_, splits) => splits.map((value) => `${short(value)} s`) },
+        {
+          ...axis, size: (plot, words) => this.widen(plot, words ?? []), gap: 3, space: 22, values: (_, splits) => splits.map((value) => plain(field, value)),
+        },
+      ],
+      series: [{}, ...lines.map((_, i) => ({ stroke: style(i ? '--accent' : '--strong'), width: 1.5, dash: i ? [5, 3] : [], points: { show: false }, paths }))],
     };
   }
 
-  widthOf(holder) {
-    return Math.max(holder.clientWidth - 24, 120);
+  /** The width of an axis that holds some words. */
+  widen(plot, words) {
+    [plot.ctx.font] = plot.axes[1].font;
+    for (const text of words) this.axis = Math.max(this.axis, Math.ceil(plot.ctx.measureText(text).width / devicePixelRatio) + 6);
+    return this.axis;
   }
 
-  /** Moves the lines to a time, and tells the values last measured by then. */
+  widthOf(figure) {
+    return Math.max(figure.clientWidth, 120);
+  }
+
+  /** Moves the marks to a time, and prints the values last measured by then. */
   show(time) {
-    let row = 0;
-    while (row < this.times.length - 1 && this.times[row + 1] <= time + 1e-9) row++;
-    for (const { plot, values, value, line } of this.charts) {
-      value.value = values[row] === null ? 'none' : short(values[row]);
-      line.style.transform = `translateX(${plot.valToPos(Math.min(Math.max(time, this.times[0]), this.times.at(-1)), 'x')}px)`;
+    this.time = time;
+    for (const { plot, field, lines, value, line } of this.charts) {
+      value.value = lines.map(({ times, values }) => {
+        const now = values[lastAt(times, time)];
+        return now === null ? 'none' : plain(field, now);
+      }).join(' | ');
+      line.style.transform = `translateX(${plot.valToPos(Math.min(Math.max(time, plot.data[0][0]), plot.data[0].at(-1)), 'x')}px)`;
     }
   }
 
-  /** Draws anew, in the colours of the theme and the width of the panel. */
-  redraw(holder) {
-    for (const { plot } of this.charts) {
-      plot.setSize({ width: this.widthOf(holder), height: HEIGHT });
-      plot.redraw(false); // before the first picture it would forget the scale
+  /** Draws again, in the colours of the theme and the width of the panel. */
+  redraw() {
+    for (const { plot, figure } of this.charts) {
+      plot.setSize({ width: this.widthOf(figure), height: HEIGHT });
+      plot.redraw(false, true); // rebuilding paths before the first picture would forget the scale
     }
   }
 }
 
-function describe(name, times, values) {
+/** A value without its unit, which the caption has. */
+function plain(field, value) {
+  return field.kind === 'number' ? short(value) : textOf(field, value);
+}
+
+function describe(field, { times, values }) {
   const some = values.filter((value) => value !== null);
-  return `${name.replaceAll('_', ' ')} from ${short(times[0])} to ${short(times.at(-1))} s: first ${short(some[0])}, last ${short(some.at(-1))}, `
-    + `least ${short(Math.min(...some))}, greatest ${short(Math.max(...some))}`;
+  const { least, greatest } = extent(some);
+  const [first, last, low, high] = [some[0] ?? NaN, some.at(-1) ?? NaN, least, greatest].map((value) => textOf(field, value));
+  return `from ${short(times[0])} to ${short(times.at(-1))} s: first ${first}, last ${last}, minimum ${low}, maximum ${high}`;
 }

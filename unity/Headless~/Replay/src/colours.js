@@ -14,10 +14,11 @@ const SCALES = {
   'Blue to red': (share) => interpolateRdBu(1 - share),
 };
 const TEN = schemeObservable10.map(packed);
+// By a category's place in the order of appearance.
 const CATEGORIES = {
-  // A step of the golden angle: neighbouring ids are far apart, and no two of a few hundred are equal.
-  Hues: (value) => packed(hsl((value * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((value % 3) + 3) % 3])),
-  'Ten colours': (value) => TEN[((value % 10) + 10) % 10],
+  'Ten colours': (place) => TEN[((place % 10) + 10) % 10],
+  // A step of the golden angle: the first ones are far apart, and no two of a few hundred are equal.
+  Hues: (place) => packed(hsl((place * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((place % 3) + 3) % 3])),
 };
 
 /** Colour of a node without a value. */
@@ -26,10 +27,10 @@ export const NO_VALUE = 0x9aa3ad;
 export const css = (colour) => `#${colour.toString(16).padStart(6, '0')}`;
 
 /** The palettes for a kind of field, the first one is the best for most. */
-export function palettesOf({ kind, words }) {
+export function palettesOf({ kind, order }) {
   if (kind === 'colour') return [];
   if (kind === 'number') return Object.keys(SCALES);
-  return words.length ? Object.keys(CATEGORIES).reverse() : Object.keys(CATEGORIES);
+  return order.length > TEN.length ? Object.keys(CATEGORIES).reverse() : Object.keys(CATEGORIES);
 }
 
 /** CSS gradient of a whole scale, from left to right. */
@@ -38,8 +39,8 @@ export function gradientOf(palette) {
 }
 
 /** Gives the colour of each value; a number's place on the scale is between `min` and `max`. */
-export function colouring({ kind }, palette, min, max) {
-  const of = { number: () => onScale(SCALES[palette], min, max), category: () => remembered(CATEGORIES[palette]), colour: () => (value) => value }[kind]();
+export function colouring({ kind, order }, palette, min, max) {
+  const of = { number: () => onScale(SCALES[palette], min, max), category: () => inOrder(CATEGORIES[palette], order), colour: () => (value) => value }[kind]();
   return (value) => (Number.isNaN(value) ? NO_VALUE : of(value));
 }
 
@@ -49,8 +50,8 @@ function onScale(interpolate, min, max) {
   return (value) => table[Math.round(Math.min(Math.max((value - min) * factor, 0), STEPS - 1))];
 }
 
-function remembered(colourOf) {
-  const known = new Map();
+function inOrder(colourOf, order) {
+  const known = new Map(order.map((value, place) => [value, colourOf(place)]));
   return (value) => {
     if (!known.has(value)) known.set(value, colourOf(value));
     return known.get(value);

@@ -7,15 +7,19 @@ const element = (id) => document.getElementById(id);
 
 /** Paints the picture on show to another canvas of the same size. */
 export function compose(target, legend) {
-  const source = element('canvas');
-  target.width = source.width;
-  target.height = source.height;
+  const scale = scaleOf(element('canvas'));
+  target.width = Math.round(window.innerWidth * scale);
+  target.height = element('canvas').height;
   const context = target.getContext('2d');
-  context.drawImage(source, 0, 0);
-  const scale = source.width / source.clientWidth;
   context.scale(scale, scale);
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(name);
+  context.fillStyle = colour('--background');
+  context.fillRect(0, 0, target.width, target.height);
+  for (const canvas of document.querySelectorAll('.side canvas')) {
+    const { x, y, width, height } = canvas.getBoundingClientRect();
+    context.drawImage(canvas, x, y, width, height);
+  }
   const font = (size, weight = 400) => { context.font = `${weight} ${size}px system-ui, "Open Sans", sans-serif`; };
   const panel = (x, y, width, height) => {
     context.fillStyle = colour('--panel');
@@ -39,8 +43,17 @@ export function compose(target, legend) {
   font(13);
   text(lines[2], 28, 80, '--quiet');
 
+  if (!element('other-summary').hidden) {
+    const { x, y, width } = element('other-summary').getBoundingClientRect();
+    panel(x, y, width, 60);
+    font(15, 650);
+    text(element('other-title').textContent, x + 14, y + 18);
+    font(13);
+    text(element('other-counts').textContent, x + 14, y + 42, '--quiet');
+  }
+
   const rows = [...legend.categories, ...(element('no-value').hidden ? [] : [{ colour: NO_VALUE, text: 'no value' }])];
-  const left = source.clientWidth - 238;
+  const left = window.innerWidth - 238;
   const isScale = legend.field.kind === 'number';
   panel(left, 14, 224, 38 + (isScale ? 36 : 0) + 20 * rows.length);
   font(13, 600);
@@ -68,6 +81,10 @@ export function compose(target, legend) {
     y += 20;
   }
   return target;
+}
+
+function scaleOf(canvas) {
+  return canvas.width / canvas.clientWidth;
 }
 
 function paintMarker(context, marker, style) {
@@ -116,7 +133,8 @@ export class Video {
   /** Adds the picture on show. */
   frame() {
     // A canvas of another size would end the recording.
-    if (this.canvas.width === element('canvas').width && this.canvas.height === element('canvas').height) compose(this.canvas, this.legend);
+    const width = Math.round(window.innerWidth * scaleOf(element('canvas')));
+    if (this.canvas.width === width && this.canvas.height === element('canvas').height) compose(this.canvas, this.legend);
   }
 
   /** Ends the video; the promise gives its file. */

@@ -1,11 +1,15 @@
 // What can colour the nodes: the recorded fields, and those that follow from places and links.
 
+const SAME_TIME = 1e-6; // seconds: 0.3 is the time of the frame at 0.30000000000000004
+
 /** Fields have `name`, `kind`, `unit`, `words`, their range `least` to `greatest` (undefined: unknown), and `valuesOf(frame)`, by slot. */
 export function fieldsOf(recording) {
   const recorded = recording.fields.map((field, index) => ({ words: [], ...field, valuesOf: (frame) => frame.values[index] }));
   const { least, greatest } = extent(recording.ids);
+  const sizeOf = (i) => (i % 2 ? 0 : Math.min(recording.ids[i + 1] - recording.ids[i] + 1, 256));
+  const order = recording.ids.flatMap((first, i) => Array.from({ length: sizeOf(i) }, (_, n) => first + n));
   const derived = [
-    { name: 'node', kind: 'category', least, greatest, valuesOf: (frame) => frame.ids },
+    { name: 'node', kind: 'category', order, least, greatest, valuesOf: (frame) => frame.ids },
     { name: 'neighbours', kind: 'number', valuesOf: once((frame) => degrees(frame)) },
     { name: 'speed', kind: 'number', unit: 'm/s', valuesOf: once((frame) => speeds(recording, frame)) },
     { name: 'height', kind: 'number', unit: 'm', valuesOf: once((frame) => frame.values[0].map((_, slot) => frame.places[4 * slot + 1])) },
@@ -13,7 +17,28 @@ export function fieldsOf(recording) {
   return [...recorded, ...derived.filter(({ name }) => !recorded.some((field) => field.name === name)).map((field) => ({ words: [], ...field }))];
 }
 
-/** The least and the greatest of some values; 0 if there is none. */
+/** The values of a field at a node in each frame, null where it has none; null for all once they are no longer `wanted`. */
+export async function historyOf({ recording, fields }, { name }, id, wanted) {
+  const field = fields.find((each) => each.name === name);
+  const values = [];
+  for (let number = 0; field && number < recording.texts.length; number++) {
+    const segment = await recording.read(number);
+    if (!wanted()) return null;
+    for (let i = 0; i < segment.count; i++) {
+      const frame = segment.frame(i);
+      const value = field.valuesOf(frame)[slotOf(frame, id)];
+      values.push(value === undefined || Number.isNaN(value) ? null : value);
+    }
+  }
+  return values;
+}
+
+/** The slot of a node in a frame; -1 if it is not there. */
+export function slotOf({ slots, ids }, id) {
+  return slots.find((slot) => ids[slot] === id) ?? -1;
+}
+
+/** The least and the greatest of some values; 0 without values. */
 export function extent(values) {
   let [least, greatest] = [Infinity, -Infinity];
   for (const value of values) {
@@ -21,6 +46,22 @@ export function extent(values) {
     if (value > greatest) greatest = value;
   }
   return least <= greatest ? { least, greatest } : { least: 0, greatest: 0 };
+}
+
+/** The index of the last of some times that is at or before one, else 0. */
+export function lastAt(times, time) {
+  let low = 0;
+  let high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= time + SAME_TIME) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+export function nameOf({ name, unit }) {
+  return name + (unit ? ` (${unit})` : '');
 }
 
 /** A value in the field's own words. */
@@ -31,7 +72,9 @@ export function textOf({ kind, unit, words }, value) {
   return short(value) + (unit ? ` ${unit}` : '');
 }
 
+/** Four digits, but all of a whole number: counts must be equal wherever they are shown. */
 export function short(value) {
+  if (Number.isInteger(value) && Math.abs(value) < 1e9) return value.toLocaleString('en');
   return Number(value.toPrecision(4)).toLocaleString('en', { maximumSignificantDigits: 4 });
 }
 
@@ -49,12 +92,13 @@ function degrees(frame) {
   return counts;
 }
 
-/** From this frame to the next, or from the one before at the end of a segment. */
+/** From this frame to the next, or at the end of a segment from the one before. */
 function speeds(recording, frame) {
   const result = new Float32Array(frame.present.length).fill(NaN);
-  const step = (frame.index + 1) % recording.framesPerSegment === 0 || frame.index === recording.count - 1 ? -1 : 1;
-  const other = frame.index + step < 0 ? null : recording.frame(frame.index + step);
-  if (!other) return result;
+  const { first, count } = frame.segment;
+  if (count === 1) return result;
+  const at = frame.index - first;
+  const other = frame.segment.frame(at + 1 < count ? at + 1 : at - 1);
   const seconds = Math.abs(recording.times[other.index] - recording.times[frame.index]);
   for (const slot of frame.slots) {
     if (!other.present[slot]) continue;

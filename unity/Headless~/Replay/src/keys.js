@@ -32,7 +32,7 @@ export function bindKeys(player) {
     '+': () => view.turn(0, 0, 0.9),
     '=': () => view.turn(0, 0, 0.9),
     '-': () => view.turn(0, 0, 1 / 0.9),
-    Escape: () => player.select(null),
+    Escape: () => (document.getElementById('keys').hidden ? player.select(null) : player.showKeys(false)),
   };
   window.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

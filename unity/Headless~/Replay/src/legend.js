@@ -1,8 +1,9 @@
-// The panel that says what the colours mean, and where they are chosen.
+// The panel that explains and selects colours.
 import { colouring, css, gradientOf, NO_VALUE, palettesOf } from './colours.js';
-import { extent, short, textOf } from './fields.js';
+import { extent, nameOf, short, textOf } from './fields.js';
 
 const MOST_CATEGORIES = 8;
+const BARS = 24;
 const element = (id) => document.getElementById(id);
 
 export class Legend {
@@ -10,12 +11,14 @@ export class Legend {
   constructor(fields, onChange) {
     this.fields = fields;
     this.onChange = onChange;
+    this.otherFields = [];
     element('field').replaceChildren(...fields.map((field) => option(nameOf(field))));
     element('field').addEventListener('change', () => this.choose(element('field').selectedIndex));
     element('palette').addEventListener('change', () => this.colour());
     for (const id of ['range-min', 'range-max']) element(id).addEventListener('change', () => this.setRange(...this.typedRange()));
     element('fit').addEventListener('click', () => this.fit());
     element('whole-range').addEventListener('click', () => this.setRange(...this.wholeRange()));
+    element('histogram').replaceChildren(...Array.from({ length: BARS }, () => part('i', '')));
     element('no-value').querySelector('i').style.background = css(NO_VALUE);
   }
 
@@ -34,8 +37,26 @@ export class Legend {
     this.setRange(...this.wholeRange());
   }
 
+  /** Scales and categories hold for the fields of another run too, those of the same name. */
+  compare(others) {
+    this.otherFields = others;
+    this.choose(this.fields.indexOf(this.field));
+  }
+
+  /** The whole runs' range and categories of a field. */
+  wholeOf({ name, kind, least, greatest, order }) {
+    const same = this.otherFields.filter((each) => each.name === name && each.kind === kind);
+    const all = [{ least, greatest, order }, ...same];
+    return {
+      least: least === undefined ? undefined : Math.min(...all.map((each) => each.least)),
+      greatest: Math.max(...all.map((each) => each.greatest)),
+      order: order && [...new Set(all.flatMap((each) => each.order))],
+    };
+  }
+
   wholeRange() {
-    const { min, max, least, greatest } = this.field;
+    const { min, max } = this.field;
+    const { least, greatest } = this.wholeOf(this.field);
     element('whole-range').hidden = least === undefined;
     return least === undefined ? this.rangeOnShow() : [min ?? least, max ?? greatest];
   }
@@ -66,22 +87,23 @@ export class Legend {
     const palette = element('palette').value;
     if (this.field.kind === 'number') {
       element('gradient').style.background = gradientOf(palette);
-      this.ticks = [this.min, (this.min + this.max) / 2, this.max].map(short);
+      this.ticks = [short(this.min), short((this.min + this.max) / 2), textOf(this.field, this.max)];
       element('ticks').replaceChildren(...this.ticks.map((text) => part('span', text)));
     }
-    this.of = colouring(this.field, palette, this.min, this.max);
+    this.of = colouring({ ...this.field, order: this.wholeOf(this.field).order }, palette, this.min, this.max);
     this.shown = null;
     if (this.frame) this.show(this.frame);
     this.onChange();
   }
 
-  /** Tells what the frame has: its categories with most nodes first, and whether some nodes have no value. */
+  /** Describes the frame: its histogram or its categories, those with most nodes first, and whether some nodes have no value. */
   show(frame) {
     this.frame = frame;
     if (this.shown === frame) return;
     this.shown = frame;
     const values = this.field.valuesOf(frame);
     element('no-value').hidden = !frame.slots.some((slot) => Number.isNaN(values[slot]));
+    if (this.field.kind === 'number') this.drawHistogram(frame, values);
     this.categories = this.field.kind === 'number' ? [] : this.countCategories(frame, values);
     const rows = this.categories.map(({ colour, text }) => {
       const row = part('li', text);
@@ -94,6 +116,26 @@ export class Legend {
     element('categories').replaceChildren(...rows);
   }
 
+  /** Bars over the scale; like the colours, its ends count the values beyond it. */
+  drawHistogram({ slots }, values) {
+    const counts = new Array(BARS).fill(0);
+    const scale = this.max > this.min ? BARS / (this.max - this.min) : 0;
+    for (const slot of slots) {
+      const bar = Math.min(Math.max(Math.floor((values[slot] - this.min) * scale), 0), BARS - 1);
+      if (!Number.isNaN(bar)) counts[bar]++;
+    }
+    const most = Math.max(...counts);
+    counts.forEach((count, i) => {
+      const bar = element('histogram').children[i];
+      bar.style.height = `${most && (100 * count) / most}%`;
+      bar.style.background = css(this.of(this.min + ((i + 0.5) / BARS) * (this.max - this.min)));
+    });
+    const [from, to] = [0, 1].map((end) => this.min + ((counts.indexOf(most) + end) / BARS) * (this.max - this.min));
+    const words = `Histogram: at most ${most.toLocaleString('en')} nodes in a bar, from ${short(from)} to ${textOf(this.field, to)}`;
+    element('histogram').setAttribute('aria-label', words);
+    element('histogram').title = words;
+  }
+
   countCategories(frame, values) {
     const counts = new Map();
     for (const slot of frame.slots) if (!Number.isNaN(values[slot])) counts.set(values[slot], (counts.get(values[slot]) ?? 0) + 1);
@@ -104,10 +146,6 @@ export class Legend {
       colour: this.of(value), text: `${textOf(this.field, value)} · ${count.toLocaleString('en')} node${count === 1 ? '' : 's'}`,
     }));
   }
-}
-
-function nameOf({ name, unit }) {
-  return name + (unit ? ` (${unit})` : '');
 }
 
 function option(text) {

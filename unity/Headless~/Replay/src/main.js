@@ -1,11 +1,12 @@
 // Joins the recording, the view and the controls, and offers `window.replay` to scripts.
 import { Charts } from './charts.js';
 import { canRecord, compose, save, Video } from './exports.js';
-import { fieldsOf, textOf } from './fields.js';
+import { historyOf, slotOf } from './fields.js';
 import { bindKeys } from './keys.js';
 import { Legend, part } from './legend.js';
-import { open } from './recording.js';
-import { View } from './view.js';
+import { open, ReplayError } from './recording.js';
+import { Run } from './run.js';
+import { neighboursOf } from './swarm.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
 const MOST_LISTED = 60; // neighbours with a button
@@ -14,8 +15,7 @@ const element = (id) => document.getElementById(id);
 
 class Player {
   constructor(recording) {
-    this.recording = recording;
-    this.here = null; // the frame on show
+    this.runs = [new Run(recording, element('side'))]; // a second one while two are compared
     this.waits = 0;
     this.time = recording.times[0];
     this.speed = 1;
@@ -23,12 +23,10 @@ class Player {
     this.linksVisible = true;
     this.selected = null; // a node's id
 
-    this.fields = fieldsOf(recording);
-    this.view = new View(element('canvas'), element('labels'), recording);
     this.view.onFrame = (now) => this.tick(now);
     this.view.onDrawn = () => this.video?.frame();
     this.describeRun();
-    this.charts = new Charts(element('charts'), recording.metrics, (time) => this.show(time));
+    this.drawCharts();
     this.legend = new Legend(this.fields, () => this.recolour());
     this.legend.choose(0);
     this.bind();
@@ -38,28 +36,52 @@ class Player {
     this.resize(); // now the panels have their words
   }
 
+  get other() {
+    return this.runs[1];
+  }
+
+  get recording() {
+    return this.runs[0].recording;
+  }
+
+  get view() {
+    return this.runs[0].view;
+  }
+
+  get fields() {
+    return this.runs[0].fields;
+  }
+
+  /** The frame of the first run that is on show. */
+  get here() {
+    return this.runs[0].here;
+  }
+
+  /** The recording that ends last: its frames are those of the playback bar. */
+  get clock() {
+    return this.runs.reduce((last, run) => (run.lastTime > last.lastTime ? run : last)).recording;
+  }
+
   get lastTime() {
-    return this.recording.times[this.recording.count - 1];
+    return this.clock.times.at(-1);
   }
 
   /**
    * Shows the moment `time`: nodes between two frames are drawn between their places, everything else is the earlier frame's. The promise
-   * is fulfilled when it is on show, or a later wish is.
+   * resolves when it, or a later request, is shown.
    */
   show(time) {
     this.time = Math.min(Math.max(time, this.recording.times[0]), this.lastTime);
     if (this.refresh()) return undefined;
     const arrival = this.arrive(this.time);
-    arrival.catch(() => {}); // said on the page
+    arrival.catch(() => {}); // reported on the page
     return arrival;
   }
 
   async arrive(time) {
-    const { recording } = this;
-    const frame = recording.frameAt(time);
     this.waits++;
     try {
-      await Promise.all([recording.load(frame), recording.load(Math.min(frame + 1, recording.count - 1))]);
+      await Promise.all(this.runs.map((run) => run.load(time)));
       if (this.time === time) this.refresh();
     } catch (error) {
       this.pause();
@@ -72,37 +94,24 @@ class Player {
 
   /** Shows this moment if its frames are there. */
   refresh() {
-    const { recording, view } = this;
-    const frame = recording.frameAt(this.time);
-    const last = recording.count - 1;
-    const here = recording.frame(frame);
-    const next = recording.frame(Math.min(frame + 1, last));
-    if (!here || !next) return false;
-    // What plays on finds its frames there.
-    if (this.here !== here) for (const near of [frame, frame + 1, frame + recording.framesPerSegment]) recording.load(Math.min(near, last)).catch(() => {});
-    this.here = here;
-    const share = here === next ? 0 : (this.time - recording.times[frame]) / (recording.times[frame + 1] - recording.times[frame]);
-    const selected = this.selectedSlot;
-    view.show({ here, next, share, links: this.links, selected, factor: this.factor });
-    this.showTrails();
+    const how = { links: this.links, factor: this.factor, trails: element('trails').checked };
+    const shown = this.runs.map((run) => run.show(this.time, this.selected, how));
+    if (shown.includes(false)) return false;
+    const { here, recording, clock } = this;
     this.legend.show(here);
     this.charts.show(this.time);
-    const links = here.pairs.length / 2;
+    this.history?.show(this.time);
+    const frame = clock.frameAt(this.time);
     element('scrub').value = frame;
     element('scrub').setAttribute('aria-valuetext', `${this.time.toFixed(1)} seconds`);
     const tick = Math.round(this.time / recording.metadata.deltaTime).toLocaleString('en');
-    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · tick ${tick} · frame ${frame + 1} / ${recording.count}`;
+    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · tick ${tick} · frame ${frame + 1} / ${clock.count}`;
     element('clock').textContent = `t = ${this.time.toFixed(1)} s`;
     element('node-count').textContent = plural(here.slots.length, 'node');
-    element('link-count').textContent = (here.linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(here.linksInAll, 'link');
+    element('link-count').textContent = linksOf(here);
+    if (this.other) element('other-counts').textContent = `${plural(this.other.here.slots.length, 'node')} · ${linksOf(this.other.here)}`;
     this.describeSelection();
     return true;
-  }
-
-  /** The slot of the selected node in the frame on show; -1: there is none. */
-  get selectedSlot() {
-    const { slots, ids } = this.here;
-    return slots.find((slot) => ids[slot] === this.selected) ?? -1;
   }
 
   get links() {
@@ -110,62 +119,58 @@ class Player {
     return element('links-selected').checked ? 'selected' : 'all';
   }
 
-  /** Colours the nodes as the legend says. */
+  /** Colours the nodes as in the legend. */
   recolour() {
-    const { legend, view } = this;
-    view.swarm.setColours((frame) => {
-      const values = legend.field.valuesOf(frame);
-      return (slot) => legend.of(values[slot]);
-    });
+    const { legend } = this;
+    for (const run of this.runs) run.colour(legend.field, legend.of);
+    this.showHistory();
+    this.resize(); // the legend has another height
     if (this.here) this.refresh();
   }
 
-  showTrails() {
-    const mode = element('trails').checked ? 'all' : 'none';
-    const selected = this.selectedSlot;
-    const slots = mode === 'all' ? (selected >= 0 ? [selected] : this.here.slots) : [];
-    const wanted = `${mode} ${this.here.index} ${this.selected}`;
-    if (wanted === this.trails) return;
-    this.trails = wanted;
-    this.view.swarm.trails.show(this.recording, this.here, slots, () => {
-      if (this.trails !== wanted) return;
-      this.trails = null;
-      this.refresh();
-    });
+  /** Charts the field of the legend for the selected node, once all frames are read. */
+  async showHistory() {
+    const { runs, selected } = this;
+    const { field } = this.legend;
+    if (this.historyOf?.field === field && this.historyOf.selected === selected && this.historyOf.runs === runs) return;
+    const wanted = { field, selected, runs };
+    this.historyOf = wanted;
+    this.history = null;
+    element('history').hidden = true;
+    if (selected === null || field.kind === 'colour') return;
+    const values = await Promise.all(runs.map((run) => historyOf(run, field, selected, () => this.historyOf === wanted)));
+    if (this.historyOf !== wanted) return;
+    element('history').hidden = false;
+    this.history = new Charts(element('history'), runs.map(({ recording: { times } }, i) => ({ times, series: [{ ...field, values: values[i] }] })),
+      (time) => this.show(time), this.time);
   }
 
   describeSelection() {
     element('selection').hidden = this.selected === null;
     if (this.selected === null) return;
-    const { selectedSlot: selected, here: frame } = this;
+    const frame = this.here;
+    const selected = slotOf(frame, this.selected);
     element('selected-name').textContent = `Node ${this.selected}`;
     const here = selected >= 0;
     element('selected-position').textContent = here
       ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not there at this time';
-    if (this.described === frame && this.describedNode === this.selected) return;
-    [this.described, this.describedNode] = [frame, this.selected];
-    element('selected-values').replaceChildren(...(here ? this.fields : []).filter(({ name }) => name !== 'node' && name !== 'neighbours').flatMap((field) => [
-      part('dt', field.name), part('dd', textOf(field, field.valuesOf(frame)[selected])),
+    const described = [this.selected, ...this.runs.map((run) => run.here)];
+    if (described.every((each, i) => this.described?.[i] === each) && this.described.length === described.length) return;
+    this.described = described;
+    element('selected-values').replaceChildren(...this.fields.filter(({ name }) => name !== 'node' && name !== 'neighbours').flatMap((field) => [
+      part('dt', field.name), part('dd', this.runs.map((run) => run.textAt(field, this.selected)).join(' | ')),
     ]));
-    const neighbours = here ? this.neighbours(selected) : [];
-    const some = frame.linksInAll > frame.pairs.length / 2 ? ' by the links shown' : '';
+    const neighbours = here ? neighboursOf(frame, selected).sort((a, b) => frame.ids[a.slot] - frame.ids[b.slot]) : [];
+    const some = frame.linksInAll > frame.links ? ' by the links shown' : '';
     element('selected-neighbours').textContent = here ? plural(neighbours.length, 'neighbour') + some : '';
-    element('neighbour-list').replaceChildren(...neighbours.slice(0, MOST_LISTED).map((id) => {
-      const button = part('button', id);
-      button.setAttribute('aria-label', `Select node ${id}`);
+    element('neighbour-list').replaceChildren(...neighbours.slice(0, MOST_LISTED).map(({ slot, way }) => {
+      const id = frame.ids[slot];
+      const button = part('button', ['to ', 'from ', ''][way - 1] + id);
+      button.title = `Node ${id} ${['receives from this node', 'sends to this node', 'sends and receives'][way - 1]}`;
+      button.setAttribute('aria-label', `${button.textContent}: select node ${id}`);
       button.addEventListener('click', () => this.selectId(id));
       return button;
     }), ...(neighbours.length > MOST_LISTED ? [part('span', `and ${neighbours.length - MOST_LISTED} more`)] : []));
-  }
-
-  neighbours(slot) {
-    const found = [];
-    const { pairs, ids } = this.here;
-    for (let i = 0; i < pairs.length; i += 2) {
-      if (pairs[i] === slot) found.push(ids[pairs[i + 1]]);
-      else if (pairs[i + 1] === slot) found.push(ids[pairs[i]]);
-    }
-    return found.sort((a, b) => a - b);
   }
 
   tick(now) {
@@ -178,7 +183,8 @@ class Player {
   }
 
   seek(frame) {
-    return this.show(this.recording.times[Math.min(Math.max(Math.round(frame), 0), this.recording.count - 1)]);
+    const { times } = this.clock;
+    return this.show(times[Math.min(Math.max(Math.round(frame), 0), times.length - 1)]);
   }
 
   play() {
@@ -228,6 +234,7 @@ class Player {
   select(id) {
     this.selected = id;
     element('find').value = id ?? '';
+    this.showHistory();
     this.refresh();
   }
 
@@ -245,11 +252,61 @@ class Player {
   }
 
   describeRun() {
-    const { metadata, count, nodes } = this.recording;
+    const { metadata, nodes } = this.recording;
     document.title = metadata.title;
     element('title').textContent = metadata.title;
     element('title').title = `seed ${metadata.seed}, ${plural(nodes, 'node')} in all`;
-    element('scrub').max = count - 1;
+    element('scrub').max = this.clock.count - 1;
+  }
+
+  /** Shows the run of another page, given as its HTML, beside this one; null: this one alone. */
+  async compare(page) {
+    this.pause();
+    if (page !== null) {
+      const data = /<script id="replay"[^>]*>([^<]*)</.exec(page);
+      if (!data) throw new ReplayError('This file is not a replay page. Choose a replay.html.');
+      const recording = await open(data[1].trim());
+      await recording.load(0);
+      this.compare(null);
+      const holder = element('side').cloneNode(true);
+      holder.removeAttribute('id');
+      holder.firstElementChild.removeAttribute('id');
+      holder.firstElementChild.setAttribute('aria-label', '3D view of the other run');
+      holder.lastElementChild.replaceChildren();
+      element('side').after(holder);
+      const [first] = this.runs;
+      const other = new Run(recording, holder);
+      this.runs = [first, other];
+      other.view.arena = first.view.arena; // one camera for both
+      other.view.setTheme(this.theme);
+      [first, other].forEach(({ view }, i) => { view.onMoved = () => this.runs[1 - i]?.view.lookAs(view); });
+      this.bindPicking(other);
+      element('other-title').textContent = recording.metadata.title;
+    } else if (this.other) {
+      this.other.view.dispose();
+      this.runs = this.runs.slice(0, 1);
+    }
+    this.legend.compare(this.other?.fields ?? []);
+    element('compare').setAttribute('aria-pressed', String(page !== null));
+    element('other-summary').hidden = page === null;
+    this.describeRun();
+    this.drawCharts();
+    this.resize();
+    return this.show(this.time);
+  }
+
+  drawCharts() {
+    // The counts of a network without losses say nothing.
+    const metrics = ({ recording: { metrics: { times, series } } }) => ({
+      times, series: series.filter(({ values }) => values.some((value) => value)).map((each) => ({ kind: 'number', ...each })),
+    });
+    this.charts = new Charts(element('charts'), this.runs.map(metrics), (time) => this.show(time), this.time);
+  }
+
+  showKeys(visible) {
+    element('keys').hidden = !visible;
+    element('help').setAttribute('aria-expanded', String(visible));
+    this.resize();
   }
 
   showCharts(visible) {
@@ -300,12 +357,18 @@ class Player {
     charts.style.top = `${summary.bottom + 10}px`;
     charts.style.maxHeight = `${controls.top - summary.bottom - 20}px`;
     document.body.style.setProperty('--controls', `${picture ? 0 : window.innerHeight - controls.top}px`);
-    const left = picture || charts.hidden ? 0 : charts.getBoundingClientRect().right;
-    // Both panels leave most of a wide window; in a narrow one they lie over the picture.
-    const right = left > 0 ? window.innerWidth - element('legend').getBoundingClientRect().left : 0;
+    // In a wide window the panels stand beside the picture, in a narrow one above it.
     const wide = window.innerWidth >= 1000;
-    this.view.resize(window.innerWidth, window.innerHeight, { top: 28, bottom, left: wide ? left : 0, right: wide ? right : 0 });
-    if (!charts.hidden) this.charts.redraw(charts);
+    const legend = element('legend').getBoundingClientRect();
+    const left = picture || charts.hidden || !wide ? 0 : charts.getBoundingClientRect().right;
+    const right = wide ? window.innerWidth - legend.left : 0;
+    const top = wide ? 28 : Math.min(Math.max(summary.bottom, legend.bottom) + 8, window.innerHeight / 2 - bottom / 2);
+    if (this.other) {
+      const width = (window.innerWidth - left - right) / 2;
+      Object.assign(element('other-summary').style, { left: `${left + width + 14}px`, top: wide ? '' : `${top}px` });
+      this.runs.forEach(({ view }, i) => view.resize(left + i * width, width, window.innerHeight, { top, bottom, left: 0, right: 0 }));
+    } else this.view.resize(0, window.innerWidth, window.innerHeight, { top, bottom, left, right });
+    if (!charts.hidden) this.charts.redraw();
   }
 
   /** Hides what can be pressed, for pictures. */
@@ -342,25 +405,35 @@ class Player {
     element('video').hidden = !canRecord();
     element('view-above').addEventListener('click', () => this.view.frame('above'));
     element('view-top').addEventListener('click', () => this.view.frame('top'));
-    element('help').addEventListener('click', (event) => {
-      const keys = element('keys');
-      keys.hidden = !keys.hidden;
-      event.target.setAttribute('aria-expanded', String(!keys.hidden));
-      this.resize();
-    });
-    this.bindPicking(element('canvas'));
+    element('help').addEventListener('click', () => this.showKeys(element('keys').hidden));
+    element('compare').addEventListener('click', () => (this.other ? this.compare(null) : element('other-file').click()));
+    element('other-file').addEventListener('change', () => this.openOther());
+    this.bindPicking(this.runs[0]);
     window.addEventListener('resize', () => this.resize());
     bindKeys(this);
     const dark = matchMedia('(prefers-color-scheme: dark)');
     const theme = () => {
-      this.view.setTheme(dark.matches ? 'dark' : 'light');
-      this.charts.redraw(element('charts'));
+      this.theme = dark.matches ? 'dark' : 'light';
+      for (const { view } of this.runs) view.setTheme(this.theme);
+      this.charts.redraw();
+      this.history?.redraw();
     };
     dark.addEventListener('change', theme);
     theme();
   }
 
-  bindPicking(canvas) {
+  /** Compares with the page of a chosen file. */
+  async openOther() {
+    const [file] = element('other-file').files;
+    element('other-file').value = ''; // the same file may be chosen again
+    const error = await file.text().then((page) => this.compare(page)).then(() => '', ({ message }) => `${file.name}: ${message}`);
+    element('compare-error').textContent = error;
+    element('compare-error').hidden = error === '';
+    this.resize();
+  }
+
+  bindPicking(run) {
+    const { canvas } = run.view;
     let down = null;
     canvas.addEventListener('pointerdown', (event) => {
       down = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
@@ -368,13 +441,13 @@ class Player {
     canvas.addEventListener('pointerup', (event) => {
       // A click, not the end of a turn.
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
-      this.select(this.here.ids[this.view.pick(event.clientX, event.clientY)] ?? null);
+      this.select(run.here.ids[run.view.pick(event.offsetX, event.offsetY)] ?? null);
     });
   }
 
   step(frames) {
     this.pause();
-    this.seek(this.recording.frameAt(this.time) + frames);
+    this.seek(this.clock.frameAt(this.time) + frames);
   }
 
   changeSpeed(by) {
@@ -385,6 +458,11 @@ class Player {
 
 function plural(count, noun) {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;
+}
+
+/** How many links a frame has, each direction counted, and how many of them are on show if not all. */
+function linksOf({ linksInAll, links }) {
+  return (linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(linksInAll, 'link');
 }
 
 function showMessage(text) {
@@ -423,11 +501,13 @@ const ready = started.then(
       setControls: (visible) => player.setControls(visible),
       select: (id) => player.selectId(id),
       view: (from) => player.view.frame(from),
-      /** The id of the node at a point of the page; null: there is none. */
+      /** The id of the node at a point of the page, or null. */
       at: (x, y) => player.here.ids[player.view.pick(x, y)] ?? null,
       /** Names of what can colour the nodes, and the choice of one. */
       fields: player.fields.map(({ name }) => name),
       colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
+      /** Both runs, the other one from its page's HTML; null ends it. */
+      compare: (page) => player.compare(page),
       /** The frame on show, in Unity's axes, as recorded. */
       state: () => {
         const { here } = player;
@@ -440,12 +520,16 @@ const ready = started.then(
             id: ids[s], x: here.places[4 * s], y: here.places[4 * s + 1], z: here.places[4 * s + 2], scalar: here.values[0][s],
             values: here.values.map((column) => column[s]),
           })),
-          links: Array.from({ length: here.pairs.length / 2 }, (_, i) => [ids[here.pairs[2 * i]], ids[here.pairs[2 * i + 1]]]),
+          links: Array.from(here.ways).flatMap((ways, i) => {
+            const [a, b] = [ids[here.pairs[2 * i]], ids[here.pairs[2 * i + 1]]];
+            return [[a, b], [b, a]].filter((_, direction) => (ways >> direction) & 1);
+          }),
+          other: player.other ? { frame: player.other.here.index, nodes: player.other.here.slots.length } : null,
         };
       },
       /** Draws the frame on show now, for a picture right after. */
       draw: () => {
-        player.view.draw();
+        for (const { view } of player.runs) view.draw();
         if (player.playing) player.view.request();
       },
     });
@@ -455,5 +539,5 @@ const ready = started.then(
     throw error;
   },
 );
-ready.catch(() => {}); // said on the page
+ready.catch(() => {}); // reported on the page
 window.replay = { ready };

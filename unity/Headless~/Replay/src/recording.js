@@ -1,7 +1,10 @@
-// Reads a recording (FORMAT.md). Its header is read at once, a segment of frames when it is first looked at.
+// Reads a recording (FORMAT.md). The header is read at once, a segment of frames when it is first shown.
 
-const VERSION = 4;
+import { lastAt } from './fields.js';
+
+const VERSION = 5;
 const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each
+const PAIR = 2 ** 26; // in a link's key: times the lesser slot
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
 /** The page's data is missing, damaged or of another version; the message is for the reader of the page. */
@@ -70,14 +73,7 @@ class Recording {
 
   /** The last frame at or before a time; the first one for earlier times. */
   frameAt(time) {
-    let low = 0;
-    let high = this.count - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (this.times[middle] <= time) low = middle;
-      else high = middle - 1;
-    }
-    return low;
+    return lastAt(this.times, time);
   }
 
   /** The frame if its segment is there, else null: `load` it first. */
@@ -91,9 +87,7 @@ class Recording {
     const number = Math.floor(index / this.framesPerSegment);
     let segment = this.segments.get(number);
     this.segments.delete(number);
-    segment ??= orDamaged(async () => {
-      const first = number * this.framesPerSegment;
-      const loaded = new Segment(await unpack(this.texts[number]), this, first, Math.min(this.framesPerSegment, this.count - first));
+    segment ??= this.read(number).then((loaded) => {
       if (this.segments.has(number)) this.open.set(number, loaded);
     });
     this.segments.set(number, segment);
@@ -103,6 +97,14 @@ class Recording {
       this.open.delete(oldest);
     }
     return segment;
+  }
+
+  /** A segment for one use: it takes no place among those in memory. */
+  read(number) {
+    return orDamaged(async () => {
+      const first = number * this.framesPerSegment;
+      return new Segment(await unpack(this.texts[number]), this, first, Math.min(this.framesPerSegment, this.count - first));
+    });
   }
 }
 
@@ -130,7 +132,7 @@ class Segment {
     this.seen = new Uint8Array(slots);
     this.last = Array.from({ length: columns }, () => new Int32Array(slots));
     this.motion = Array.from({ length: columns }, () => new Int32Array(slots));
-    this.links = new Float64Array(0); // a * 2^24 + b, sorted
+    this.links = new Float64Array(0); // keys of pairs of slots, as in `readPairs`, sorted
   }
 
   frame(index) {
@@ -141,6 +143,7 @@ class Segment {
   read() {
     const frame = {
       index: this.first + this.frames.length,
+      segment: this,
       ids: this.ids, // by slot
       ...this.readPresence(),
       places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.slots / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
@@ -168,10 +171,15 @@ class Segment {
     });
     frame.linksInAll = this.readNumber();
     this.links = changed(this.links, this.readPairs(), this.readPairs());
-    frame.pairs = new Int32Array(2 * this.links.length); // slots, two for each link
+    frame.pairs = new Int32Array(2 * this.links.length); // slots, two for each linked pair
+    frame.ways = new Uint8Array(this.links.length); // by pair: 1 for a link to its second slot, 2 for one to its first, 3 for both
+    frame.links = 0; // those of `pairs`, each direction counted
     this.links.forEach((key, i) => {
-      frame.pairs[2 * i] = key / 0x1000000;
-      frame.pairs[2 * i + 1] = key % 0x1000000;
+      const rest = key % PAIR;
+      frame.pairs[2 * i] = key / PAIR;
+      frame.pairs[2 * i + 1] = rest >> 2;
+      frame.ways[i] = rest & 3;
+      frame.links += (rest & 3) === 3 ? 2 : 1;
     });
     if (this.frames.length === this.count - 1 && this.at !== this.bytes.length) throw new Error('bytes after the end');
     return frame;
@@ -215,8 +223,9 @@ class Segment {
     for (let i = 0; i < keys.length; i++) {
       const step = this.readNumber();
       a += step;
-      b = (step === 0 ? b : a) + this.readNumber();
-      keys[i] = a * 0x1000000 + b;
+      const rest = this.readNumber();
+      b = (step === 0 ? b : a) + (rest >>> 2);
+      keys[i] = a * PAIR + 4 * b + (rest & 3);
     }
     return keys;
   }

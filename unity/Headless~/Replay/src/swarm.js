@@ -1,5 +1,5 @@
 // Nodes and links of the picture. The places of two recorded frames lie in textures, one texel for each slot; the vertex shaders look
-// them up and draw each node between them, so that a picture costs the script the same whatever the number of nodes.
+// them up and draw each node between them, so that the script's cost per picture does not depend on the number of nodes.
 import {
   BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
   LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,
@@ -12,7 +12,7 @@ const OUTLINE = 1.16; // times the node's radius
 
 const PLACES = /* glsl */`
 uniform sampler2D here, next;
-uniform float share, radius;
+uniform float share, radius, halfLength;
 vec4 texelOf(float slot) {
   ivec2 at = ivec2(int(slot) % ${TEXELS}, int(slot) / ${TEXELS});
   vec4 from = texelFetch(here, at, 0), to = texelFetch(next, at, 0);
@@ -20,7 +20,7 @@ vec4 texelOf(float slot) {
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
-// A shape's z axis points from the node to the eye: half a sphere is enough.
+// A shape is a ball, or two half balls apart: an upright capsule. Its z axis points from the node to the eye: half of it is enough.
 const NODE = /* glsl */`
 attribute float slot;
 varying vec3 tint;
@@ -34,6 +34,10 @@ vec3 facing(vec3 v, vec3 centre) {
   vec3 up = normalize(cross(ahead, vec3(1.0, 0.0, 0.0)));
   return mat3(cross(up, ahead), up, ahead) * v * mat3(viewMatrix);
 }
+vec3 bodyPoint(vec3 v, vec3 centre) {
+  vec3 offset = facing(v, centre);
+  return centre + radius * offset + vec3(0.0, sign(offset.y) * halfLength, 0.0);
+}
 `;
 
 export class Swarm {
@@ -43,7 +47,7 @@ export class Swarm {
     this.detailed = slots <= DETAILED_NODES;
     const rows = Math.max(Math.ceil(slots / TEXELS), 1);
     this.textures = [0, 1].map(() => new DataTexture(null, TEXELS, rows, RGBAFormat, FloatType));
-    this.uniforms = { here: { value: null }, next: { value: null }, share: { value: 0 }, radius: { value: 1 } };
+    this.uniforms = { here: { value: null }, next: { value: null }, share: { value: 0 }, radius: { value: 1 }, halfLength: { value: 0 } };
 
     const body = new MeshLambertMaterial();
     for (const material of [body, materials.outline, materials.halo]) this.placeNodes(material);
@@ -55,6 +59,10 @@ export class Swarm {
       this.nodes.castShadow = true;
       this.nodes.customDepthMaterial = this.placeNodes(new MeshDepthMaterial());
     }
+    // The selected node is drawn over those that hide it.
+    const above = this.placeNodes(new MeshLambertMaterial({ depthTest: false, transparent: true }));
+    this.selectedNode = new Mesh(instanced(shape, new InstancedBufferAttribute(new Float32Array(1), 1)), above);
+    this.selectedNode.renderOrder = 3;
     if (!this.detailed) materials.outline.side = FrontSide;
     const outline = this.detailed ? shape.clone().scale(OUTLINE, OUTLINE, OUTLINE) : disc();
     this.outlines = new Mesh(instanced(outline, slotsShown), materials.outline);
@@ -65,14 +73,18 @@ export class Swarm {
     this.links = linesOf(materials.link, links, 1);
     this.selectedLinks = linesOf(materials.accentLine, 0, 2);
     this.trails = new Trails(materials.trail);
-    for (const object of [this.nodes, this.outlines, this.selectedHalo, this.neighbourHalos, this.links, this.selectedLinks, this.trails.object]) {
+    for (const object of [
+      this.nodes, this.outlines, this.selectedNode, this.selectedHalo, this.neighbourHalos, this.links, this.selectedLinks, this.trails.object,
+    ]) {
       object.frustumCulled = false;
       scene.add(object);
     }
   }
 
-  set radius(radius) {
+  /** Metres, as drawn; `halfLength` is the distance of a capsule's centre from those of its caps. */
+  setSize(radius, halfLength) {
     this.uniforms.radius.value = radius;
+    this.uniforms.halfLength.value = halfLength;
   }
 
   /** Colours the nodes from now on: `colours` takes a frame and gives the colour of a slot, 0xRRGGBB. */
@@ -94,7 +106,7 @@ export class Swarm {
     if (this.here !== here) {
       setSlots(this.nodes, here.slots);
       this.outlines.geometry.instanceCount = here.slots.length;
-      setLines(this.links, here.pairs);
+      setLines(this.links, here.pairs, here.ways);
     }
     this.here = here;
     this.next = next;
@@ -102,19 +114,10 @@ export class Swarm {
 
   /** Marks a node, with its links of the frame on show; -1: none. */
   select(slot) {
-    const pairs = [];
-    const neighbours = [];
-    if (slot >= 0) {
-      for (let i = 0; i < this.here.pairs.length; i += 2) {
-        const [a, b] = [this.here.pairs[i], this.here.pairs[i + 1]];
-        if (a !== slot && b !== slot) continue;
-        pairs.push(a, b);
-        neighbours.push(a === slot ? b : a);
-      }
-    }
-    setSlots(this.selectedHalo, slot < 0 ? [] : [slot]);
-    setSlots(this.neighbourHalos, neighbours);
-    setLines(this.selectedLinks, pairs);
+    const neighbours = slot < 0 ? [] : neighboursOf(this.here, slot);
+    for (const mesh of [this.selectedNode, this.selectedHalo]) setSlots(mesh, slot < 0 ? [] : [slot]);
+    setSlots(this.neighbourHalos, neighbours.map((neighbour) => neighbour.slot));
+    setLines(this.selectedLinks, neighbours.flatMap((neighbour) => [slot, neighbour.slot]), neighbours.map(({ way }) => way));
   }
 
   /** Where a slot is drawn, in Unity's axes; written to `place`. */
@@ -149,7 +152,7 @@ export class Swarm {
           vec4 texel = texelOf(slot);
           tint = linear(texel.w);`)
         .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = facing(normal, texel.xyz);')
-        .replace('#include <begin_vertex>', 'vec3 transformed = texel.xyz + facing(radius * position, texel.xyz);');
+        .replace('#include <begin_vertex>', 'vec3 transformed = bodyPoint(position, texel.xyz);');
       if (material.isMeshLambertMaterial) {
         shader.fragmentShader = `varying vec3 tint;\n${shader.fragmentShader}`.replace('#include <color_fragment>', 'diffuseColor.rgb *= tint;');
       }
@@ -158,8 +161,12 @@ export class Swarm {
 
   placeLines(material) {
     return this.patch(material, (shader) => {
-      // A line's ends have their slots in the place of x.
-      shader.vertexShader = (PLACES + shader.vertexShader).replace('#include <begin_vertex>', 'vec3 transformed = texelOf(position.x).xyz;');
+      // A line's ends have their slots in the place of x; those where a one-way link fades out have -1 - slot.
+      shader.vertexShader = (`${PLACES}varying float strength;\n${shader.vertexShader}`).replace('#include <begin_vertex>', `
+        strength = position.x < 0.0 ? 0.0 : 1.0;
+        vec3 transformed = texelOf(position.x < 0.0 ? -1.0 - position.x : position.x).xyz;`);
+      shader.fragmentShader = `varying float strength;\n${shader.fragmentShader}`
+        .replace('#include <color_fragment>', 'diffuseColor.a *= strength;');
     });
   }
 
@@ -171,6 +178,17 @@ export class Swarm {
     material.customProgramCacheKey = () => change.toString();
     return material;
   }
+}
+
+/** The slots that are linked with one; `way` is 1 for a link to the neighbour, 2 for one from it, 3 for both. */
+export function neighboursOf({ pairs, ways }, slot) {
+  const found = [];
+  for (let i = 0; i < pairs.length; i++) {
+    if (pairs[i] !== slot) continue;
+    const way = ways[i >> 1];
+    found.push({ slot: pairs[i ^ 1], way: i % 2 === 1 && way < 3 ? 3 - way : way });
+  }
+  return found;
 }
 
 /** The half of a sphere that the eye sees. */
@@ -205,8 +223,11 @@ function setSlots(mesh, slots) {
   mesh.geometry.instanceCount = slots.length;
 }
 
-function setLines(object, pairs) {
-  write(object, 'position', pairs, BufferAttribute);
+/** `ways` as in a frame. */
+function setLines(object, pairs, ways) {
+  const ends = new Float32Array(pairs.length);
+  for (let i = 0; i < ends.length; i++) ends[i] = ways[i >> 1] === 2 - (i & 1) ? -1 - pairs[i] : pairs[i];
+  write(object, 'position', ends, BufferAttribute);
   object.geometry.setDrawRange(0, pairs.length);
 }
 

@@ -20,7 +20,7 @@ export class Trails {
     for (let i = first; i <= frame.index; i++) frames.push(recording.frame(i));
     if (slots.length > 0 && frames.includes(null)) {
       // Two segments apart at most.
-      Promise.all([recording.load(first), recording.load((first + frame.index) >> 1)]).then(again, () => {}); // said on the page
+      Promise.all([recording.load(first), recording.load((first + frame.index) >> 1)]).then(again, () => {}); // reported on the page
     }
     this.draw(frames, slots);
   }

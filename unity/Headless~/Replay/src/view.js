@@ -1,8 +1,8 @@
 // The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
 import {
-  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry, Group, HemisphereLight,
-  LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry,
-  Scene, ShadowMaterial, SphereGeometry, Spherical, Vector3, WebGLRenderer,
+  BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, CapsuleGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry,
+  Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry,
+  Scene, ShadowMaterial, SphereGeometry, Spherical, Sprite, SpriteMaterial, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { CSS2DObject, CSS2DRenderer } from 'three/examples/jsm/renderers/CSS2DRenderer.js';
@@ -18,21 +18,27 @@ const THEMES = {
     link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, trail: '#a9cdf5', accent: '#ff5c8a',
   },
 };
+const RING_PIXELS = 30; // across the mark of the selected node, at least
+const FOLLOWED_PIXELS = 12; // radius of a node that the camera follows, at least
 const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
 
 export class View {
-  /** Throws if WebGL is not to be had. `slots` and `maxLinks` are the most that `show` will be given. */
-  constructor(canvas, labels, { metadata, movers, slots, maxLinks }) {
+  /** Fills the canvas and the labels of `holder`. `slots` and `maxPairs` are the most that `show` will be given. */
+  constructor(holder, { metadata, movers, slots, maxPairs }) {
+    this.holder = holder;
+    const canvas = holder.querySelector('canvas');
     this.canvas = canvas;
-    this.labels = new CSS2DRenderer({ element: labels });
+    this.labels = new CSS2DRenderer({ element: holder.querySelector('.labels') });
     this.arena = {
       min: new Vector3(metadata.arena.min[0], metadata.arena.min[1], -metadata.arena.max[2]),
       max: new Vector3(metadata.arena.max[0], metadata.arena.max[1], -metadata.arena.min[2]),
     };
     this.radius = metadata.nodeRadius;
+    this.halfLength = Math.max(metadata.nodeHeight / 2 - this.radius, 0);
     this.insets = { top: 0, bottom: 0, left: 0, right: 0 };
     this.onFrame = () => {};
     this.onDrawn = () => {};
+    this.onMoved = () => {};
     this.follows = false;
     this.pending = null;
     this.framed = 'above'; // the ready view that the camera has, null once the user has moved it
@@ -48,7 +54,10 @@ export class View {
     this.controls.dampingFactor = 0.12;
     this.controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener('change', () => this.request());
+    this.controls.addEventListener('change', () => {
+      this.onMoved();
+      this.request();
+    });
     this.controls.addEventListener('start', () => { this.framed = null; });
 
     this.materials = {
@@ -62,7 +71,8 @@ export class View {
       link: new LineBasicMaterial({ transparent: true, depthWrite: false }),
       accent: new MeshBasicMaterial({ side: DoubleSide }),
       markerLine: new LineBasicMaterial(),
-      accentLine: new LineBasicMaterial(),
+      accentLine: new LineBasicMaterial({ transparent: true }),
+      ring: new SpriteMaterial({ map: ringTexture(), depthTest: false, sizeAttenuation: false }),
       halo: new MeshBasicMaterial({ side: BackSide }),
       trail: new LineBasicMaterial({ transparent: true, depthWrite: false, vertexColors: true }),
     };
@@ -71,7 +81,11 @@ export class View {
     for (const shape of metadata.shapes) this.place(this.addShape(shape), shape.centre, shape.rotation ?? [0, 0, 0, 1]);
     this.movers = movers.map(({ shape, poses }) => ({ object: this.addShape(shape), poses }));
     for (const marker of metadata.markers) this.addMarker(marker);
-    this.swarm = new Swarm(this.scene, slots, maxLinks, this.materials);
+    this.swarm = new Swarm(this.scene, slots, maxPairs, this.materials);
+    this.ring = new Sprite(this.materials.ring);
+    this.ring.renderOrder = 3;
+    this.ring.visible = false;
+    this.scene.add(this.ring);
   }
 
   addLights() {
@@ -161,16 +175,15 @@ export class View {
     this.theme = theme;
     this.scene.background = new Color(theme.background);
     for (const key of ['floor', 'grid', 'border', 'shape', 'edge', 'outline', 'link', 'accent', 'trail']) this.materials[key].color.set(theme[key]);
-    this.materials.accentLine.color.set(theme.accent);
-    this.materials.markerLine.color.set(theme.accent);
-    this.materials.halo.color.set(theme.accent);
+    for (const key of ['accentLine', 'markerLine', 'halo', 'ring']) this.materials[key].color.set(theme.accent);
     this.materials.shadow.opacity = theme.shadow;
     this.materials.link.opacity = theme.linkOpacity;
     this.request();
   }
 
-  /** Fits the canvas to its place; `insets` are the pixels at each side that the page's panels cover. */
-  resize(width, height, insets) {
+  /** Fits the view to its place in the page; `insets` are the pixels at each side that the page's panels cover. */
+  resize(left, width, height, insets) {
+    Object.assign(this.holder.style, { left: `${left}px`, width: `${width}px` });
     this.insets = insets;
     this.width = width;
     this.height = height;
@@ -183,7 +196,7 @@ export class View {
     this.request();
   }
 
-  /** Looks at the whole arena, `from` 'above' at an angle or from the 'top'. */
+  /** Shows the whole arena, `from` 'above' at an angle or from the 'top'. */
   frame(from) {
     this.framed = from;
     this.controls.enableDamping = false; // forgets what is left of the last turn
@@ -237,10 +250,24 @@ export class View {
     this.request();
   }
 
+  /** Metres of a pixel at a metre from the eye. */
+  get pixel() {
+    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
+  }
+
   /** Pixels that a node's radius takes in the middle of the picture when drawn at its real size. */
   get nodePixels() {
-    const distance = this.camera.position.distanceTo(this.controls.target);
-    return (this.radius * this.height) / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
+    return this.radius / (this.pixel * this.camera.position.distanceTo(this.controls.target));
+  }
+
+  /** Looks from where another view of the same size does. */
+  lookAs(other) {
+    const [camera, of] = [this.camera, other.camera];
+    if (camera.position.equals(of.position) && this.controls.target.equals(other.controls.target)) return;
+    camera.position.copy(of.position);
+    this.controls.target.copy(other.controls.target);
+    this.framed = other.framed;
+    this.request();
   }
 
   /**
@@ -251,7 +278,9 @@ export class View {
     const { swarm } = this;
     const changed = swarm.here !== here;
     swarm.show(here, next, share);
-    swarm.radius = this.radius * factor;
+    swarm.setSize(this.radius * factor, this.halfLength * factor);
+    this.ring.visible = selected >= 0;
+    if (selected >= 0) this.pointOf(selected, this.ring.position);
     if (changed || this.selected !== selected) swarm.select(selected);
     this.selected = selected;
     swarm.links.visible = links === 'all';
@@ -265,34 +294,41 @@ export class View {
   /** Moves the camera with the selected node from now on, or no longer. */
   setFollows(follows) {
     this.follows = follows;
-    if (follows && this.selected >= 0) this.keepWith(this.selected);
+    if (follows && this.selected >= 0) {
+      this.keepWith(this.selected);
+      const drawn = (this.nodePixels * this.swarm.uniforms.radius.value) / this.radius;
+      this.turn(0, 0, Math.min(drawn / FOLLOWED_PIXELS, 1));
+    }
     this.request();
+  }
+
+  /** Where a slot is drawn, in the picture's axes. */
+  pointOf(slot, point) {
+    point.fromArray(this.swarm.placeOf(slot, [0, 0, 0]));
+    point.z = -point.z;
+    return point;
   }
 
   keepWith(slot) {
     this.framed = null;
-    const place = new Vector3().fromArray(this.swarm.placeOf(slot, [0, 0, 0]));
-    place.z = -place.z;
+    const place = this.pointOf(slot, new Vector3());
     this.camera.position.add(place).sub(this.controls.target);
     this.controls.target.copy(place);
   }
 
-  /** The slot of the node nearest to a point of the canvas, within reach of a finger; -1 if there is none. */
+  /** The slot of the node nearest to a point of the canvas, within reach of a finger, or -1. */
   pick(x, y) {
     const { here, uniforms } = this.swarm;
-    const place = [0, 0, 0];
     const point = new Vector3();
-    const unit = this.height / (2 * Math.tan((this.camera.fov * Math.PI) / 360));
     let best = -1;
     let bestScore = Infinity;
     for (const slot of here.slots) {
-      point.fromArray(this.swarm.placeOf(slot, place));
-      point.z = -point.z;
+      this.pointOf(slot, point);
       const depth = point.distanceTo(this.camera.position);
       point.project(this.camera);
       if (point.z > 1) continue;
       const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
-      const reach = Math.max((uniforms.radius.value * unit) / depth, 9);
+      const reach = Math.max(uniforms.radius.value / (this.pixel * depth), 9);
       // Inside a node's disc the one in front wins, else the nearest on the screen.
       const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
       if (score < bestScore) {
@@ -321,10 +357,29 @@ export class View {
 
   render() {
     this.controls.update();
+    const radius = 1.9 * this.swarm.uniforms.radius.value + this.swarm.uniforms.halfLength.value;
+    this.ring.scale.setScalar(Math.max(RING_PIXELS * this.pixel, (2 * radius) / this.camera.position.distanceTo(this.ring.position)));
     this.renderer.render(this.scene, this.camera);
     this.labels.render(this.scene, this.camera);
     this.onDrawn();
   }
+
+  dispose() {
+    cancelAnimationFrame(this.pending);
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.holder.remove();
+  }
+}
+
+function ringTexture() {
+  const canvas = new OffscreenCanvas(128, 128);
+  const context = canvas.getContext('2d');
+  context.strokeStyle = '#fff';
+  context.lineWidth = 10;
+  context.arc(64, 64, 58, 0, 2 * Math.PI);
+  context.stroke();
+  return new CanvasTexture(canvas);
 }
 
 function lines(points, material) {
@@ -335,6 +390,10 @@ function lines(points, material) {
 
 function geometryOf(shape) {
   if (shape.kind === 'sphere') return new SphereGeometry(shape.radius, 48, 32);
+  if (shape.kind === 'capsule') {
+    const capsule = new CapsuleGeometry(shape.radius, Math.max(shape.height - 2 * shape.radius, 0), 16, 48);
+    return [() => capsule.rotateZ(Math.PI / 2), () => capsule, () => capsule.rotateX(Math.PI / 2)][shape.axis]();
+  }
   if (shape.kind === 'box') return new BoxGeometry(...shape.size);
   const geometry = new BufferGeometry();
   const points = new Float32Array(shape.vertices).map((x, i) => (i % 3 === 2 ? -x : x));

@@ -179,7 +179,7 @@ namespace Collektive.Headless.Tests.Components
         private void Make(Vector3 place, int id)
         {
             Make(place);
-            nodes[nodes.Count - 1].Joined(new Collektive.Unity.Simulation(new SimulationSettings(), new SceneGlobals(), null), id);
+            nodes[nodes.Count - 1].OnJoined(new Collektive.Unity.Simulation(new SimulationSettings(), new SceneGlobals(), null), id);
         }
 
         private void Make(Vector3 place)

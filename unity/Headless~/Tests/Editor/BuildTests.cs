@@ -270,7 +270,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Logged("source checkout");
             ProjectSettings.instance.sourceCheckout = Path.GetFullPath(".");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
-            Logged("has no command collektive");
+            Logged("the command collektive is missing");
         }
 
         [Test]

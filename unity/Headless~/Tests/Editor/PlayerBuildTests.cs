@@ -97,16 +97,16 @@ namespace Collektive.Headless.Tests.Editor
 
             Write("Assets/Swarm/Programs/Count.kt", BuildTests.Kotlin.Replace("heard.neighbors.size", "heard.neighbours.size"));
             File.SetLastWriteTimeUtc("Assets/Swarm/Programs/Count.kt", DateTime.UtcNow.AddSeconds(1));
-            Fails("Library/Collektive/swarm.jar is older than its sources and could not be built", "jars.Array.data[0]", "Library/Collektive/swarm.jar");
+            Fails("Library/Collektive/swarm.jar is older than its sources because the build failed", "jars.Array.data[0]", "Library/Collektive/swarm.jar");
         }
 
         [Test]
         public void A_scene_that_could_not_start_fails_the_build()
         {
-            Fails("there is no jar missing.jar: make it with Tools > Collektive > Rebuild Programs", "jars.Array.data[0]", "missing.jar");
+            Fails("jar missing.jar does not exist: build it with Tools > Collektive > Rebuild Programs", "jars.Array.data[0]", "missing.jar");
             Fails("delta time is 0 s", "jars.Array.data[0]", Samples, "deltaTime", "0");
             Fails("schema 'no.Such' does not exist", "schema", "no.Such");
-            Fails("there is no folder jars of Collektive's jars", "jars.Array.data[0]", Samples, "runtime", "Collektive", "runtimeJars", "jars");
+            Fails("the folder of Collektive's jars, jars, does not exist", "jars.Array.data[0]", Samples, "runtime", "Collektive", "runtimeJars", "jars");
         }
 
         [Test]
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Editor
             Directory.Delete("Packages/org.collektive.unity.jvm.win-x64", true);
             var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene("jars.Array.data[0]", Samples)));
             Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM is installed"));
-            Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or choose JAVA_HOME"));
+            Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or set Location in the JVM settings to JAVA_HOME"));
             Assert.That(Directory.Exists(Assets), Is.False, "nothing is half done");
         }
 
@@ -131,7 +131,7 @@ namespace Collektive.Headless.Tests.Editor
         public void On_other_platforms_simulations_stay_off()
         {
             Players.Build((BuildTarget)20, Assets, Scene("jars.Array.data[0]", Samples));
-            Logged("Warning: Collektive does not run on 20: in this player the simulation of Assets/Swarm.unity and all others stay off");
+            Logged("Warning: Collektive does not support 20: the simulation of Assets/Swarm.unity and all others are disabled in this player");
             Assert.That(Directory.Exists(Assets), Is.False);
         }
 

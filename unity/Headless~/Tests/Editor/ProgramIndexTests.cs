@@ -59,10 +59,10 @@ namespace Collektive.Headless.Tests.Editor
             manager.Settings.program = "hop";
             Inspect(manager);
             Assert.That(Gui.Lines, Has.None.StringStarting("popup").And.None.StringStarting("help Error"));
-            Assert.That(Gui.Lines, Has.Some.Contains("has no index of programs"));
+            Assert.That(Gui.Lines, Has.Some.Contains("has no list of programs"));
             File.Delete(Jar);
             Inspect(manager);
-            Assert.That(Gui.Lines, Has.Some.Contains("does not exist yet: Tools > Collektive > Rebuild Programs"));
+            Assert.That(Gui.Lines, Has.Some.Contains("does not exist yet: press Play, or choose Tools > Collektive > Rebuild Programs"));
         }
 
         [Test]

@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             settings.runtimeJars = "nowhere";
             Rebuild();
-            Assert.That(Logged("there are no jars of Collektive in 'nowhere'"), Is.StringContaining("dsl and stdlib"));
+            Assert.That(Logged("the folder 'nowhere' contains no jars of Collektive"), Is.StringContaining("dsl and stdlib"));
         }
 
         [Test, Category("Slow")]
@@ -67,7 +67,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             settings.runtimePlugin = "";
             Rebuild();
-            Assert.That(Logged("compiled with its compiler plugin"), Is.StringContaining("Runtime Plugin"));
+            Assert.That(Logged("Collektive's compiler plugin"), Is.StringContaining("Runtime Plugin"));
         }
 
         [Test, Category("Slow")]
@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             settings.runtimePlugin = "collektive/library.jar";
             Rebuild();
-            Assert.That(Logged("is no plugin of the Kotlin compiler"), Is.StringContaining("library.jar"));
+            Assert.That(Logged("is not a plugin of the Kotlin compiler"), Is.StringContaining("library.jar"));
         }
 
         private static void Rebuild()

@@ -140,7 +140,7 @@ namespace Collektive.Headless.Tests
             Assert.That(Problem(new JvmSettings { initialHeapMb = 200, maximumHeapMb = 100 }, "initialHeapMb"), Is.StringContaining("200 MB"));
             Assert.That(Problem(new JvmSettings { location = JvmLocation.Folder }, "home"), Is.StringContaining("choose"));
             Assert.That(Problem(new JvmSettings { flags = { "" } }, "flags"), Is.StringContaining("empty"));
-            Assert.That(Problem(new JvmSettings { flags = { "-Xss2m -Xint" } }, "flags"), Is.StringContaining("more than one"));
+            Assert.That(Problem(new JvmSettings { flags = { "-Xss2m -Xint" } }, "flags"), Is.StringContaining("several flags"));
             Assert.That(Problem(new JvmSettings { collector = (JvmCollector)42 }, "collector"), Is.StringContaining("42"));
         }
 
@@ -223,7 +223,7 @@ namespace Collektive.Headless.Tests
             settings.maximumHeapMb = 512;
             var report = JvmReport.Of(settings, TestJvm.Launch);
             Assert.That(report.IsGood, Is.True);
-            Assert.That(report.Notice, Is.StringContaining("after an editor restart"));
+            Assert.That(report.Notice, Is.StringContaining("after a restart of the editor"));
             Assert.That(report.Notice, Is.StringContaining("-Xmx256m"));
             Assert.That(report.Effective(JvmSetting.Find("maximumHeapMb")), Is.EqualTo("256 MB"));
         }

@@ -57,7 +57,7 @@ namespace Collektive.Headless.Tests
             File.Copy(Path.Combine(Assemblies, Program), Path.Combine(folder, Program));
             File.Copy(Path.Combine(Assemblies, "libcollektive_physics.so"), Path.Combine(folder, "libcollektive_physics.so"));
             File.Copy(Path.Combine(Assemblies, "stubs/Collektive.Bridge.dll"), Path.Combine(folder, "Collektive.Bridge.dll"), true);
-            CheckOneError(Play(where, folder), "this platform has no JVM inside the process");
+            CheckOneError(Play(where, folder), "this platform does not support a JVM inside the process");
         }
 
         private static void CheckOneError(string output, params string[] parts)

@@ -62,8 +62,8 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("network", "{\"loss\": 0.1, \"los\": 0.1}", "unknown key 'network.los'; known here: loss, lossPerMetre")]
         [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\", it must be of type number")]
-        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object; known in it: loss, ")]
-        [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"], it must be of type object; known in it: fields, interval")]
+        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object; its keys are: loss, ")]
+        [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"], it must be of type object; its keys are: fields, interval")]
         [TestCase("threads", "2.5", "'threads' is 2.5, it must be of type whole number")]
         [TestCase("stopAfter", "1", "unknown key 'stopAfter'; known here: version, scene")]
         public void What_is_wrong_is_named_with_its_place(string key, string value, string message)
@@ -116,7 +116,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("network.loss=0,5", "'network.loss' is \"0,5\", it must be of type number")]
         [TestCase("deltaTime=1e39", "'deltaTime' is 1E+39, it must be of type number")]
         [TestCase("network.los=1", "unknown key 'network.los'")]
-        [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is no object")]
+        [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is not an object")]
         [TestCase("threads=many", "'threads' is \"many\", it must be of type whole number")]
         [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
         public void What_is_wrong_from_outside_is_named(string assignment, string message) =>
@@ -217,7 +217,7 @@ namespace Collektive.Headless.Tests.Player
             var text = Minimal().ToString().Replace("\"seconds\": 1", "\"seconds\": 1, // it's 007\n\"threads\": " + number);
             var line = Array.FindIndex(text.Split('\n'), each => each.Contains("threads")) + 1;
             var message = Assert.Throws<ScenarioException>(() => ReadText(text)).Message;
-            Assert.That(message, Is.StringContaining("scenario.json:" + line + ": not valid JSON: '" + number + "' is not a number of JSON"));
+            Assert.That(message, Is.StringContaining("scenario.json:" + line + ": not valid JSON: '" + number + "' is not a JSON number"));
         }
 
         [TestCase("2.5e+3", 2500)]

@@ -20,7 +20,7 @@ namespace Collektive.Headless.Tests
         {
             public double Time;
             public readonly Dictionary<int, Node> Nodes = new Dictionary<int, Node>();
-            public readonly HashSet<(int, int)> Links = new HashSet<(int, int)>(); // lesser id first
+            public readonly HashSet<(int, int)> Links = new HashSet<(int, int)>(); // from, to
             public int LinksInAll, LinksChanged;
         }
 
@@ -39,7 +39,7 @@ namespace Collektive.Headless.Tests
             var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
             var lines = text.Split('\n');
             Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
-            if ((int)Header["version"] != 4) throw new InvalidDataException("version");
+            if ((int)Header["version"] != 5) throw new InvalidDataException("version");
             if ((int)Header["length"] != text.Length - lines[0].Length) throw new InvalidDataException("length");
             step = (double)Header["positionStep"];
             slots = (int)Header["slots"];
@@ -129,7 +129,7 @@ namespace Collektive.Headless.Tests
             foreach (var (a, b) in links)
             {
                 if (!frame.Nodes.ContainsKey(ids[a]) || !frame.Nodes.ContainsKey(ids[b])) throw new InvalidDataException("link of an absent node");
-                frame.Links.Add((Math.Min(ids[a], ids[b]), Math.Max(ids[a], ids[b])));
+                frame.Links.Add((ids[a], ids[b]));
             }
         }
 
@@ -140,10 +140,12 @@ namespace Collektive.Headless.Tests
             for (var count = ReadNumber(reader); count > 0; count--)
             {
                 var further = (int)ReadNumber(reader);
-                b = (further == 0 ? b : a + further) + (int)ReadNumber(reader);
+                var rest = (int)ReadNumber(reader);
+                b = (further == 0 ? b : a + further) + (rest >> 2);
                 a += further;
-                if (a >= b) throw new InvalidDataException("pair out of order");
-                pairs.Add((a, b));
+                if (a >= b || (rest & 3) == 0) throw new InvalidDataException("pair out of order, or without a link");
+                if ((rest & 1) != 0) pairs.Add((a, b));
+                if ((rest & 2) != 0) pairs.Add((b, a));
             }
             return pairs;
         }

@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests
             CollectionAssert.AreEquivalent(new[] { 7, 9 }, replay.Frames[2].Nodes.Keys);
             Assert.AreEqual(0, replay.Frames[2].Links.Count);
             Assert.AreEqual(0, replay.Frames[3].Nodes.Count);
-            CollectionAssert.AreEquivalent(new[] { (-3, 100) }, replay.Frames[4].Links);
+            CollectionAssert.AreEquivalent(new[] { (100, -3) }, replay.Frames[4].Links);
             Assert.AreEqual(6f, replay.Frames[4].Nodes[100].Y, Step / 2 + 1e-6);
         }
 
@@ -129,19 +129,24 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void LinksOfBothDirectionsAndRepeatedOnesAreOne()
+        public void LinksKeepTheirDirectionsAndRepeatedOnesAreOne()
         {
             var replay = Record(writer =>
             {
-                writer.BeginFrame(0);
-                writer.Node(1, 0, 0, 0, 0);
-                writer.Node(2, 1, 0, 0, 0);
-                writer.Link(1, 2);
-                writer.Link(2, 1);
-                writer.Link(1, 2);
-                writer.EndFrame();
+                for (var time = 0; time < 2; time++)
+                {
+                    writer.BeginFrame(time);
+                    for (var id = 1; id < 4; id++) writer.Node(id, id, 0, 0, 0);
+                    writer.Link(1, 2);
+                    if (time == 0) writer.Link(2, 1);
+                    writer.Link(1, 2);
+                    writer.Link(3, 2);
+                    writer.EndFrame();
+                }
             });
-            CollectionAssert.AreEquivalent(new[] { (1, 2) }, replay.Frames[0].Links);
+            CollectionAssert.AreEquivalent(new[] { (1, 2), (2, 1), (3, 2) }, replay.Frames[0].Links);
+            Assert.AreEqual(3, replay.Frames[0].LinksInAll);
+            CollectionAssert.AreEquivalent(new[] { (1, 2), (3, 2) }, replay.Frames[1].Links);
         }
 
         [Test]
@@ -369,19 +374,21 @@ namespace Collektive.Headless.Tests
                 Thread.CurrentThread.CurrentCulture = new CultureInfo("de-DE");
                 var metadata = new ReplayMetadata
                 {
-                    Title = "\"A\\\n<b>", Seed = ulong.MaxValue, DeltaTime = 0.05, NodeRadius = 0.5f,
+                    Title = "\"A\\\n<b>", Seed = ulong.MaxValue, DeltaTime = 0.05, NodeRadius = 0.5f, NodeHeight = 1.5f,
                     Fields = new[] { new ReplayField("warmth") { Unit = "°C", Min = -1.5f, Max = 2 } },
                 };
                 metadata.SetArena(-1, 0, -2.5f, 3, 4, 5);
                 metadata.AddBox(1, 2, 3, 4, 5, 6);
                 metadata.AddSphere(1.5f, 0, 0, 2);
+                metadata.AddCapsule(1, 2, 3, 0.5f, 2, 1, 0, 0, 0, 1);
                 metadata.AddMarker("source", 25, 0, 0);
                 var replay = Record(writer => Frame(writer, 0), metadata);
                 Assert.AreEqual(
-                    "{\"title\":\"\\\"A\\\\\\n<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5," +
+                    "{\"title\":\"\\\"A\\\\\\n<b>\",\"seed\":\"18446744073709551615\",\"deltaTime\":0.05,\"nodeRadius\":0.5,\"nodeHeight\":1.5," +
                     "\"arena\":{\"min\":[-1.0,0.0,-2.5],\"max\":[3.0,4.0,5.0]}," +
                     "\"shapes\":[{\"kind\":\"box\",\"size\":[4.0,5.0,6.0],\"centre\":[1.0,2.0,3.0],\"rotation\":[0.0,0.0,0.0,1.0]}," +
-                    "{\"kind\":\"sphere\",\"centre\":[1.5,0.0,0.0],\"radius\":2.0}]," +
+                    "{\"kind\":\"sphere\",\"centre\":[1.5,0.0,0.0],\"radius\":2.0}," +
+                    "{\"kind\":\"capsule\",\"radius\":0.5,\"height\":2.0,\"axis\":1,\"centre\":[1.0,2.0,3.0],\"rotation\":[0.0,0.0,0.0,1.0]}]," +
                     "\"markers\":[{\"name\":\"source\",\"position\":[25.0,0.0,0.0]}]}",
                     replay.Header["metadata"].ToString(Formatting.None));
                 Assert.AreEqual(
@@ -400,7 +407,7 @@ namespace Collektive.Headless.Tests
         {
             var fields = new[]
             {
-                new ReplayField("warmth"), new ReplayField("leader", ReplayFieldKind.Category) { Words = new[] { "none" } },
+                new ReplayField("warmth"), new ReplayField("leader", ReplayFieldKind.Category) { Categories = new[] { "none" } },
                 new ReplayField("colour", ReplayFieldKind.Colour),
             };
             var leaders = new double[] { 0, -(1 << 30) + 1, (1 << 30) - 1, 16777217, double.NaN };
@@ -431,7 +438,7 @@ namespace Collektive.Headless.Tests
                 }
             }
             Assert.AreEqual(
-                "{\"name\":\"leader\",\"kind\":\"category\",\"words\":[\"none\"],\"least\":-1073741823.0,\"greatest\":1073741823.0,\"someWithout\":true}",
+                "{\"name\":\"leader\",\"kind\":\"category\",\"order\":[0,-1073741823,1073741823,16777217],\"words\":[\"none\"],\"least\":-1073741823.0,\"greatest\":1073741823.0,\"someWithout\":true}",
                 replay.Header["fields"][1].ToString(Formatting.None));
         }
 
@@ -502,7 +509,7 @@ namespace Collektive.Headless.Tests
         public void ARunWithoutFramesHasNoPage()
         {
             using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
-                StringAssert.Contains("there is no frame", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
+                StringAssert.Contains("the replay has no frames", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
         }
 
         [TestCase("no placeholder")]
@@ -577,7 +584,7 @@ namespace Collektive.Headless.Tests
             {
                 int a = ids[random.Next(ids.Count)], b = ids[random.Next(ids.Count)];
                 if (a == b) continue;
-                frame.Links.Add((Math.Min(a, b), Math.Max(a, b)));
+                frame.Links.Add((a, b));
                 writer.Link(a, b);
             }
             writer.EndFrame();

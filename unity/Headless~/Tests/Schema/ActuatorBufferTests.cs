@@ -63,16 +63,16 @@ namespace Collektive.Headless.Tests.Schema
         public void ElementsStayReadableForOneMoreFrameAndThoseKeptForEver()
         {
             actuators.Attach(new ByteBuffer(frame), position);
-            KeptAnswer kept = null;
-            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.Former(0), "there is no former frame");
+            AnswerCopy kept = null;
+            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.Previous(0), "there is no former frame");
             NextFrame(10);
             Assert.That(actuators[2].Target.X, Is.EqualTo(12));
-            Assert.That(actuators.Former(2).Target.X, Is.EqualTo(2));
-            actuators.KeepFormer(2, ref kept);
+            Assert.That(actuators.Previous(2).Target.X, Is.EqualTo(2));
+            actuators.CopyPrevious(2, ref kept);
             NextFrame(20);
-            Assert.That(actuators.Former(2).Target.X, Is.EqualTo(12));
-            Assert.That(((KeptAnswer<ActuatorData>)kept).Value.Target.X, Is.EqualTo(2));
-            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.KeepFormer(3, ref kept));
+            Assert.That(actuators.Previous(2).Target.X, Is.EqualTo(12));
+            Assert.That(((AnswerCopy<ActuatorData>)kept).Value.Target.X, Is.EqualTo(2));
+            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.CopyPrevious(3, ref kept));
         }
 
         /// <summary>In the same memory, as a session's.</summary>

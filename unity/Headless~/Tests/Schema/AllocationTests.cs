@@ -86,13 +86,13 @@ namespace Collektive.Headless.Tests.Schema
             var offset = writer.Write(builder, Nodes);
             builder.Finish(offset);
             var frame = builder.DataBuffer;
-            var kept = new KeptAnswer[Nodes];
+            var kept = new AnswerCopy[Nodes];
             reader.Attach(frame, frame.Length - offset);
             return AllocatedBy(() =>
             {
                 reader.Retain();
                 reader.Attach(frame, frame.Length - offset);
-                for (var i = 0; i < Nodes; i++) reader.KeepFormer(i, ref kept[i]);
+                for (var i = 0; i < Nodes; i++) reader.CopyPrevious(i, ref kept[i]);
             });
         }
 

@@ -99,7 +99,7 @@ namespace Collektive.Headless.Tests.Schema
         private static void Read(DataSchema schema, string file)
         {
             var actuators = schema.CreateActuators();
-            var kept = new KeptAnswer[0];
+            var kept = new AnswerCopy[0];
             int passed = 0, failed = 0;
             using (var input = new BinaryReader(File.OpenRead(file)))
             {
@@ -117,9 +117,9 @@ namespace Collektive.Headless.Tests.Schema
                     actuators.Retain();
                     Array.Clear(bytes, 0, bytes.Length);
                     actuators.Attach(new ByteBuffer(again), position);
-                    var former = TextOf(count, actuators.GetFormer);
+                    var former = TextOf(count, actuators.GetPrevious);
                     if (kept.Length < count) Array.Resize(ref kept, count);
-                    for (var i = 0; i < count; i++) actuators.KeepFormer(i, ref kept[i]);
+                    for (var i = 0; i < count; i++) actuators.CopyPrevious(i, ref kept[i]);
                     Array.Clear(again, 0, again.Length);
                     actuators.Retain();
                     if (actuators.Count == count && text == expected && former == expected && TextOf(count, i => kept[i].Get()) == expected)

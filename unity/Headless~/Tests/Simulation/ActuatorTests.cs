@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(5);
             Assert.That(Log.FindAll(line => line.Contains("kinematic")), Is.EqualTo(new[]
             {
-                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a Move actuator",
+                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a Move actuator",
             }));
         }
 
@@ -67,6 +67,24 @@ namespace Collektive.Headless.Tests.Simulation
             node.gameObject.AddComponent<Move>().MaxSpeed = 2;
             Play(20);
             Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.01f));
+        }
+
+        [Test]
+        public void A_collider_without_a_body_is_warned_of_once()
+        {
+            var warnings = 0;
+            Application.logMessageReceived += (text, stack, type) =>
+                warnings += type == LogType.Warning && text.Contains("collider without a Rigidbody") ? 1 : 0;
+            for (var i = 0; i < 2; i++)
+            {
+                var node = MakeNode(500).Node;
+                node.gameObject.AddComponent<SphereCollider>();
+                node.gameObject.AddComponent<Move>();
+            }
+            var free = MakeNode(500).Node;
+            free.gameObject.AddComponent<Move>();
+            Play(3);
+            Assert.That(warnings, Is.EqualTo(1));
         }
 
         [TestCase(ForceMode.Force, 6 * 0.05f / 3)]

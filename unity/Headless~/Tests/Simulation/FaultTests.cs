@@ -114,8 +114,8 @@ namespace Collektive.Headless.Tests.Simulation
                 Manager.AddLink(node.Node.Id, gone.Node.Id);
             }
             Assert.That(Log.Count, Is.EqualTo(2));
-            Assert.That(Log[0], Is.StringContaining("nodes 0 and 1: node 1 takes no part"));
-            Assert.That(Log[1], Is.StringContaining("nodes 0 and -1: node -1 takes no part"));
+            Assert.That(Log[0], Is.StringContaining("nodes 0 and 1: node 1 is not in the simulation"));
+            Assert.That(Log[1], Is.StringContaining("nodes 0 and -1: node -1 is not in the simulation"));
             Play(1);
             Assert.That(Manager.Failure, Is.Empty);
             Assert.That(node.Actuator.Calls, Is.EqualTo(2));
@@ -353,7 +353,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(0, Vector3.one).Node.gameObject.AddComponent<KNearestNeighbourhood>();
             MakeNode(0, Vector3.one).Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
             Play(2);
-            Assert.That(Log.FindAll(line => line.Contains("all 52 nodes are at one point")).Count, Is.EqualTo(1));
+            Assert.That(Log.FindAll(line => line.Contains("all 52 nodes have the same position")).Count, Is.EqualTo(1));
             Assert.That(Manager.LinkCount, Is.EqualTo(52 * 51));
             Assert.That(Errors, Is.Empty);
         }
@@ -397,7 +397,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_step_of_what_does_not_run_is_told_and_does_nothing()
         {
             Manager.Step();
-            Assert.That(Errors, Is.EqualTo(new[] { "the simulation has not started: step it from Update on, in play mode" }));
+            Assert.That(Errors, Is.EqualTo(new[] { "the simulation has not started: call Step in play mode, from Update or later" }));
             MakeNode(float.NaN);
             Play(1);
             Manager.Step();
@@ -419,7 +419,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void An_id_beyond_the_largest_stops_the_simulation_with_the_largest()
         {
             MakeNode(1, default, 1 << 24);
-            Assert.That(Manager.Failure, Is.EqualTo("node 'Probe' wants id 16777216: the largest id is 16777215"));
+            Assert.That(Manager.Failure, Is.EqualTo("node 'Probe' has id 16777216, but the largest id is 16777215: use smaller ids, or -1"));
         }
 
         [Test]
@@ -429,7 +429,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(2, Vector3.right).Node.gameObject.AddComponent<RadiusNeighbourhood>();
             Play(1);
             Manager.RemoveLink(0, 1);
-            Assert.That(Log, Has.Some.EqualTo("no script made a link from node 0 to node 1: nothing to remove"));
+            Assert.That(Log, Has.Some.EqualTo("cannot remove the link from node 0 to node 1: no script added it"));
             Play(1);
             Assert.That(Manager.LinkCount, Is.EqualTo(2));
             Assert.That(node.Actuator.Calls, Is.EqualTo(2));
@@ -442,7 +442,7 @@ namespace Collektive.Headless.Tests.Simulation
             var sensor = holder.AddComponent<ProbeSensor>();
             var actuator = holder.AddComponent<ProbeActuator>();
             Assert.That(sensor.enabled || actuator.enabled, Is.False);
-            Assert.That(Errors[0], Is.EqualTo("ProbeSensor on 'stray' has no Node on its GameObject or its parents: add one (Collektive/Node)"));
+            Assert.That(Errors[0], Is.EqualTo("ProbeSensor on 'stray' has no Node on its GameObject or its parents: add the component Collektive/Node"));
             holder.AddComponent<Node>();
             sensor.Value = 4;
             sensor.enabled = true;
@@ -497,7 +497,7 @@ namespace Collektive.Headless.Tests.Simulation
             var bad = MakeNode(13, Vector3.one);
             var selected = new Selection(() => Play(1));
             Assert.That(selected.By("scale of zero"), Is.SameAs(flat));
-            Assert.That(selected.By("at one point"), Is.SameAs(flat));
+            Assert.That(selected.By("the same position"), Is.SameAs(flat));
             Assert.That(selected.By("thirteen"), Is.SameAs(bad.Node));
             bad.Sensor.Value = float.NaN;
             Assert.That(new Selection(() => Play(1)).By("not finite"), Is.SameAs(bad.Node));
@@ -560,7 +560,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(new Selection(() => Play(1)).By("period is 0"), Is.SameAs(node));
             Configure("double");
             Node twin = null;
-            Assert.That(new Selection(() => twin = MakeNode(1, default, 5).Node).By("wants id 5"), Is.SameAs(twin));
+            Assert.That(new Selection(() => twin = MakeNode(1, default, 5).Node).By("has id 5"), Is.SameAs(twin));
             Object.DestroyImmediate(twin.gameObject);
             Configure("double");
             BrokenScene scene = null;

@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
             Assert.That(Errors.Count, Is.EqualTo(1));
-            Assert.That(Errors[0], Is.StringContaining("Named of node 0").And.StringContaining("a link's " + what + " is 0 or greater, and finite"));
+            Assert.That(Errors[0], Is.StringContaining("Named of node 0").And.StringContaining("a link's " + what + " must be finite and 0 or greater"));
             rule.Length = 1;
             rule.Attenuation = 0;
             Play(1);

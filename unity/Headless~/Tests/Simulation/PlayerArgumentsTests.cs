@@ -27,7 +27,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(settings.program, Is.EqualTo("-7"));
         }
 
-        [TestCase("-collektive-sead 7", "-collektive-sead is no option; there are: ")]
+        [TestCase("-collektive-sead 7", "-collektive-sead is not an option; the options are: ")]
         [TestCase("-collektive-jars a.jar", "-collektive-jars is no option")]
         [TestCase("-collektive-seed", "-collektive-seed needs a value")]
         [TestCase("-collektive-seed -1", "-collektive-seed is '-1': it must be a whole number from 0 to 18446744073709551615")]

@@ -103,7 +103,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(3);
             Assert.That(sensor.Values.ConvertAll(obstacle => obstacle.Distance), Is.EqualTo(new[] { 1.5f, 2.5f }));
             Assert.That(Errors, Is.Empty);
-            Assert.That(Log.FindAll(line => line.Contains("'Rock', whose collider is no box, sphere, capsule or convex mesh")).Count, Is.EqualTo(1));
+            Assert.That(Log.FindAll(line => line.Contains("'Rock' is not a box, sphere, capsule or convex mesh")).Count, Is.EqualTo(1));
         }
 
         [Test]

@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(simulation.TryOpen(), Is.True);
             Assert.That(simulation.TryTick() && simulation.TryTick(), Is.True);
             Assert.That((Value(a), Value(b)), Is.EqualTo((10f, 1f)));
-            Assert.That((simulation.Tick, simulation.Time), Is.EqualTo((2UL, 2 * (double)simulation.Settings.deltaTime)));
+            Assert.That((simulation.Tick, simulation.Time), Is.EqualTo((2UL, 0.1)));
             Assert.That((a.Simulation, a.Id, b.Id), Is.EqualTo((simulation, 0, 1)));
         }
 

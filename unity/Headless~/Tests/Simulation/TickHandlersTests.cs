@@ -34,8 +34,8 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors, Has.None.Contains("in a row"), "tick 2 was good");
             Play(5);
             Assert.That(Errors[Errors.Count - 1], Is.EqualTo(
-                "TickHandlersTests.A_handler_that_throws_again_and_again_is_removed (lambda) failed 10 times in a row and is not called any more: "
-                + "correct it, then add it to Ticked again"));
+                "TickHandlersTests.A_handler_that_throws_again_and_again_is_removed (lambda) failed 10 times in a row and was removed from Ticked: "
+                + "fix it, then add it again"));
             Assert.That(Manager.ErrorCount, Is.EqualTo(11));
             Assert.That(Manager.Tick, Is.EqualTo(16));
         }

@@ -95,7 +95,7 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.AddLink(1, 2);
             Play(2);
             Assert.That(DrawLog.Draws, Is.Empty);
-            Assert.That(Log.FindAll(line => line.Contains("there are 4 links, and the Link View draws 3 at most")).Count, Is.EqualTo(1));
+            Assert.That(Log.FindAll(line => line.Contains("the scene has 4 links, but the Link View draws at most 3")).Count, Is.EqualTo(1));
             Manager.RemoveLink(1, 2, directed: true);
             Play(1);
             Assert.That(Bars().Count, Is.EqualTo(3));
@@ -172,7 +172,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(view.enabled, Is.False);
             Assert.That(Errors.Count, Is.EqualTo(1));
-            Assert.That(Errors[0], Is.StringContaining("whose shader reads no links"));
+            Assert.That(Errors[0], Is.StringContaining("whose shader does not draw links"));
             Assert.That(DrawLog.Draws, Is.Empty);
         }
 

@@ -23,7 +23,7 @@ namespace UnityEditor.Headless
         public static UnityEngine.Object Pinged { get; internal set; }
         public static List<string> Undoable { get; } = new List<string>();
 
-        /// The asset path of the package's file that has this GUID; empty when there is none.
+        /// The asset path of the package's file that has this GUID; empty if none has it.
         internal static string PathOf(string guid)
         {
             foreach (var meta in Directory.GetFiles(Root, "*.meta", SearchOption.AllDirectories))

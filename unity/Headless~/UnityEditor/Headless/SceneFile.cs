@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads a scene's instances of prefabs, with the texts and numbers that the scene gives their scripts; nothing else of it.
+    /// Reads only a scene's instances of prefabs, with the texts and numbers that the scene gives their scripts.
     static class SceneFile
     {
         internal static void Load(string path)

@@ -14,7 +14,7 @@ namespace UnityEngine
 
         static Application() => ResetState();
 
-        /// Of the user; without a home folder there is none.
+        /// The user's data folder, or the temporary folder without one.
         private static string DataFolder
         {
             get

@@ -2,7 +2,7 @@ using System.Diagnostics;
 
 namespace UnityEngine
 {
-    /// Seconds. Inside a fixed step `time` and `deltaTime` are those of the fixed clock, as in Unity.
+    /// Seconds. Inside a fixed step `time` and `deltaTime` use the fixed clock, as in Unity.
     public class Time
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();

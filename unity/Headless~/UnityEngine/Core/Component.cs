@@ -27,7 +27,7 @@ namespace UnityEngine
         /// The object became active, or the component was added to an active one.
         internal virtual void Activate() { }
 
-        /// The object is no longer active, or the component is about to be destroyed.
+        /// Called when the object becomes inactive, or before the component is destroyed.
         internal virtual void Deactivate() { }
 
         /// Values of the engine's own components for `Instantiate`; scripts are copied field by field.

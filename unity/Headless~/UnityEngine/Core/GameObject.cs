@@ -285,7 +285,7 @@ namespace UnityEngine
             RefreshActivity();
         }
 
-        /// Brings `activeInHierarchy` of this object and all below in line, then tells their components.
+        /// Updates `activeInHierarchy` of this object and all below, then notifies their components.
         internal void RefreshActivity()
         {
             var parent = ownTransform.parentOrNull;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Who is due for which message, in execution order.
+    /// The components that are due for each message, in execution order.
     static class Lifecycle
     {
         static readonly BehaviourList Starting = new BehaviourList();

@@ -6,7 +6,7 @@ namespace UnityEngine
     {
         internal readonly Messages messages;
 
-        /// Number of the latest OnEnable, counted over all components; 0 while not enabled. Orders updates and tells stale list entries.
+        /// Number of the latest OnEnable, counted over all components; 0 while not enabled. Orders updates and identifies stale list entries.
         internal int enabling;
 
         public MonoBehaviour() => messages = Messages.Of(GetType());

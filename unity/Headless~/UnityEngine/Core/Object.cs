@@ -32,6 +32,8 @@ namespace UnityEngine
         internal bool destroyed;
         string ownName = "";
 
+        internal static void ForgetCount() => created = 0;
+
         public HideFlags hideFlags { get; set; }
 
         public string name

@@ -178,7 +178,7 @@ namespace UnityEngine
             rotation = this.rotation;
         }
 
-        /// Sets the pose without telling physics: for the results of its own step. The rotation has length 1.
+        /// Sets the pose from the results of a physics step, without notifying physics. The rotation has length 1.
         internal void Place(in Vector3 position, in Quaternion rotation)
         {
             changed = true;

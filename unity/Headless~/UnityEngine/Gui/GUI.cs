@@ -1,6 +1,6 @@
 namespace UnityEngine
 {
-    /// The headless player has no screen: nothing is drawn, and it calls no OnGUI.
+    /// The headless player has no screen: it draws nothing, and does not call OnGUI.
     public class GUI
     {
         public static void Label(Rect position, string text) { }

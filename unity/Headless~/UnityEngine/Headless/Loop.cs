@@ -17,10 +17,10 @@ namespace UnityEngine.Headless
         static int searched;
         static List<MethodInfo> found;
 
-        /// What `Application.isEditor` says: whether the process goes on after `Quit`, as the editor does when play mode is left.
+        /// The value of `Application.isEditor`: whether the process continues after `Quit`, as the editor does after play mode.
         public static bool IsEditor { get; set; }
 
-        /// What `Application.dataPath` says: the folder of this process's program, unless it plays another one.
+        /// The value of `Application.dataPath`: the folder of this process's program, unless it plays another one.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 
         /// How many threads step physics in a world made later; results do not depend on it.
@@ -91,6 +91,9 @@ namespace UnityEngine.Headless
             Time.ResetState();
             Random.InitState(0);
             Debug.ResetState();
+            Material.ResetState();
+            Mesh.ResetState();
+            Object.ForgetCount();
             Application.ResetState();
             SceneManagement.SceneManager.ResetState();
             DrawLog.Clear();

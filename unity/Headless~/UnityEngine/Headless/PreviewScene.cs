@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine.Headless
 {
-    /// A scene that is looked at and not played, as the editor opens it: what `build` makes belongs to it alone.
+    /// A preview scene as in the editor, which is not played. It contains the objects that `build` creates.
     public static class PreviewScene
     {
         public static Scene Open(Action build)

@@ -150,7 +150,7 @@ namespace UnityEngine
             }
         }
 
-        /// Gauss-Jordan with row pivots; the zero matrix when there is no inverse.
+        /// Gauss-Jordan with row pivots; the zero matrix for a singular one.
         public readonly Matrix4x4 inverse
         {
             get

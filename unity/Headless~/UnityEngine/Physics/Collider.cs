@@ -102,7 +102,7 @@ namespace UnityEngine
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
 
-        /// Geometry and its pose in this object's frame, scaled. False: there is no shape.
+        /// Geometry and its pose in this object's frame, scaled. False without a shape.
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
@@ -229,7 +229,7 @@ namespace UnityEngine
             known = shape;
         }
 
-        /// Rounding of a child's pose is no change.
+        /// Rounding of a child's pose does not count as a change.
         static bool Same(in Physx.Shape a, in Physx.Shape b)
         {
             return a.Geometry.Kind == b.Geometry.Kind && a.Geometry.Radius == b.Geometry.Radius && a.Geometry.Half.Equals(b.Geometry.Half)
@@ -245,7 +245,7 @@ namespace UnityEngine
 
         static bool Near(float a, float b) => Mathf.Abs(a - b) <= Tolerance;
 
-        /// What somebody listens to: overlaps are told to this object and its body's, contacts to its body's or, without one, to it.
+        /// The reports with listeners: this object and its body's receive overlaps; its body's, or this one without a body, receives contacts.
         Physx.Reports Listening()
         {
             var heardByBody = Body is null ? owner.hears : Body.owner.hears;

@@ -13,7 +13,7 @@ namespace UnityEngine
         public float separation { get; internal set; }
     }
 
-    /// One instance serves all messages, as Unity's do by default: copy out what shall last.
+    /// One instance serves all messages, as Unity's do by default: copy the values that you keep.
     public class Collision
     {
         internal readonly List<ContactPoint> Contacts = new List<ContactPoint>();

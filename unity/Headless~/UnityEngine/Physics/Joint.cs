@@ -62,7 +62,7 @@ namespace UnityEngine
 
         internal bool Connects(Rigidbody body) => ReferenceEquals(body, ownConnectedBody) || ReferenceEquals(body.owner, owner);
 
-        /// Makes PhysX's joint anew.
+        /// Creates PhysX's joint again.
         internal unsafe void Refresh()
         {
             if (!active) return;

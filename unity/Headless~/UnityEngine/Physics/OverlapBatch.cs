@@ -4,8 +4,8 @@ using Unity.Collections;
 
 namespace UnityEngine
 {
-    /// A batch of spheres that physics' other threads work on, while the main thread goes on. There is one at a time: whatever asks physics for
-    /// something finishes it first.
+    /// A batch of spheres that physics' other threads work on, while the main thread goes on. Only one runs at a time: any other request to
+    /// physics finishes it first.
     static unsafe class OverlapBatch
     {
         static Physx.Sphere* spheres; // native, as the next two: kept until the process ends
@@ -35,7 +35,7 @@ namespace UnityEngine
                 var centre = command.point;
                 var radius = Mathf.Abs(command.radius);
                 var sum = centre.x + centre.y + centre.z + radius;
-                // What is no number finds nothing.
+                // NaN finds nothing.
                 var isNumber = sum - sum == 0f;
                 spheres[index] = isNumber ? new Physx.Sphere { Centre = centre, Radius = radius } : default;
                 filters[index] = isNumber ? Queries.Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;

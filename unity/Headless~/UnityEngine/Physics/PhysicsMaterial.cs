@@ -12,7 +12,7 @@ namespace UnityEngine
     {
         internal static readonly PhysicsMaterial Default = new PhysicsMaterial("Default");
 
-        /// Counts changes of all materials: colliders look at theirs again when it grew.
+        /// Counts changes of all materials: colliders check their materials after an increase.
         internal static int Changes { get; private set; }
 
         Physx.Material values = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The C interface of collektive_physics, as its header tells (NativePhysics/include/collektive_physics.h).
+    /// The C interface of collektive_physics, documented in its header (NativePhysics/include/collektive_physics.h).
     static unsafe class Physx
     {
         public const int Version = 4;

@@ -32,7 +32,7 @@ namespace UnityEngine
             return sum - sum == 0f;
         }
 
-        /// False when there is nothing to ask: no direction, or what is no number.
+        /// False for a query without a direction, or with NaN.
         static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
         {
             line = new Physx.RayLine { Origin = origin, Direction = direction.normalized, Distance = maxDistance };
@@ -76,7 +76,7 @@ namespace UnityEngine
             for (var index = 0; index < count; index++) nearest[index] = hits[index].Shape == Physx.None ? default : new RaycastHit(hits[index]);
         }
 
-        /// Fills the array as far as it goes; returns how many it put there.
+        /// Fills the array up to its length, and returns the number of results.
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
@@ -149,7 +149,7 @@ namespace UnityEngine
             return Taken(count);
         }
 
-        /// All results of a query that fills an array as far as it goes.
+        /// All results of a query that fills an array up to its length.
         public static RaycastHit[] All(Func<RaycastHit[], int> query)
         {
             var results = new RaycastHit[16];
@@ -161,7 +161,7 @@ namespace UnityEngine
 
         // ---- Overlaps -------------------------------------------------------------------------------------------------
 
-        /// Puts colliders that touch the geometry into the array as far as it goes; returns how many it put there.
+        /// Fills the array with colliders that touch the geometry, and returns their number.
         public static int Overlaps(Physx.Geometry geometry, Physx.Pose pose, Collider[] results, int layerMask, QueryTriggerInteraction triggers)
         {
             if (results.Length == 0) return 0;

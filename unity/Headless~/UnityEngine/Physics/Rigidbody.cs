@@ -41,7 +41,7 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    /// Velocities and poses are those after the last step; what scripts set since is included, forces are not. Nothing is interpolated: no frame lies
+    /// Velocities and poses are those after the last step; what scripts set since is included, forces are not. They are not interpolated, because no frame lies
     /// between steps.
     [DisallowMultipleComponent]
     public class Rigidbody : Component

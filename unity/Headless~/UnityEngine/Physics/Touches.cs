@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Tells scripts what PhysX reported: Enter in the first step of a touch, Stay in later ones (of triggers also in the first), Exit in the first
+    /// Sends PhysX's reports to scripts: Enter in the first step of a touch, Stay in later ones (of triggers also in the first), Exit in the first
     /// without. A collider that was disabled or destroyed in between gives no Exit.
     sealed unsafe class Touches
     {

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// Memory of the graphics card: what is put into it can be looked at by tests (`Data`), there is no card.
+    /// Imitates memory of a graphics card. Tests read its content (`Data`).
     public sealed class GraphicsBuffer : IDisposable
     {
         [Flags]

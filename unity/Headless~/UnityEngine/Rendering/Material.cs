@@ -5,7 +5,12 @@ namespace UnityEngine
     public class Material : Object
     {
         static readonly int ColorId = Shader.PropertyToID("_Color");
-        internal static readonly Material Default = new Material(Shader.Find("Standard")) { name = "Default-Material" };
+        static Material shared;
+
+        /// Of new primitives. Scripts may change it.
+        internal static Material Default => shared = shared ?? new Material(Shader.Find("Standard")) { name = "Default-Material" };
+
+        internal static void ResetState() => shared = null;
 
         readonly MaterialPropertyBlock properties = new MaterialPropertyBlock();
 

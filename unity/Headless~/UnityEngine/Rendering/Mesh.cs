@@ -116,6 +116,8 @@ namespace UnityEngine
 
         static readonly Mesh[] Primitives = new Mesh[Enum.GetValues(typeof(PrimitiveType)).Length];
 
+        internal static void ResetState() => Array.Clear(Primitives, 0, Primitives.Length);
+
         /// Name and size of Unity's mesh; without vertices.
         internal static Mesh Primitive(PrimitiveType type)
         {

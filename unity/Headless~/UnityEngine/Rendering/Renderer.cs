@@ -3,7 +3,7 @@ using UnityEngine.Rendering;
 
 namespace UnityEngine
 {
-    /// Keeps materials and property blocks; nothing is drawn.
+    /// Keeps materials and property blocks, and draws nothing.
     public class Renderer : Component
     {
         readonly List<Material> assigned = new List<Material>();

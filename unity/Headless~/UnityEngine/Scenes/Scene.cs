@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine.SceneManagement
 {
-    /// The headless player has one scene; the editor also opens others to look at them.
+    /// The headless player has one scene; the editor also opens previews of others.
     public struct Scene
     {
         internal static readonly List<GameObject> Roots = new List<GameObject>();

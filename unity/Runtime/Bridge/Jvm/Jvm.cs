@@ -7,13 +7,13 @@ namespace Collektive.Bridge
     /// <summary>State of the process's JVM.</summary>
     public enum JvmState
     {
-        /// <summary>Never started in this process.</summary>
+        /// <summary>Not started in this process.</summary>
         None = 0,
         /// <summary>Running.</summary>
         Running = 1,
-        /// <summary>Exited, aborted or silent; only a new process gets another.</summary>
+        /// <summary>Exited, aborted or not responding. Only a new process can start another.</summary>
         Lost = 2,
-        /// <summary>Destroyed in order.</summary>
+        /// <summary>Shut down.</summary>
         Stopped = 3,
     }
 
@@ -23,10 +23,10 @@ namespace Collektive.Bridge
     /// </summary>
     public static unsafe class Jvm
     {
-        /// <summary>The state now; <see cref="JvmState.None"/> where the native library cannot be used. Never waits.</summary>
+        /// <summary>The current state; <see cref="JvmState.None"/> if the native library cannot be used. Never blocks.</summary>
         public static JvmState State => ShimLibrary.Problem == null ? (JvmState)Shim.clk_jvm_state() : JvmState.None;
 
-        /// <summary>Home, version and options of the JVM, one a line; empty when none was started.</summary>
+        /// <summary>Home, version and options of the JVM, one per line; empty before its start.</summary>
         internal static string Description =>
             State == JvmState.None ? "" : Shim.Text((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
@@ -43,12 +43,12 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Why this process can have no JVM: the native library is missing, made for another platform, or of another version. The text names the
-        /// platform and says what to do. Null when the library is as it should be.
+        /// Returns why the native library cannot be used: it is missing, for another platform, or of another version. The text names the
+        /// platform and the fix. Null if the library is usable.
         /// </summary>
         internal static string FindProblem() => ShimLibrary.Problem;
 
-        /// <summary>Starts the JVM, or does nothing when it runs with the same words.</summary>
+        /// <summary>Starts the JVM, or does nothing if it already runs with the same options.</summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Start(JvmLaunch launch)
         {
@@ -67,7 +67,7 @@ namespace Collektive.Bridge
             Configured(launch, config => Shim.clk_jvm_check((Shim.JvmConfig*)config));
         }
 
-        /// <summary>What the JVM that runs is like now. From the main thread, a few milliseconds; the first time some 50.</summary>
+        /// <summary>Returns the status of the running JVM. Call it from the main thread; it takes a few milliseconds, about 50 the first time.</summary>
         /// <param name="collect">Collect garbage first, so that the numbers count only what is in use.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
@@ -98,7 +98,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Destroys the JVM, if one was started; for the end of the process only, since none can follow it.</summary>
+        /// <summary>Shuts the JVM down, if one was started. Only for the end of the process, which cannot start another.</summary>
         /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
         internal static void Stop(int limitMs)
         {

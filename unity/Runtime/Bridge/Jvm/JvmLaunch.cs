@@ -23,7 +23,7 @@ namespace Collektive.Bridge
         /// <summary>JVM options, each one word, in order.</summary>
         public IReadOnlyList<string> Options { get; }
 
-        /// <summary>What of the settings is left out, and why; empty when nothing is. The JVM starts all the same.</summary>
+        /// <summary>A warning about a setting that is ignored, with the reason; otherwise empty. The JVM starts anyway.</summary>
         public string Note { get; internal set; } = "";
 
         /// <summary>Limit for the whole start in milliseconds.</summary>

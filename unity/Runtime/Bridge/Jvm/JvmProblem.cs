@@ -13,7 +13,7 @@ namespace Collektive.Bridge
         /// <summary>The field of <see cref="JvmSettings"/> to show it at.</summary>
         internal string Key { get; }
 
-        /// <summary>What is wrong, and what to do.</summary>
+        /// <summary>The error and its fix.</summary>
         internal string Message { get; }
 
         /// <inheritdoc/>

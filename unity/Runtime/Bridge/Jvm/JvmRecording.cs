@@ -5,16 +5,16 @@ using org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The flight recording of the JVM, which may be started and ended at any time while it runs, also between two ticks of a scene.
-    /// Each member returns at once: starting and writing go on in the background, and <see cref="Jvm.GetStatus"/> tells how far they are.
-    /// At the end of the JVM a running recording is written. From the main thread.
+    /// Controls the JVM's flight recording at any time while the JVM runs, also between two ticks.
+    /// Each member returns at once. Starting and writing run in the background; <see cref="Jvm.GetStatus"/> reports their progress.
+    /// When the JVM exits, a running recording is written. Call all members from the main thread.
     /// </summary>
     public static class JvmRecording
     {
-        /// <summary>Settings with little overhead, for recordings without end.</summary>
+        /// <summary>Settings with low overhead, for continuous recording.</summary>
         public const string Default = "default";
 
-        /// <summary>Settings with more samples, for a closer look.</summary>
+        /// <summary>Settings with more samples.</summary>
         public const string Profile = "profile";
 
         /// <summary>Starts a recording; <paramref name="path"/> (usually <c>.jfr</c>) is written at its stop.</summary>
@@ -28,7 +28,7 @@ namespace Collektive.Bridge
             Ask(RecordingAction.Start, path, isFile ? Path.GetFullPath(settings) : settings);
         }
 
-        /// <summary>Writes what has been recorded so far; the recording goes on.</summary>
+        /// <summary>Writes the recorded events to a file. The recording continues.</summary>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static void Dump(string path) => Ask(RecordingAction.Dump, path, "");
 
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
 
         private static void Ask(RecordingAction action, string path, string settings)
         {
-            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("name the file of the recording", nameof(path));
+            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("the recording's path is empty: give the path of a file", nameof(path));
             JvmControl.Ask(new JvmControl.Question { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
         }
     }

@@ -4,7 +4,7 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What an inspector shows beside JVM settings: for each what is in effect and what is wrong with it, and whether a restart is due.
+    /// The values in effect and the errors of JVM settings, and whether a restart is needed, for inspectors.
     /// Replaced when the settings change; the check of the options takes 50 to 200 ms.
     /// </summary>
     internal sealed class JvmReport
@@ -20,12 +20,12 @@ namespace Collektive.Bridge
         /// <summary>Whether the JVM would start with these settings.</summary>
         internal bool IsGood => problems.Count == 0;
 
-        /// <summary>Something to say about all of the settings, in one or two sentences; may be empty.</summary>
+        /// <summary>A notice about the settings as a whole; may be empty.</summary>
         internal string Notice { get; private set; } = "";
 
-        /// <summary>Looks at <paramref name="settings"/>; nothing is started.</summary>
+        /// <summary>Checks <paramref name="settings"/> without starting a JVM.</summary>
         /// <param name="settings">The settings to check.</param>
-        /// <param name="toLaunch">Makes the JVM's command line; throws <see cref="BridgeException"/> when there is no JVM.</param>
+        /// <param name="toLaunch">Returns the JVM's command line; throws <see cref="BridgeException"/> if no JVM is found.</param>
         internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);
@@ -35,10 +35,10 @@ namespace Collektive.Bridge
             return report;
         }
 
-        /// <summary>What is wrong with a setting, and what to do; empty when nothing is.</summary>
+        /// <summary>Returns the error of a setting, with the fix; empty for a valid one.</summary>
         internal string Problem(JvmSetting setting) => problems.TryGetValue(setting.Key, out var problem) ? problem : "";
 
-        /// <summary>What is in effect in the JVM that runs; empty when none does.</summary>
+        /// <summary>Returns the value in effect in the running JVM; empty without one.</summary>
         internal string Effective(JvmSetting setting) => status == null ? "" : setting.Effective(status);
 
         private void Try(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
@@ -63,12 +63,12 @@ namespace Collektive.Bridge
         {
             if (status == null)
             {
-                if (Jvm.State == JvmState.Lost) Notice = "The JVM is lost. Restart the editor to get a new one.";
-                else if (Jvm.State == JvmState.Stopped) Notice = "The JVM was ended. Restart the editor to get a new one.";
+                if (Jvm.State == JvmState.Lost) Notice = "The JVM has crashed or stopped responding. Restart the editor to start a new one.";
+                else if (Jvm.State == JvmState.Stopped) Notice = "The JVM has exited. Restart the editor to start a new one.";
                 return;
             }
             if (launch.Home == status.Home && Same(launch.Options, status.Options)) return;
-            Notice = "Changes take effect after an editor restart. The JVM that runs now has: " +
+            Notice = "Changes take effect after a restart of the editor. The running JVM has: " +
                 (status.Options.Count == 0 ? "no options" : string.Join(" ", status.Options)) + " (" + status.Home + ").";
         }
 

@@ -32,63 +32,63 @@ namespace Collektive.Bridge
         {
             new JvmSetting(
                 nameof(JvmSettings.location), "Location",
-                "Where the JVM is taken from. Automatic: the package's own, else that of JAVA_HOME.", status => status.Home),
+                "Location of the JVM. Automatic: the JVM package, or JAVA_HOME.", status => status.Home),
             new JvmSetting(
                 nameof(JvmSettings.home), "Folder",
-                "Root folder of a JRE or JDK, 17 or newer. Only for the location Folder.", status => status.Home),
+                "Root folder of a JRE or JDK 17 or newer, for the location Folder.", status => status.Home),
             new JvmSetting(
                 nameof(JvmSettings.initialHeapMb), "Initial heap",
-                "Heap at the start. The same as the maximum heap avoids growing it. 0: the JVM's choice.",
+                "Heap size at the start. Set it to the maximum heap to avoid growth. 0: the JVM's default.",
                 status => status.Megabytes("InitialHeapSize"), "MB", 8, 1 << 20, marks: "Xms Initial"),
             new JvmSetting(
                 nameof(JvmSettings.maximumHeapMb), "Maximum heap",
-                "Programs that need more get an OutOfMemoryError. 0: the JVM's choice, a quarter of the machine's memory.",
+                "Programs that need more memory fail with an OutOfMemoryError. 0: the JVM's default, a quarter of the machine's memory.",
                 status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
             new JvmSetting(
                 nameof(JvmSettings.collector), "Collector",
-                "The garbage collector. Automatic is Serial: rounds keep few objects and run fastest with it. Parallel, G1 or Z " +
-                "for programs that keep many objects. " +
-                "Shenandoah is not in every JVM.", EffectiveCollector, marks: "collector ollectors GC"),
+                "Garbage collector. Automatic is Serial, the fastest for rounds, which keep few objects. Choose Parallel, G1 or Z " +
+                "for programs that keep many. " +
+                "Not every JVM has Shenandoah.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
                 nameof(JvmSettings.compiler), "Compiler",
-                "Tiered is the fastest in the long run. C1 warms up sooner. Interpreter is slow; use it to find faults of compiled code.",
+                "Tiered is the fastest in the long run. C1 warms up sooner. Interpreter is slow; use it to find bugs of compiled code.",
                 EffectiveCompiler, marks: "TieredStopAtLevel Xint"),
             new JvmSetting(
                 nameof(JvmSettings.compileThreshold), "Compile threshold",
-                "Percent of the usual number of calls after which code is compiled. Lower: sooner, with less profile data.",
+                "Calls before code is compiled, in percent of the JVM's default. Lower: sooner, with less profile data.",
                 EffectiveThreshold, "%", 1, 10000, 100, "CompileThreshold"),
             new JvmSetting(
                 nameof(JvmSettings.codeCacheMb), "Code cache",
-                "Room for machine code. 0: the JVM's choice.", status => status.Megabytes("ReservedCodeCacheSize"), "MB", 4, 2048,
+                "Memory for compiled code. 0: the JVM's default.", status => status.Megabytes("ReservedCodeCacheSize"), "MB", 4, 2048,
                 marks: "CodeCache"),
             new JvmSetting(
                 nameof(JvmSettings.cdsArchive), "Class archive",
-                "The JVM keeps its loaded classes in a file of the user's cache when it ends, and starts faster the next time (JVM 19 or newer).",
+                "Save loaded classes to a file in the user's data when the JVM exits, for faster starts (JVM 19 or newer).",
                 EffectiveArchive, marks: "Shared archive"),
             new JvmSetting(
                 nameof(JvmSettings.assertions), "Assertions",
-                "Check assert statements of programs.", status => status.Has("-ea") ? "on" : "off"),
+                "Check assert statements in programs.", status => status.Has("-ea") ? "on" : "off"),
             new JvmSetting(
                 nameof(JvmSettings.debugPort), "Debug port",
-                "TCP port on which debuggers of this machine may attach (JDWP). A debugger can run any code in this process. 0: off.",
+                "TCP port for debuggers on this machine (JDWP). A debugger can run any code in this process. 0: off.",
                 EffectivePort, "", 1024, 65535, marks: "jdwp transport JDWP"),
             new JvmSetting(
                 nameof(JvmSettings.repeatableMaths), "Repeatable maths",
-                "sin, exp, pow and others of Math give the same bits on all JVMs and processors; they become slower.",
+                "sin, exp, pow and other functions of Math give identical results on all JVMs and processors, but are slower.",
                 status => status.Flag("UseLibmIntrinsic") == "false" ? "on" : "off", marks: "LibmIntrinsic"),
             new JvmSetting(
                 nameof(JvmSettings.flags), "More flags",
-                "Options of the JVM, each one word, for instance -XX:MaxGCPauseMillis=5. They come last and win over the fields above.",
+                "JVM options, one per entry, for example -XX:MaxGCPauseMillis=5. They override the settings above.",
                 status => string.Join(" ", status.Options)),
         };
 
         /// <summary>Name of the field and key in scenario files.</summary>
         internal string Key { get; }
 
-        /// <summary>What inspectors call it.</summary>
+        /// <summary>Label in inspectors.</summary>
         internal string Label { get; }
 
-        /// <summary>What it does.</summary>
+        /// <summary>Description for users.</summary>
         internal string Tooltip { get; }
 
         /// <summary>Unit of a number; may be empty.</summary>
@@ -97,10 +97,10 @@ namespace Collektive.Bridge
         /// <summary>Smallest number, beside <see cref="Otherwise"/>.</summary>
         internal int Minimum { get; }
 
-        /// <summary>Largest number; 0 for what is no number.</summary>
+        /// <summary>Largest number; 0 for settings that are not numbers.</summary>
         internal int Maximum { get; }
 
-        /// <summary>The number that leaves it to the JVM.</summary>
+        /// <summary>The number that selects the JVM's default.</summary>
         internal int Otherwise { get; }
 
         /// <summary>Type of the field.</summary>
@@ -108,7 +108,7 @@ namespace Collektive.Bridge
 
         private string[] Marks { get; }
 
-        /// <summary>The setting of that name; null when there is none.</summary>
+        /// <summary>Returns the setting with that key, or null.</summary>
         internal static JvmSetting Find(string key)
         {
             foreach (var setting in All)
@@ -124,14 +124,14 @@ namespace Collektive.Bridge
         /// <summary>Gives the field a value of <see cref="Type"/>.</summary>
         internal void Set(JvmSettings settings, object value) => field.SetValue(settings, value);
 
-        /// <summary>What is in effect in the JVM that runs.</summary>
+        /// <summary>Returns the value in effect in the running JVM.</summary>
         internal string Effective(JvmStatus status) => effective(status);
 
-        /// <summary>What is wrong with the field taken by itself; null when nothing is.</summary>
+        /// <summary>Returns the error of this field alone, or null.</summary>
         internal string FindProblem(JvmSettings settings)
         {
             var value = Get(settings);
-            if (Type.IsEnum && !Enum.IsDefined(Type, value)) return "there is no " + Label.ToLowerInvariant() + " " + value;
+            if (Type.IsEnum && !Enum.IsDefined(Type, value)) return "unknown " + Label.ToLowerInvariant() + " " + value + ": choose one of the list";
             if (value == null) return Label.ToLowerInvariant() + " is not set";
             if (Maximum == 0) return null;
             var number = (int)value;
@@ -141,7 +141,7 @@ namespace Collektive.Bridge
                 (Unit.Length > 0 ? " " + Unit : "") + off;
         }
 
-        /// <summary>The setting that a JVM's complaint about its options is about; the free flags when no other fits.</summary>
+        /// <summary>Returns the setting that a JVM's error message is about, or the flags if no other matches.</summary>
         internal static JvmSetting Blamed(string complaint, JvmSettings settings)
         {
             foreach (var flag in settings.flags)

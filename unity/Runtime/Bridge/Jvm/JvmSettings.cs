@@ -5,27 +5,27 @@ using System.IO;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Where the JVM is taken from.</summary>
+    /// <summary>Location of the JVM.</summary>
     public enum JvmLocation
     {
-        /// <summary>The package's own, else that of <c>JAVA_HOME</c>.</summary>
+        /// <summary>The JVM package, or <c>JAVA_HOME</c>.</summary>
         Automatic,
         /// <summary>The package's own.</summary>
         Bundled,
-        /// <summary>That of the environment variable <c>JAVA_HOME</c>.</summary>
+        /// <summary>The environment variable <c>JAVA_HOME</c>.</summary>
         JavaHome,
-        /// <summary>That of <see cref="JvmSettings.home"/>.</summary>
+        /// <summary>The folder <see cref="JvmSettings.home"/>.</summary>
         Folder,
     }
 
     /// <summary>The garbage collector.</summary>
     public enum JvmCollector
     {
-        /// <summary>Serial, unless one of the free flags names another.</summary>
+        /// <summary>Serial, unless a flag selects another.</summary>
         Automatic,
         /// <summary>A balance of throughput and short pauses.</summary>
         G1,
-        /// <summary>One thread; the cheapest for programs while it rests, the least memory and the fastest start.</summary>
+        /// <summary>One thread, with the lowest overhead and memory and the fastest start.</summary>
         Serial,
         /// <summary>The highest throughput, with long pauses.</summary>
         Parallel,
@@ -35,14 +35,14 @@ namespace Collektive.Bridge
         Shenandoah,
     }
 
-    /// <summary>How programs become machine code.</summary>
+    /// <summary>The compilation of programs to machine code.</summary>
     public enum JvmCompiler
     {
-        /// <summary>First quick code, then, where it is worth while, optimised code.</summary>
+        /// <summary>Compiles quickly first, and optimises frequently executed code.</summary>
         Tiered,
-        /// <summary>Quick code only: up to speed at once, slower in the long run.</summary>
+        /// <summary>Compiles quickly only: faster at first, slower in the long run.</summary>
         C1,
-        /// <summary>No machine code at all: for looking for faults.</summary>
+        /// <summary>Does not compile: for finding bugs of the compiler.</summary>
         Interpreter,
     }
 
@@ -53,28 +53,28 @@ namespace Collektive.Bridge
     [Serializable]
     public sealed class JvmSettings
     {
-        /// <summary>Where the JVM is taken from.</summary>
+        /// <summary>Location of the JVM.</summary>
         public JvmLocation location = JvmLocation.Automatic;
 
         /// <summary>Root of a JRE or JDK, for <see cref="JvmLocation.Folder"/>.</summary>
         public string home = "";
 
-        /// <summary>MiB of heap at the start; 0: the JVM's choice.</summary>
+        /// <summary>Heap at the start in MiB; 0: the JVM's default.</summary>
         public int initialHeapMb;
 
-        /// <summary>MiB of heap at most; 0: the JVM's choice, a quarter of the machine's memory.</summary>
+        /// <summary>Maximum heap in MiB; 0: the JVM's default, a quarter of the machine's memory.</summary>
         public int maximumHeapMb;
 
         /// <summary>The garbage collector.</summary>
         public JvmCollector collector = JvmCollector.Automatic;
 
-        /// <summary>How programs become machine code.</summary>
+        /// <summary>The compilation of programs to machine code.</summary>
         public JvmCompiler compiler = JvmCompiler.Tiered;
 
-        /// <summary>Percent of the usual number of calls after which code is compiled.</summary>
+        /// <summary>Calls before code is compiled, in percent of the JVM's default.</summary>
         public int compileThreshold = 100;
 
-        /// <summary>MiB for machine code; 0: the JVM's choice.</summary>
+        /// <summary>Memory for compiled code in MiB; 0: the JVM's default.</summary>
         public int codeCacheMb;
 
         /// <summary>Whether loaded classes are archived for a faster next start.</summary>
@@ -83,16 +83,16 @@ namespace Collektive.Bridge
         /// <summary>Whether <c>assert</c> statements of programs are checked.</summary>
         public bool assertions;
 
-        /// <summary>TCP port of the loopback on which debuggers may attach; 0: none.</summary>
+        /// <summary>TCP port on the loopback interface for debuggers; 0: none.</summary>
         public int debugPort;
 
         /// <summary>Whether <c>sin</c>, <c>exp</c> and others give the same bits on other JVMs and processors.</summary>
         public bool repeatableMaths;
 
-        /// <summary>More options of the JVM, each one word.</summary>
+        /// <summary>More JVM options, one per entry.</summary>
         public List<string> flags = new List<string>();
 
-        /// <summary>All that is wrong without asking a JVM; empty when nothing is.</summary>
+        /// <summary>Returns all errors that can be found without a JVM.</summary>
         internal List<JvmProblem> FindProblems()
         {
             var problems = new List<JvmProblem>();
@@ -112,9 +112,9 @@ namespace Collektive.Bridge
             }
             foreach (var flag in flags)
             {
-                if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove it"));
+                if (string.IsNullOrWhiteSpace(flag)) problems.Add(new JvmProblem(nameof(flags), "a flag is empty: remove the entry"));
                 else if (flag.Contains(" -"))
-                    problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' is more than one flag: give each an entry of its own"));
+                    problems.Add(new JvmProblem(nameof(flags), "'" + flag + "' contains several flags: give each its own entry"));
             }
             return problems;
         }
@@ -174,7 +174,7 @@ namespace Collektive.Bridge
         /// same place, nor one without a header, which a JVM leaves that is killed while it writes. So the jar's size and time are part of the name, and
         /// what is of no use is removed.
         /// </summary>
-        /// <returns>Why there is none, or an empty text.</returns>
+        /// <returns>The reason why no archive is used, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var place = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
@@ -187,7 +187,7 @@ namespace Collektive.Bridge
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                return "the JVM starts without its class archive, which takes longer: the folder '" + cacheFolder + "' cannot be made (" + error.Message + ")";
+                return "the JVM starts slower, without its class archive: the folder '" + cacheFolder + "' cannot be created (" + error.Message + ")";
             }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + file);
@@ -203,7 +203,9 @@ namespace Collektive.Bridge
             return hash.ToString("x16", CultureInfo.InvariantCulture);
         }
 
-        /// <summary>One that a JVM writes at this moment has no header yet: this JVM goes on without a file, and the next one writes anew.</summary>
+        /// <summary>
+        /// Checks the header of an archive: another JVM may be writing it. This JVM then starts without it, and the next one writes it again.
+        /// </summary>
         private static void RemoveUseless(string archive, string wanted)
         {
             try

@@ -8,9 +8,9 @@ namespace Collektive.Bridge
     {
         /// <summary>For developers of the bridge.</summary>
         Debug = 0,
-        /// <summary>Standard output of programs, and news.</summary>
+        /// <summary>Standard output of programs, and information.</summary>
         Info = 1,
-        /// <summary>Standard error of programs, and things to look at.</summary>
+        /// <summary>Standard error of programs, and warnings.</summary>
         Warning = 2,
         /// <summary>Something failed.</summary>
         Error = 3,
@@ -18,12 +18,12 @@ namespace Collektive.Bridge
 
     /// <summary>
     /// Log lines of the shim, the JVM and the programs, polled. At most <see cref="LinesPerSecond"/> of each severity, so that
-    /// the console can follow. Lines that are left out are counted, and the count is a line of its own. Without the native library there are none. Used
+    /// the console can keep up. A separate line reports the number of omitted lines. Empty without the native library. Used
     /// from one thread at a time.
     /// </summary>
     internal sealed unsafe class HostLog
     {
-        /// <summary>Lines of one severity that <see cref="TryRead"/> gives in a second.</summary>
+        /// <summary>Limit of lines per second and severity that <see cref="TryRead"/> returns.</summary>
         public const int LinesPerSecond = 100;
 
         private const int LineCapacity = 16 * 1024;
@@ -33,7 +33,7 @@ namespace Collektive.Bridge
         private long leftOut;
         private ulong lost = Lost();
 
-        /// <summary>Takes the oldest line, if there is one. Allocates only when there is one that is given.</summary>
+        /// <summary>Removes and returns the oldest line, if any. Allocates only for a returned line.</summary>
         public bool TryRead(out HostLogLevel level, out string line)
         {
             if (Stopwatch.GetTimestamp() - secondBegan >= Stopwatch.Frequency && TryCount(out level, out line)) return true;
@@ -55,7 +55,7 @@ namespace Collektive.Bridge
             return false;
         }
 
-        /// <summary>Begins a new second. True if lines were left out before; <paramref name="line"/> then has their number.</summary>
+        /// <summary>Starts a new second. Returns true if lines were omitted; <paramref name="line"/> then reports their number.</summary>
         public bool TryCount(out HostLogLevel level, out string line)
         {
             secondBegan = Stopwatch.GetTimestamp();

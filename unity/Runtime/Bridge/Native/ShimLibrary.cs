@@ -7,7 +7,7 @@ namespace Collektive.Bridge
     internal static class ShimLibrary
     {
         /// <summary>
-        /// What is wrong with the library, on which platform, and what to do; null when it can be used. Checked once: a process cannot load a library
+        /// The error of the library with the platform and the fix, or null if the library is usable. Checked once: a process cannot load a library
         /// after a failed attempt.
         /// </summary>
         internal static readonly string Problem = FindProblem();
@@ -19,7 +19,7 @@ namespace Collektive.Bridge
         }
 
 #if UNITY_5_3_OR_NEWER && !UNITY_EDITOR && !UNITY_STANDALONE
-        private static string FindProblem() => Missing("this platform has no JVM inside the process");
+        private static string FindProblem() => Missing("this platform does not support a JVM inside the process");
 #else
         private static string FindProblem()
         {
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
 #endif
 
         private static string Missing(string reason) =>
-            "there is no native library collektive_shim for this platform, " + OperatingSystem() + " on " + RuntimeInformation.ProcessArchitecture
+            "the native library collektive_shim is not available for this platform, " + OperatingSystem() + " on " + RuntimeInformation.ProcessArchitecture
                 + " (" + reason + "): use a platform that the package supports (Limits in its documentation names them), or reinstall the package if this "
                 + "is one of them, and restart";
 

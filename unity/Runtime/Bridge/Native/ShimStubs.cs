@@ -2,7 +2,7 @@
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Stubs for platforms without the native library: players for them can be built, and report at run time that there is no simulation.
+    /// Stubs for platforms without the native library. Their players can be built, and report the missing library at run time.
     /// </summary>
     internal static unsafe partial class Shim
     {

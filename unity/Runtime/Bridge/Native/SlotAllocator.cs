@@ -18,7 +18,7 @@ namespace Collektive.Bridge
             Show(memory.Address, memory.Capacity);
         }
 
-        /// <summary>The handle to hand to the shim.</summary>
+        /// <summary>The handle for the shim.</summary>
         internal ulong Slot { get; private set; }
 
         public override void GrowFront(int newSize)

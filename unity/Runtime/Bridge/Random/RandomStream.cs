@@ -2,21 +2,21 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>What a stream of random numbers is for; streams of different purposes are independent.</summary>
+    /// <summary>Purposes of random streams. Streams of different purposes are independent.</summary>
     internal enum RandomPurpose
     {
         /// <summary><c>Device.random</c> of programs (used on the JVM only).</summary>
         Program = 0,
         /// <summary>A node's sensors and actuators.</summary>
         Node = 1,
-        /// <summary>The scene as a whole: placing nodes, for instance.</summary>
+        /// <summary>The scene, for example to place nodes.</summary>
         Scene = 2,
         /// <summary>When a node's rounds are due.</summary>
         Schedule = 3,
     }
 
     /// <summary>
-    /// Random numbers that depend on seed, node and purpose alone: never on the order in which other nodes draw theirs.
+    /// Random numbers that depend only on seed, node and purpose, not on the order of nodes.
     /// Not thread-safe; allocates nothing after its construction.
     /// </summary>
     public sealed class RandomStream
@@ -28,16 +28,16 @@ namespace Collektive.Bridge
         private int used = 4;
         private uint w0, w1, w2, w3;
 
-        /// <summary>Makes the stream of a node (0 or greater; 0 for the scene's own).</summary>
+        /// <summary>Creates the stream of a node (0 or greater; 0 for the scene).</summary>
         internal RandomStream(ulong seed, int node, RandomPurpose purpose)
         {
-            if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "ids are 0 or greater");
+            if (node < 0) throw new ArgumentOutOfRangeException(nameof(node), node, "a node's id must be 0 or greater");
             this.seed = seed;
             this.node = (uint)node;
             this.purpose = (uint)purpose;
         }
 
-        /// <summary>The next 32 random bits.</summary>
+        /// <summary>Returns the next 32 random bits.</summary>
         public uint NextUInt()
         {
             if (used == 4)
@@ -59,7 +59,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>A number in [0, 1), evenly spread over the multiples of 2^-53.</summary>
+        /// <summary>Returns a number in [0, 1), uniformly distributed over the multiples of 2^-53.</summary>
         public double NextDouble()
         {
             var high = (ulong)NextUInt();
@@ -67,13 +67,13 @@ namespace Collektive.Bridge
             return ((high << 32 | low) >> 11) * (1.0 / (1L << 53));
         }
 
-        /// <summary>A number between <paramref name="low"/> and <paramref name="high"/>, the latter left out but for rounding.</summary>
+        /// <summary>Returns a number between <paramref name="low"/> and <paramref name="high"/>, the latter excluded except after rounding.</summary>
         public float Range(float low, float high)
         {
             return (float)(low + (high - low) * NextDouble());
         }
 
-        /// <summary>A whole number from <paramref name="low"/> to <paramref name="high"/> - 1.</summary>
+        /// <summary>Returns an integer from <paramref name="low"/> to <paramref name="high"/> - 1.</summary>
         /// <exception cref="ArgumentOutOfRangeException"><paramref name="high"/> is not greater than <paramref name="low"/>.</exception>
         public int Range(int low, int high)
         {

@@ -4,11 +4,11 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Reads one tick's actuator data, and those of the tick before. Not thread-safe; no allocation once the capacities are reached.
+    /// Reads the actuator data of this tick and of the previous one. Not thread-safe; no allocation once the capacities are reached.
     /// </summary>
     public abstract class ActuatorBuffer
     {
-        /// <summary>The type of an element: what an <c>Actuator&lt;T&gt;</c> must have as its T.</summary>
+        /// <summary>The type of an element, the T of an <c>Actuator&lt;T&gt;</c>.</summary>
         internal abstract Type DataType { get; }
 
         /// <summary>
@@ -21,20 +21,20 @@ namespace Collektive.Bridge
         /// <summary>Elements in the attached table.</summary>
         internal abstract int Count { get; }
 
-        /// <summary>The element at an index below <see cref="Count"/>, boxed: for tools that know no schema.</summary>
+        /// <summary>The element at an index below <see cref="Count"/>, boxed, for tools without the schema's types.</summary>
         internal abstract object Get(int index);
 
-        /// <summary>As <see cref="Get"/>, of the table that was attached before.</summary>
-        internal abstract object GetFormer(int index);
+        /// <summary>As <see cref="Get"/>, for the previously attached table.</summary>
+        internal abstract object GetPrevious(int index);
 
         /// <summary>
-        /// Copies an element of the table that was attached before to memory of its own. Reuses that of <paramref name="kept"/> unless it is null.
+        /// Copies an element of the previously attached table. Reuses the memory of <paramref name="kept"/> unless it is null.
         /// </summary>
-        internal abstract void KeepFormer(int index, ref KeptAnswer kept);
+        internal abstract void CopyPrevious(int index, ref AnswerCopy kept);
 
         /// <summary>
         /// To be called before the attached frame's memory is written again, as a session does: the next <see cref="Attach"/> makes its elements the
-        /// former ones.
+        /// previous ones.
         /// </summary>
         internal abstract void Retain();
     }
@@ -43,7 +43,7 @@ namespace Collektive.Bridge
     public abstract class ActuatorBuffer<T> : ActuatorBuffer
     {
         private int count;
-        private int formerCount;
+        private int previousCount;
 
         /// <inheritdoc/>
         internal sealed override Type DataType => typeof(T);
@@ -55,29 +55,29 @@ namespace Collektive.Bridge
         internal sealed override object Get(int index) => this[index];
 
         /// <inheritdoc/>
-        internal sealed override object GetFormer(int index) => Former(index);
+        internal sealed override object GetPrevious(int index) => Previous(index);
 
         /// <summary>The element at an index below <see cref="ActuatorBuffer.Count"/>.</summary>
         internal abstract T this[int index] { get; }
 
         /// <summary>
-        /// An element of the table that was attached before, at an index below its count. Valid as long as those of the attached one.
+        /// An element of the previously attached table, at an index below its count. Valid as long as the elements of the attached table.
         /// </summary>
-        internal abstract T Former(int index);
+        internal abstract T Previous(int index);
 
         /// <inheritdoc/>
         internal sealed override void Attach(ByteBuffer frame, int position)
         {
             var first = FrameTable.FindData(frame, position, ElementSize, out var elements);
             Show(frame, first, elements);
-            formerCount = count;
+            previousCount = count;
             count = elements;
         }
 
         /// <summary>Bytes of an element in the vector.</summary>
         private protected abstract int ElementSize { get; }
 
-        /// <summary>Reads the elements of a vector from <paramref name="first"/> on. The present elements become the former ones.</summary>
+        /// <summary>Reads the elements of a vector from <paramref name="first"/> on. The present elements become the previous ones.</summary>
         private protected abstract void Show(ByteBuffer frame, int first, int elements);
 
         private protected void Require(int index)
@@ -85,9 +85,9 @@ namespace Collektive.Bridge
             if ((uint)index >= (uint)count) throw new ArgumentOutOfRangeException(nameof(index));
         }
 
-        private protected void RequireFormer(int index)
+        private protected void RequirePrevious(int index)
         {
-            if ((uint)index >= (uint)formerCount) throw new ArgumentOutOfRangeException(nameof(index));
+            if ((uint)index >= (uint)previousCount) throw new ArgumentOutOfRangeException(nameof(index));
         }
     }
 }

@@ -1,18 +1,18 @@
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Staging object of one table. FlatBuffers wants children written before their table, and several sensors fill different
+    /// Staging object of one table. FlatBuffers requires children before their table, and several sensors fill different
     /// fields of the same data, so the fields wait here. Reused every tick; not thread-safe.
     /// </summary>
     public abstract class Draft
     {
-        /// <summary>Gives all fields the defaults of the schema; lists keep their capacity.</summary>
+        /// <summary>Sets all fields to the defaults of the schema. Lists keep their capacity.</summary>
         public abstract void Clear();
 
-        /// <summary>Path of the first field that is NaN or infinite, else null.</summary>
+        /// <summary>Returns the path of the first field that is NaN or infinite, or null.</summary>
         public abstract string FindNotFinite();
 
-        /// <summary>Writes the table, children first; its offset. Called by the buffers.</summary>
+        /// <summary>Writes the table after its children, and returns its offset. Called by the buffers.</summary>
         public abstract int Write(DraftWriter writer);
     }
 
@@ -22,7 +22,7 @@ namespace Collektive.Bridge
     /// </summary>
     public abstract class Draft<TRow> : Draft where TRow : unmanaged
     {
-        /// <summary>Makes a draft whose fields lie in a row as <paramref name="layout"/> says.</summary>
+        /// <summary>Creates a draft with the row layout <paramref name="layout"/>.</summary>
         protected Draft(RowLayout layout)
         {
             Layout = layout;

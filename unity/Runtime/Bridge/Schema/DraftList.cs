@@ -3,7 +3,7 @@ using System.Runtime.CompilerServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A vector of scalars, structs or strings in a <see cref="Draft"/>. Grows, and never gives memory back.</summary>
+    /// <summary>A vector of scalars, structs or strings in a <see cref="Draft"/>. Its memory grows, and is not released.</summary>
     public sealed class DraftList<T>
     {
         private T[] items = Array.Empty<T>();

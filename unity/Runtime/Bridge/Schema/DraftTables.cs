@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A vector of tables in a <see cref="Draft"/>. Its drafts are reused, so hold none beyond <see cref="Clear"/>.</summary>
+    /// <summary>A vector of tables in a <see cref="Draft"/>. Its drafts are reused: do not keep them after <see cref="Clear"/>.</summary>
     public sealed class DraftTables<T> where T : Draft, new()
     {
         private T[] items = Array.Empty<T>();

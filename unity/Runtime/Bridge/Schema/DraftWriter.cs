@@ -11,7 +11,7 @@ namespace Collektive.Bridge
     /// </summary>
     public sealed class DraftWriter
     {
-        /// <summary>The largest that a field of a schema can have.</summary>
+        /// <summary>The largest alignment of a field.</summary>
         private const int MaxAlignment = 8;
 
         private FlatBufferBuilder builder;
@@ -56,7 +56,7 @@ namespace Collektive.Bridge
             fixed (byte* first = &memory[free]) builder.Put<byte>((IntPtr)first, bytes);
         }
 
-        /// <summary>Refuses data without a required field.</summary>
+        /// <summary>Throws for data without a required field.</summary>
         public void Require(bool present, string field)
         {
             if (!present) throw Missing(field + " is required by the schema and was not set");

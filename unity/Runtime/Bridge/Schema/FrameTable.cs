@@ -16,7 +16,7 @@ namespace Collektive.Bridge
             return builder.EndTable();
         }
 
-        /// <summary>Where the first element of <c>data</c> lies.</summary>
+        /// <summary>Position of the first element of <c>data</c>.</summary>
         internal static int FindData(ByteBuffer frame, int position, int elementSize, out int count)
         {
             try

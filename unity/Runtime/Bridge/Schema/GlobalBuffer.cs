@@ -3,19 +3,19 @@ using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Staging of the global data that all nodes see. Not thread-safe; no allocation once the capacities are reached.</summary>
+    /// <summary>Buffer for the global data. Not thread-safe; no allocation once the capacities are reached.</summary>
     public abstract class GlobalBuffer
     {
         /// <summary>The type of the staged data.</summary>
         internal abstract Type DataType { get; }
 
-        /// <summary>Gives all fields the defaults of the schema.</summary>
+        /// <summary>Sets all fields to the defaults of the schema.</summary>
         internal abstract void Clear();
 
         /// <summary>Like <see cref="SensorBuffer.FindNotFinite"/>.</summary>
         internal abstract string FindNotFinite();
 
-        /// <summary>Writes the data; the offset of the table <c>GlobalData</c>.</summary>
+        /// <summary>Writes the data, and returns the offset of the table <c>GlobalData</c>.</summary>
         /// <exception cref="BridgeException">A required field was not set: <see cref="BridgeError.Argument"/>.</exception>
         internal abstract int Write(FlatBufferBuilder builder);
     }

@@ -3,7 +3,7 @@ namespace Collektive.Bridge
     /// <summary>A C# struct with exactly the memory layout of a struct of the schema.</summary>
     public interface IMirror
     {
-        /// <summary>Path of the first field that is NaN or infinite, else null.</summary>
+        /// <summary>Returns the path of the first field that is NaN or infinite, or null.</summary>
         string FindNotFinite();
     }
 }

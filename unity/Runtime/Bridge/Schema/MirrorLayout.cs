@@ -2,16 +2,16 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Proves at start-up that the runtime lays a mirror out as the schema does. Used by generated code.</summary>
+    /// <summary>Checks at start-up that mirrors have the layout of the schema. Used by generated code.</summary>
     public static class MirrorLayout
     {
-        /// <summary>Refuses a mirror of another size.</summary>
+        /// <summary>Throws if a mirror has another size.</summary>
         public static unsafe void Size<T>(int expected) where T : unmanaged
         {
             if (sizeof(T) != expected) throw Wrong<T>("has " + sizeof(T) + " bytes, not " + expected);
         }
 
-        /// <summary>Refuses a mirror with the field at another offset.</summary>
+        /// <summary>Throws if a field of a mirror has another offset.</summary>
         public static unsafe void Offset<T, TField>(ref T mirror, ref TField field, int expected)
             where T : unmanaged where TField : unmanaged
         {

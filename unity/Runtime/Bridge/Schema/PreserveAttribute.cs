@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Keeps a class that nothing names in code, such as a generated schema, in a player whose unused code is stripped. Unity goes by the attribute's
+    /// Keeps a class without references in code, such as a generated schema, in players with code stripping. Unity recognises the attribute by its
     /// name; this one is for code that does not refer to the engine.
     /// </summary>
     [AttributeUsage(AttributeTargets.Class)]

@@ -4,27 +4,27 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Staging of one tick's sensor data: element i belongs to the i-th due node. Not thread-safe; no allocation once the
+    /// Buffer for one tick's sensor data: element i belongs to the i-th due node. Not thread-safe; no allocation once the
     /// capacities are reached.
     /// </summary>
     public abstract class SensorBuffer
     {
-        /// <summary>The type of an element: what a <c>Sensor&lt;T&gt;</c> must have as its T.</summary>
+        /// <summary>The type of an element, the T of a <c>Sensor&lt;T&gt;</c>.</summary>
         internal abstract Type DataType { get; }
 
-        /// <summary>Makes room for at least this many elements; never shrinks.</summary>
+        /// <summary>Ensures capacity for at least this many elements. Never shrinks.</summary>
         internal abstract void EnsureCapacity(int count);
 
-        /// <summary>Gives an element the defaults of the schema.</summary>
+        /// <summary>Sets an element to the defaults of the schema.</summary>
         internal abstract void Clear(int index);
 
         /// <summary>
         /// Path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, else null. A field whose
-        /// default in the schema is not finite may hold such values and is not looked at.
+        /// default in the schema is not finite may contain such values and is not checked.
         /// </summary>
         internal abstract string FindNotFinite(int index);
 
-        /// <summary>Writes the first <paramref name="count"/> elements; the offset of the table <c>Sensors</c>.</summary>
+        /// <summary>Writes the first <paramref name="count"/> elements, and returns the offset of the table <c>Sensors</c>.</summary>
         /// <exception cref="BridgeException">A required field was not set: <see cref="BridgeError.Argument"/>.</exception>
         internal abstract int Write(FlatBufferBuilder builder, int count);
     }

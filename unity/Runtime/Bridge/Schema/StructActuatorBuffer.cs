@@ -11,7 +11,7 @@ namespace Collektive.Bridge
     public sealed class StructActuatorBuffer<T> : ActuatorBuffer<T> where T : unmanaged, IMirror
     {
         private T[] items = Array.Empty<T>();
-        private T[] former = Array.Empty<T>();
+        private T[] previous = Array.Empty<T>();
 
         /// <inheritdoc/>
         internal override T this[int index]
@@ -24,20 +24,20 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        internal override T Former(int index)
+        internal override T Previous(int index)
         {
-            RequireFormer(index);
-            return former[index];
+            RequirePrevious(index);
+            return previous[index];
         }
 
         /// <inheritdoc/>
-        internal override void KeepFormer(int index, ref KeptAnswer kept)
+        internal override void CopyPrevious(int index, ref AnswerCopy kept)
         {
-            if (kept == null) kept = new KeptStruct();
-            ((KeptStruct)kept).Item = Former(index);
+            if (kept == null) kept = new StructCopy();
+            ((StructCopy)kept).Item = Previous(index);
         }
 
-        /// <summary>Nothing to do: elements are copies already.</summary>
+        /// <summary>Does nothing, because elements are copies.</summary>
         internal override void Retain()
         {
         }
@@ -46,13 +46,13 @@ namespace Collektive.Bridge
 
         private protected override void Show(ByteBuffer frame, int first, int elements)
         {
-            var next = former;
-            former = items;
+            var next = previous;
+            previous = items;
             items = elements > next.Length ? new T[Math.Max(elements, 2 * next.Length)] : next;
             if (elements > 0) frame.ToSpan(first, elements * ElementSize).CopyTo(MemoryMarshal.AsBytes(new Span<T>(items)));
         }
 
-        private sealed class KeptStruct : KeptAnswer<T>
+        private sealed class StructCopy : AnswerCopy<T>
         {
             internal T Item;
 

@@ -7,7 +7,7 @@ namespace Collektive.Bridge
     {
         private readonly int alignment;
 
-        /// <summary>Makes an empty buffer; <paramref name="alignment"/> is the struct's in the schema, in bytes.</summary>
+        /// <summary>Creates an empty buffer. <paramref name="alignment"/> is the struct's alignment in bytes.</summary>
         public StructSensorBuffer(int alignment)
         {
             this.alignment = alignment;

@@ -4,7 +4,7 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Actuator data that is a table in the schema: elements are flatc's readers over the frame's memory. The former ones are read from a copy of their
+    /// Actuator data that is a table in the schema: elements are flatc's readers over the frame's memory. The previous ones are read from a copy of their
     /// frame, made in one block.
     /// </summary>
     public sealed class TableActuatorBuffer<T> : ActuatorBuffer<T> where T : struct, IFlatbufferObject
@@ -13,10 +13,10 @@ namespace Collektive.Bridge
         private ByteBuffer frame;
         private int first;
         private byte[] copied = Array.Empty<byte>();
-        private ByteBuffer former;
-        private int formerFirst;
+        private ByteBuffer previous;
+        private int previousFirst;
 
-        /// <summary>Makes a reader of tables of that <paramref name="shape"/>.</summary>
+        /// <summary>Creates a reader of tables with that <paramref name="shape"/>.</summary>
         public TableActuatorBuffer(TableShape shape)
         {
             this.shape = shape;
@@ -33,18 +33,18 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        internal override T Former(int index)
+        internal override T Previous(int index)
         {
-            RequireFormer(index);
-            return Reader(former, Place(former, formerFirst, index));
+            RequirePrevious(index);
+            return Reader(previous, Place(previous, previousFirst, index));
         }
 
         /// <inheritdoc/>
-        internal override void KeepFormer(int index, ref KeptAnswer kept)
+        internal override void CopyPrevious(int index, ref AnswerCopy kept)
         {
-            RequireFormer(index);
-            if (kept == null) kept = new KeptTable();
-            ((KeptTable)kept).Take(shape, former, Place(former, formerFirst, index));
+            RequirePrevious(index);
+            if (kept == null) kept = new TableAnswerCopy();
+            ((TableAnswerCopy)kept).Take(shape, previous, Place(previous, previousFirst, index));
         }
 
         /// <inheritdoc/>
@@ -56,10 +56,10 @@ namespace Collektive.Bridge
             if (length > copied.Length)
             {
                 copied = new byte[Math.Max(length, 2 * copied.Length)];
-                former = new ByteBuffer(copied);
+                previous = new ByteBuffer(copied);
             }
             frame.ToSpan(start, length).CopyTo(copied);
-            formerFirst = first - start;
+            previousFirst = first - start;
         }
 
         private protected override int ElementSize => sizeof(int);
@@ -79,7 +79,7 @@ namespace Collektive.Bridge
             return reader;
         }
 
-        private sealed class KeptTable : KeptAnswer<T>
+        private sealed class TableAnswerCopy : AnswerCopy<T>
         {
             private readonly TableCopy copy = new TableCopy();
             private int place;

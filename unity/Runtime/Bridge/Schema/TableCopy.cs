@@ -3,7 +3,7 @@ using Google.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Memory that one table of a frame is copied to, with all that belongs to it. No allocation once the capacity is reached.</summary>
+    /// <summary>A copy of a table of a frame with its children. No allocation once the capacity is reached.</summary>
     internal sealed class TableCopy
     {
         /// <summary>The largest alignment of the schema language's numbers.</summary>
@@ -17,7 +17,7 @@ namespace Collektive.Bridge
             Buffer = new ByteBuffer(bytes);
         }
 
-        /// <summary>What was copied, for readers.</summary>
+        /// <summary>The copied bytes, for readers.</summary>
         internal ByteBuffer Buffer { get; private set; }
 
         internal void Clear() => used = 0;

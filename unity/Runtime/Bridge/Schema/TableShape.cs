@@ -5,7 +5,7 @@ using Google.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Which fields of a table lie outside of it: what must be known to copy one out of a frame. Used by generated code, which adds the fields once;
+    /// The fields of a table that are stored outside of it, to copy tables. Used by generated code, which adds the fields once;
     /// slots are the places of fields in the table's declaration. Deprecated fields are not copied.
     /// </summary>
     public sealed class TableShape
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
             Tables,
         }
 
-        /// <summary>Copies the table at <paramref name="table"/> and all that belongs to it, and returns its place in the copy.</summary>
+        /// <summary>Copies the table at <paramref name="table"/> with its children, and returns its place in the copy.</summary>
         internal int Copy(ByteBuffer from, int table, TableCopy to)
         {
             var vtable = table - from.GetInt(table);

@@ -1,12 +1,12 @@
 namespace Collektive.Bridge
 {
-    /// <summary>What runs aggregate programs: a DSL, its standard library and their implementation.</summary>
+    /// <summary>Runtimes of programs: a DSL, its standard library and their implementation.</summary>
     public enum AggregateRuntime : byte
     {
-        /// <summary>The package's own, made for many nodes in one process.</summary>
+        /// <summary>The built-in runtime, for many nodes in one process.</summary>
         BuiltIn = org.collektive.frame.AggregateRuntime.BuiltIn,
 
-        /// <summary>Collektive itself, from jars of the user's; much slower.</summary>
+        /// <summary>Collektive from the user's jars; much slower.</summary>
         Collektive = org.collektive.frame.AggregateRuntime.Collektive,
     }
 }

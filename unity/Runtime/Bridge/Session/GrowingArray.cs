@@ -2,31 +2,31 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A list that shows its array, so that it can be written as one block. Clearing keeps the memory.</summary>
+    /// <summary>A list with access to its array, to write it as one block. Clearing keeps the memory.</summary>
     internal sealed class GrowingArray<T>
     {
         private T[] items = new T[16];
 
-        /// <summary>The elements; only the first <see cref="Count"/> count.</summary>
+        /// <summary>The elements; only the first <see cref="Count"/> are valid.</summary>
         public T[] Items => items;
 
-        /// <summary>How many elements there are.</summary>
+        /// <summary>Number of elements.</summary>
         public int Count { get; private set; }
 
         /// <summary>Appends an element.</summary>
         public void Add(T item) => Add() = item;
 
-        /// <summary>Appends an element that holds what was there before; valid until the next one is appended.</summary>
+        /// <summary>Appends an element with its previous content; valid until the next one is appended.</summary>
         public ref T Add()
         {
             if (Count == items.Length) Array.Resize(ref items, Count * 2);
             return ref items[Count++];
         }
 
-        /// <summary>Makes it empty.</summary>
+        /// <summary>Removes all elements.</summary>
         public void Clear() => Truncate(0);
 
-        /// <summary>Keeps the first <paramref name="count"/> elements, at most as many as there are.</summary>
+        /// <summary>Keeps at most the first <paramref name="count"/> elements.</summary>
         public void Truncate(int count)
         {
             Count = Math.Min(Count, count);

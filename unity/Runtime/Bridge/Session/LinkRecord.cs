@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A directed link as the frame holds it: <see cref="To"/> receives what <see cref="From"/> sends.</summary>
+    /// <summary>A directed link: <see cref="To"/> receives messages of <see cref="From"/>.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct LinkRecord
     {
@@ -15,7 +15,7 @@ namespace Collektive.Bridge
         /// <summary>Metres, 0 or greater.</summary>
         public float Length;
 
-        /// <summary>0 (clear) or greater.</summary>
+        /// <summary>Attenuation, 0 (none) or greater.</summary>
         public float Attenuation;
     }
 

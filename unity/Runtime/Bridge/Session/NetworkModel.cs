@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What happens to messages between sending and receiving; times in simulated seconds. Default: ideal; nothing is lost, and a
+    /// Loss, delay and retention of messages, in simulated seconds. By default no message is lost, and a
     /// message can be read until the next one replaces it.
     /// </summary>
     [Serializable]
@@ -12,22 +12,31 @@ namespace Collektive.Bridge
         /// <summary>Probability that a message is lost on a link, 0..1.</summary>
         public double loss;
 
-        /// <summary>What each metre of the link's length adds to the loss, 0 or greater.</summary>
+        /// <summary>Increase of the loss per metre of the link's length, 0 or greater.</summary>
         public double lossPerMetre;
 
-        /// <summary>What each unit of the link's attenuation adds to the loss, 0 or greater.</summary>
+        /// <summary>Increase of the loss per unit of the link's attenuation, 0 or greater.</summary>
         public double lossPerAttenuation;
 
-        /// <summary>Seconds from the tick of the sending to the arrival, 0 or greater.</summary>
+        /// <summary>Seconds between the tick of sending and the arrival, 0 or greater.</summary>
         public double delay;
 
-        /// <summary>Up to so many seconds more, evenly spread, 0 or greater.</summary>
+        /// <summary>Largest additional random delay in seconds, uniformly distributed, 0 or greater.</summary>
         public double jitter;
 
-        /// <summary>Seconds for which a link holds a message that arrived; 0: until a later one replaces it.</summary>
+        /// <summary>Seconds until a received message expires; 0: until the next one replaces it.</summary>
         public double retention;
 
-        /// <summary>The first thing that is wrong; null when all is right.</summary>
+        /// <summary>Share of a link's messages that are sent in its bad state (Gilbert-Elliott), 0 or greater and less than 1; 0: no bursts.</summary>
+        public double burstShare;
+
+        /// <summary>Mean number of successive messages in the bad state, at least 1 and at least share / (1 - share).</summary>
+        public double burstLength = 1;
+
+        /// <summary>Probability that a message is lost in the bad state, 0..1.</summary>
+        public double burstLoss = 1;
+
+        /// <summary>Returns the first error, or null.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(double deltaTime)
         {
@@ -36,18 +45,23 @@ namespace Collektive.Bridge
             if (!IsAmount(lossPerAttenuation)) return "network loss per attenuation is " + lossPerAttenuation + ": it must be 0 or greater";
             if (!IsAmount(delay)) return "network delay is " + delay + " s: it must be 0 or greater";
             if (!IsAmount(jitter)) return "network jitter is " + jitter + " s: it must be 0 or greater";
+            if (!(burstShare >= 0 && burstShare < 1)) return "network burst share is " + burstShare + ": it must be at least 0 and less than 1";
+            var shortest = Math.Max(1, burstShare / (1 - burstShare));
+            if (!(burstLength >= shortest) || double.IsInfinity(burstLength))
+                return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
+            if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be in 0..1";
             if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
-            return "network retention is " + retention + " s: it must be 0 (until a later message comes) or at least the delta time, " + deltaTime +
-                " s, else messages end before anyone reads them";
+            return "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime +
+                " s, otherwise messages expire before they are read";
         }
 
         private static bool IsAmount(double value) => value >= 0 && !double.IsInfinity(value);
     }
 
-    /// <summary>What the network did in one tick.</summary>
+    /// <summary>Message counts of one tick.</summary>
     public readonly struct NetworkCounts
     {
-        /// <summary>Makes the counts of a tick.</summary>
+        /// <summary>Creates the counts of a tick.</summary>
         internal NetworkCounts(int sent, int dropped, int delayed, int expired)
         {
             Sent = sent;
@@ -56,16 +70,16 @@ namespace Collektive.Bridge
             Expired = expired;
         }
 
-        /// <summary>Messages that were put on links, one for each link.</summary>
+        /// <summary>Sent messages, one per link.</summary>
         public int Sent { get; }
 
-        /// <summary>Those of <see cref="Sent"/> that were lost.</summary>
+        /// <summary>Lost messages of <see cref="Sent"/>.</summary>
         public int Dropped { get; }
 
-        /// <summary>Those of <see cref="Sent"/> that arrive later than they would in an ideal network.</summary>
+        /// <summary>Messages of <see cref="Sent"/> that arrive later than in an ideal network.</summary>
         public int Delayed { get; }
 
-        /// <summary>Messages that links held and whose retention ended.</summary>
+        /// <summary>Received messages whose retention ended.</summary>
         public int Expired { get; }
     }
 }

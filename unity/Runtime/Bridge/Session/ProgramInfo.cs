@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A program that the session's jars hold.</summary>
+    /// <summary>A program in the session's jars.</summary>
     public sealed class ProgramInfo
     {
         internal ProgramInfo(string name, IReadOnlyList<ProgramParameter> parameters)
@@ -28,13 +28,13 @@ namespace Collektive.Bridge
             Description = description;
         }
 
-        /// <summary>The name that nodes set it by.</summary>
+        /// <summary>The parameter's name.</summary>
         public string Name { get; }
 
-        /// <summary>Its value where a node sets none.</summary>
+        /// <summary>The value for nodes that do not set it.</summary>
         public string DefaultValue { get; }
 
-        /// <summary>What it means; may be empty.</summary>
+        /// <summary>A description; may be empty.</summary>
         public string Description { get; }
     }
 }

@@ -1,15 +1,15 @@
 namespace Collektive.Bridge
 {
-    /// <summary>Which messages a round sees, and when nodes are due.</summary>
+    /// <summary>Order of rounds, and the messages that a round receives.</summary>
     public enum Schedule : byte
     {
-        /// <summary>All due nodes read what was sent before this tick; rounds run in parallel.</summary>
+        /// <summary>All due nodes receive messages from before this tick. Rounds run in parallel.</summary>
         Lockstep = org.collektive.frame.Schedule.Lockstep,
 
-        /// <summary>Due nodes run in id order; each sees what earlier nodes sent in the same tick.</summary>
+        /// <summary>Due nodes run in the order of ids, and also receive messages of this tick.</summary>
         Sequential = org.collektive.frame.Schedule.Sequential,
 
-        /// <summary>Each node is due at its own times; all due nodes read what was sent before this tick.</summary>
+        /// <summary>Each node is due at its own times. All due nodes receive messages from before this tick.</summary>
         Asynchronous = org.collektive.frame.Schedule.Asynchronous,
     }
 }

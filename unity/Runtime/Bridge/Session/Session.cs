@@ -14,6 +14,9 @@ namespace Collektive.Bridge
         private const int FirstCapacity = 64 * 1024;
         private const int ForgottenLimitMs = 1000;
 
+        /// <summary>Simulated times are multiples of a nanosecond.</summary>
+        private const int TimeDecimals = 9;
+
         private readonly SlotAllocator slot;
         private readonly FlatBufferBuilder builder;
         private readonly AnswerMemory answerMemory = new AnswerMemory();
@@ -34,10 +37,10 @@ namespace Collektive.Bridge
         /// <summary>The programs in the session's jars.</summary>
         public IReadOnlyList<ProgramInfo> Programs { get; private set; }
 
-        /// <summary>What the next step sends.</summary>
+        /// <summary>The request of the next step.</summary>
         public StepRequest Request { get; }
 
-        /// <summary>What the last step answered.</summary>
+        /// <summary>The answer of the last step.</summary>
         public StepAnswer Answer { get; }
 
         /// <summary>The last tick that succeeded; 0 before the first.</summary>
@@ -64,7 +67,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with what <see cref="Request"/> holds, and empties
+        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
         /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is as before the call.
         /// </summary>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>
@@ -79,13 +82,14 @@ namespace Collektive.Bridge
             Answer.Actuators.Retain();
             Shim.Check(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer));
             Tick++;
-            Time += deltaTime;
+            // Without the rounding errors of the sum.
+            Time = Math.Round(Time + deltaTime, TimeDecimals);
             Request.Clear();
             Point(answer);
             Answer.Read(answerBuffer);
         }
 
-        /// <summary>Closes a session that nobody closed, for instance one whose C# domain is unloaded.</summary>
+        /// <summary>Closes a session that is still open, for example when its C# domain is unloaded.</summary>
         ~Session()
         {
             if (handle == 0) return;
@@ -93,7 +97,7 @@ namespace Collektive.Bridge
             Shim.clk_slot_release(slot.Slot);
         }
 
-        /// <summary>Closes the session and gives its memory back. A second call does nothing.</summary>
+        /// <summary>Closes the session and releases its memory. A second call does nothing.</summary>
         public void Dispose()
         {
             GC.SuppressFinalize(this);

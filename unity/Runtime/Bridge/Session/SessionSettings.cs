@@ -4,13 +4,13 @@ using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>What a session is opened with.</summary>
+    /// <summary>Settings of a session.</summary>
     internal sealed class SessionSettings
     {
         /// <summary>Version of <c>frame.fbs</c> that both sides must share.</summary>
         private const uint Protocol = 1;
 
-        /// <summary>The one seed that all randomness of the session comes from.</summary>
+        /// <summary>Seed of all random numbers.</summary>
         public ulong Seed { get; set; }
 
         /// <summary>Threads of the JVM that run rounds, 1..256. The results do not depend on it.</summary>
@@ -19,19 +19,19 @@ namespace Collektive.Bridge
         /// <summary>Which messages a round sees.</summary>
         public Schedule Schedule { get; set; }
 
-        /// <summary>What happens to messages between sending and receiving.</summary>
+        /// <summary>Loss and delay of messages.</summary>
         public NetworkModel Network { get; set; } = new NetworkModel();
 
-        /// <summary>Paths of the jars with programs; read into memory at the opening, never held open.</summary>
+        /// <summary>Paths of the jars with programs; read into memory when the session opens, and then closed.</summary>
         public IReadOnlyList<string> Jars { get; set; } = new string[0];
 
-        /// <summary>Program of nodes that name none.</summary>
+        /// <summary>Program of nodes without their own.</summary>
         public string Program { get; set; } = "";
 
         /// <summary>Path of the file to record all frames in, for <c>./collektive replay</c>; overwritten. Empty: no record.</summary>
         public string Record { get; set; } = "";
 
-        /// <summary>What runs the programs.</summary>
+        /// <summary>Runtime of the programs.</summary>
         public AggregateRuntime Runtime { get; set; }
 
         /// <summary>Folder of the jars of <see cref="AggregateRuntime.Collektive"/>.</summary>
@@ -59,7 +59,8 @@ namespace Collektive.Bridge
                 Frame.OpenRequest.CreateTypesVector(builder, fingerprints),
                 builder.CreateString(Program ?? ""),
                 Frame.Network.CreateNetwork(
-                    builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention),
+                    builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention,
+                    Network.burstShare, Network.burstLength, Network.burstLoss),
                 builder.CreateString(Record ?? ""),
                 (Frame.AggregateRuntime)Runtime, builder.CreateString(RuntimeJars ?? "")).Value);
         }

@@ -61,7 +61,7 @@ namespace Collektive.Bridge
             response = Frame.StepResponse.GetRootAsStepResponse(answer);
             var table = new Table(answer.GetInt(answer.Position) + answer.Position, answer);
             var field = table.__offset(ActuatorsField);
-            if (field == 0) throw new BridgeException(BridgeError.Java, "the host's answer holds no actuator data");
+            if (field == 0) throw new BridgeException(BridgeError.Java, "the host's answer contains no actuator data");
             Actuators.Attach(answer, table.__indirect(table.bb_pos + field));
             if (Actuators.Count != NodeCount)
             {

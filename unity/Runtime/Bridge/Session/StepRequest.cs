@@ -6,7 +6,7 @@ using Frame = org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// What changed since the last tick, and who is due. Filled by the owner of the session, written to the request slot by
+    /// The changes since the last tick, and the due nodes. Filled by the owner of the session, written to the request slot by
     /// <see cref="Session.Step"/>, emptied when the step succeeded. Not thread-safe; no allocation in steady state.
     /// </summary>
     internal sealed class StepRequest

@@ -6,28 +6,28 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Where the package's files, the host's jar and the JVM are.</summary>
+    /// <summary>Locates the package's files, the host's jar and the JVM.</summary>
     public static class Installation
     {
         private const string Package = "Packages/org.collektive.unity";
 
-        /// <summary>Gives the real path of a file named from the project's folder. The editor, which keeps packages elsewhere, has its own way.</summary>
+        /// <summary>Returns the real path of a file relative to the project's folder. The editor replaces it, because packages are elsewhere.</summary>
         internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
 
         private static string hostJar;
         private static string javaHome;
 
-        /// <summary>Path of the host's jar: what was set, else the package's own.</summary>
+        /// <summary>Path of the host's jar: the set one, or the package's.</summary>
         public static string HostJar
         {
             get => hostJar ?? PathOf(OwnFile("collektive-host.jar"));
             set => hostJar = value;
         }
 
-        /// <summary>Path of what programs are compiled against beside the host's jar: the DSL and its standard library.</summary>
+        /// <summary>Path of the jar with the DSL and the standard library, which programs are compiled with.</summary>
         internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
-        /// <summary>Root of the JVM for settings that do not say: what was set, else the installed packages' own, else <c>JAVA_HOME</c>, else empty.</summary>
+        /// <summary>Root of the JVM for the location Automatic: the set one, the JVM package, or <c>JAVA_HOME</c>; otherwise empty.</summary>
         public static string JavaHome
         {
             get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
@@ -37,31 +37,31 @@ namespace Collektive.Unity
         /// <summary>The package's name of the platform that this process runs on, such as <c>linux-x64</c> or <c>mac-arm64</c>.</summary>
         internal static string Platform { get; } = NameOfPlatform();
 
-        /// <summary>Root of the package's own JVM, or else of that in the JVM package of this platform; none needs to be there.</summary>
+        /// <summary>Root of the JVM in the package, or in the JVM package of this platform. It may not exist.</summary>
         internal static string Bundled => BundledFor(Platform);
 
         private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
 
-        /// <summary>Of another platform the same as <see cref="Bundled"/>.</summary>
+        /// <summary>The same as <see cref="Bundled"/>, for another platform.</summary>
         internal static string BundledFor(string platform)
         {
             var own = PathOf(OwnFile(platform));
             return Directory.Exists(own) ? own : ToPhysical(Package + ".jvm." + platform + "/Jvm~/" + platform);
         }
 
-        /// <summary>A file or folder of the package's JVM side, named from the project's folder.</summary>
+        /// <summary>Path of a file in the package's <c>Jvm~</c>, relative to the project's folder.</summary>
         internal static string OwnFile(string name) => Package + "/Jvm~/" + name;
 
-        /// <summary>The words that start the JVM of <paramref name="settings"/> on this machine.</summary>
-        /// <exception cref="BridgeException">The settings are wrong, or there is no such JVM.</exception>
+        /// <summary>Returns the options that start the JVM of <paramref name="settings"/> on this machine.</summary>
+        /// <exception cref="BridgeException">The settings are invalid, or the JVM does not exist.</exception>
         internal static JvmLaunch ToLaunch(JvmSettings settings)
         {
             var problems = settings.FindProblems();
-            if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are wrong: " + problems[0]);
+            if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are invalid: " + problems[0]);
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
 
-        /// <summary>The jar that the editor makes of the programs of a schema's file for a runtime, from the project's folder.</summary>
+        /// <summary>Path of the jar that the editor builds from a schema's programs for a runtime, relative to the project's folder.</summary>
         internal static string JarOf(string schemaFile, AggregateRuntime runtime) =>
             "Library/Collektive/" + schemaFile + (runtime == AggregateRuntime.BuiltIn ? "" : "-collektive") + ".jar";
 
@@ -88,7 +88,7 @@ namespace Collektive.Unity
             return "Collektive/" + (isOutside ? "Elsewhere/" + Uri.EscapeDataString(name) : name.Replace("~/", "/"));
         }
 
-        /// <summary>What the build of a player took along; of other files the path itself.</summary>
+        /// <summary>Returns the path in a player's streaming assets, or the path itself for other files.</summary>
         internal static string InPlayer(string file)
         {
             var taken = Path.GetFullPath(Path.Combine(Application.streamingAssetsPath, NameInPlayer(file)));
@@ -108,16 +108,17 @@ namespace Collektive.Unity
             {
                 case JvmLocation.Bundled:
                     return Directory.Exists(Bundled) ? Bundled
-                        : throw Missing("no JVM is installed with the package: install org.collektive.unity.jvm." + Platform + ", or choose another location");
+                        : throw Missing("no JVM is installed with the package: install org.collektive.unity.jvm." + Platform
+                            + ", or select another Location in the JVM settings");
                 case JvmLocation.JavaHome:
                     return FromEnvironment.Length > 0 ? FromEnvironment
-                        : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or choose another location");
+                        : throw Missing("the environment variable JAVA_HOME is not set: set it and restart, or select another Location in the JVM settings");
                 case JvmLocation.Folder:
                     return Path.GetFullPath(settings.home);
                 default:
                     return JavaHome.Length > 0 ? JavaHome
-                        : throw Missing("there is no JVM: install org.collektive.unity.jvm." + Platform
-                            + ", set JAVA_HOME, or choose a folder in the JVM settings");
+                        : throw Missing("no JVM was found: install org.collektive.unity.jvm." + Platform
+                            + ", set JAVA_HOME, or select a folder in the JVM settings");
             }
         }
 

@@ -3,12 +3,12 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>JVM settings as an asset of the project, for all scenes that want the same JVM.</summary>
+    /// <summary>JVM settings as an asset, shared by scenes.</summary>
     [CreateAssetMenu(menuName = "Collektive/JVM Settings", fileName = "JvmSettings")]
     public sealed class JvmSettingsAsset : ScriptableObject
     {
         /// <summary>The settings; <see cref="JvmSetting.All"/> has their labels, units, ranges and tooltips.</summary>
-        [Tooltip("What the JVM is started with.")]
+        [Tooltip("Settings for the start of the JVM.")]
         public JvmSettings settings = new JvmSettings();
     }
 }

@@ -36,7 +36,7 @@ namespace Collektive.Unity
             }
             catch (BridgeException error)
             {
-                Debug.LogError("the JVM did not end in order: " + error.Message);
+                Debug.LogError("the JVM did not shut down cleanly: " + error.Message);
             }
             for (var log = new HostLog(); log.TryRead(out var level, out var line);)
             {

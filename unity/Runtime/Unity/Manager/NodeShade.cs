@@ -3,12 +3,12 @@ using System.Collections.Generic;
 
 namespace Collektive.Unity
 {
-    /// <summary>A value of each node that a replay can colour nodes by, in the scene's words.</summary>
+    /// <summary>A value of each node by which a replay can colour nodes.</summary>
     public sealed class NodeShade
     {
-        /// <summary>Makes a shade of numbers, or of categories if <see cref="IsCategory"/> is set.</summary>
+        /// <summary>Creates a shade of numbers, or of categories if <see cref="IsCategory"/> is set.</summary>
         /// <param name="name">Shown in the legend; different for each shade of a scene.</param>
-        /// <param name="read">The node's value; NaN: it has none. Called between ticks, on the main thread, for each recorded frame.</param>
+        /// <param name="read">Returns the node's value, or NaN without one. Called between ticks, on the main thread, for each recorded frame.</param>
         public NodeShade(string name, Func<Node, double> read)
         {
             Name = name ?? throw new ArgumentNullException(nameof(name));
@@ -18,19 +18,19 @@ namespace Collektive.Unity
         /// <summary>Shown in the legend.</summary>
         public string Name { get; }
 
-        /// <summary>The node's value; NaN: it has none.</summary>
+        /// <summary>Returns the node's value, or NaN without one.</summary>
         public Func<Node, double> Read { get; }
 
-        /// <summary>Unit of the numbers, for instance <c>m</c>; null, the default: none is shown.</summary>
+        /// <summary>Unit of the numbers, for example <c>m</c>, or null (default).</summary>
         public string Unit { get; set; }
 
         /// <summary>
-        /// Whether the values are whole numbers between -2^30 and 2^30 that name something, such as ids of leaders: each gets a colour of its own
+        /// Whether the values are whole numbers between -2^30 and 2^30 that name something, such as ids of leaders: each gets its own colour
         /// instead of a place on a scale. Default: false.
         /// </summary>
         public bool IsCategory { get; set; }
 
-        /// <summary>What the categories 0, 1, ... are called; empty, the default: they are shown as numbers.</summary>
-        public IReadOnlyList<string> Words { get; set; } = Array.Empty<string>();
+        /// <summary>Names of the categories 0, 1, ...; empty (default) to show numbers.</summary>
+        public IReadOnlyList<string> Categories { get; set; } = Array.Empty<string>();
     }
 }

@@ -14,7 +14,7 @@ namespace Collektive.Unity
         private const string Prefix = "-collektive-";
 
         /// <summary>
-        /// Gives the settings what this process was started with. What is wrong with it is told by <see cref="SimulationSettings.FindProblem"/>.
+        /// Applies the command line to the settings. <see cref="SimulationSettings.FindProblem"/> checks their ranges.
         /// </summary>
         internal static SimulationSettings Apply(SimulationSettings settings)
         {
@@ -22,7 +22,7 @@ namespace Collektive.Unity
             return settings;
         }
 
-        /// <returns>What is wrong with the first wrong one of the words, or null.</returns>
+        /// <returns>The error of the first invalid argument, or null.</returns>
         internal static string Apply(SimulationSettings settings, string[] words)
         {
             for (var i = 0; i < words.Length; i++)
@@ -30,7 +30,7 @@ namespace Collektive.Unity
                 if (!words[i].StartsWith(Prefix, StringComparison.Ordinal)) continue;
                 var name = words[i].Substring(Prefix.Length);
                 var field = Array.Find(Fields(), known => known.Name == name);
-                if (field == null) return words[i] + " is no option; there are: " + Prefix + string.Join(", " + Prefix, Names());
+                if (field == null) return words[i] + " is not an option; the options are: " + Prefix + string.Join(", " + Prefix, Names());
                 if (++i == words.Length) return Prefix + name + " needs a value";
                 if (!TryParse(field.FieldType, words[i], out var value))
                     return Prefix + name + " is '" + words[i] + "': it must be " + Kind(field.FieldType);

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A serialised field that the inspector shows, but lets nobody change: for values that a script computes while it runs.</summary>
+    /// <summary>Makes a serialised field read-only in the inspector, for values that a script computes.</summary>
     public sealed class ReadOnlyAttribute : PropertyAttribute
     {
     }

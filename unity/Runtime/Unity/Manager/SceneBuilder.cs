@@ -11,10 +11,10 @@ namespace Collektive.Unity
     /// </summary>
     public abstract class SceneBuilder : MonoBehaviour
     {
-        /// <summary>Names of the scene's own metrics, for tables.</summary>
+        /// <summary>Names of the scene's metrics.</summary>
         public virtual IReadOnlyList<string> MetricNames => Array.Empty<string>();
 
-        /// <summary>What <see cref="Shade"/> shows, for the legend of a replay; null: nodes have no shade.</summary>
+        /// <summary>Name of <see cref="Shade"/> in the legend of a replay, or null without shades.</summary>
         public virtual string ShadeName => null;
 
         /// <summary>
@@ -27,18 +27,18 @@ namespace Collektive.Unity
         /// <summary>Points to mark in a replay, with their labels.</summary>
         public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
 
-        /// <summary>Writes the metrics of this moment, one per name. Called between ticks.</summary>
+        /// <summary>Writes the current metrics, one per name. Called between ticks.</summary>
         public virtual void Measure(double[] values)
         {
         }
 
-        /// <summary>A number to colour a node by in a replay.</summary>
+        /// <summary>Returns the number by which a replay colours a node.</summary>
         public virtual float Shade(Node node) => 0;
 
-        /// <summary>Makes the scene's objects. Called once, from <c>Awake</c>, in play mode. An exception stops the simulation.</summary>
+        /// <summary>Creates the scene's objects. Called once, from <c>Awake</c>, in play mode. An exception stops the simulation.</summary>
         protected abstract void Build(SimulationManager manager);
 
-        /// <summary>Makes a box with a collider: a floor, a wall, an obstacle.</summary>
+        /// <summary>Creates a box with a collider, such as a floor, a wall or an obstacle.</summary>
         protected static GameObject MakeBox(string title, Vector3 centre, Vector3 size)
         {
             var box = GameObject.CreatePrimitive(PrimitiveType.Cube);
@@ -54,7 +54,8 @@ namespace Collektive.Unity
             if (SimulationManager.Current == null)
             {
                 Debug.LogError(
-                    GetType().Name + " on '" + name + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive)", this);
+                    GetType().Name + " on '" + name
+                        + "' needs a Simulation Manager in the scene: add one (GameObject > Collektive > Simulation Manager)", this);
                 return;
             }
             try

@@ -3,7 +3,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity
 {
-    /// <summary>Global data on their way to the next tick; written when the session is there.</summary>
+    /// <summary>Global data for the next tick. It is written once the session is open.</summary>
     internal sealed class SceneGlobals
     {
         private Func<GlobalBuffer, string> pending;
@@ -16,7 +16,7 @@ namespace Collektive.Unity
 
         internal void Clear() => pending = null;
 
-        /// <summary>Writes into the request what was set since the last tick; what is wrong with it, or null.</summary>
+        /// <summary>Writes the data set since the last tick to the request, and returns its error or null.</summary>
         internal string Flush(StepRequest request)
         {
             if (pending == null) return null;
@@ -28,12 +28,12 @@ namespace Collektive.Unity
 
         private static string Write<T>(GlobalBuffer buffer, Action<T> write)
         {
-            if (buffer == null) return "global data were set, but the session's schema has no GlobalData: add it to the schema";
+            if (buffer == null) return "global data was set, but the session's schema has no GlobalData: add it to the schema";
             if (!(buffer is GlobalBuffer<T> typed))
-                return "global data were set as " + typeof(T).FullName + ", the session's schema has " + buffer.DataType.FullName;
+                return "global data was set as " + typeof(T).FullName + ", but the session's schema has " + buffer.DataType.FullName;
             write(typed.Data);
             var field = buffer.FindNotFinite();
-            return field == null ? null : "global data hold a number that is not finite in " + field;
+            return field == null ? null : "global data contains a number that is not finite in " + field;
         }
     }
 }

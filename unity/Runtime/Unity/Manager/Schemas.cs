@@ -7,18 +7,18 @@ namespace Collektive.Unity
     /// <summary>Finds generated schema classes among the loaded assemblies.</summary>
     internal static class Schemas
     {
-        /// <summary>The schema of that name, or the only one when the name is empty.</summary>
-        /// <exception cref="BridgeException">There is none, or more than one to choose from.</exception>
+        /// <summary>Returns the schema with that name, or the only one for an empty name.</summary>
+        /// <exception cref="BridgeException">No schema, or several schemas, match.</exception>
         internal static DataSchema Find(string name)
         {
             var found = FindAll();
             var schema = Choose(found, name);
             if (schema != null) return schema;
             var names = found.Count == 0 ? "none" : string.Join(", ", found.ConvertAll(schema => schema.Name));
-            var wish = string.IsNullOrEmpty(name) ? "no schema is named" : "schema '" + name + "' does not exist";
+            var problem = string.IsNullOrEmpty(name) ? "no schema is selected" : "schema '" + name + "' does not exist";
             throw new BridgeException(
                 BridgeError.Schema,
-                wish + "; there is: " + names + ". Name one in the Simulation Manager, or generate its code (./collektive generate)");
+                problem + "; available: " + names + ". Select one in the Simulation Manager, or generate its code (Tools > Collektive > Generate Schema Code)");
         }
 
         /// <summary>The same as <see cref="Find"/>, or null instead of an exception.</summary>

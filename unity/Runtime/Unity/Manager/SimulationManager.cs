@@ -7,7 +7,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Runs the simulation of a scene: decides that a tick is due, has the nodes sense, makes the one call into the JVM, has the nodes
-    /// act, and advances physics. While it is paused there is no call, no physics and no time. All members are for the main thread.
+    /// act, and advances physics. While paused, it runs no ticks. Call all members from the main thread.
     ///
     /// There is one for all loaded scenes; a second one, in an additive scene for instance, disables itself with an error. Nodes of all loaded
     /// scenes take part: nodes of a scene that is loaded later join, those of an unloaded scene leave. With the manager's own scene the
@@ -18,14 +18,14 @@ namespace Collektive.Unity
     [DefaultExecutionOrder(-1000)]
     public sealed class SimulationManager : MonoBehaviour
     {
-        /// <summary>A frame that took long makes at most this many ticks; the rest of its time is dropped.</summary>
+        /// <summary>Limit of ticks per frame. The remaining time is dropped.</summary>
         private const int MaxTicksPerFrame = 4;
 
-        /// <summary>Frame times are floats: ten of 0.02 s make two ticks of 0.1 s, not one.</summary>
-        private const double Almost = 1 - 1e-6;
+        /// <summary>Tolerance for rounded frame times: ten of 0.02 s must run two ticks of 0.1 s.</summary>
+        private const double RoundingTolerance = 1 - 1e-6;
 
         [SerializeField]
-        [Tooltip("What the simulation is started with.")]
+        [Tooltip("Settings for the start of the simulation.")]
         private SimulationSettings settings = new SimulationSettings();
 
         [SerializeField]
@@ -45,7 +45,7 @@ namespace Collektive.Unity
         /// </summary>
         public Func<SimulationManager, bool> StopCondition { get; set; }
 
-        /// <summary>Whether the simulation has reached its end: its time, or its stop condition.</summary>
+        /// <summary>Whether the simulation reached its duration or its stop condition.</summary>
         public bool Finished { get; private set; }
 
         /// <summary>
@@ -58,35 +58,35 @@ namespace Collektive.Unity
             remove => handlers.Remove(value);
         }
 
-        /// <summary>Called for each line of the JVM's log, after it was written to Unity's.</summary>
+        /// <summary>Raised for each line of the JVM's log after it was written to Unity's log.</summary>
         public event Action<HostLogLevel, string> Logged;
 
-        /// <summary>The scene's manager; null when there is none.</summary>
+        /// <summary>The scene's manager, or null.</summary>
         public static SimulationManager Current { get; private set; }
 
-        /// <summary>What the simulation is started with.</summary>
+        /// <summary>Settings for the start of the simulation.</summary>
         public SimulationSettings Settings => settings;
 
-        /// <summary>Whether the simulation stands still.</summary>
+        /// <summary>Whether the simulation is paused.</summary>
         public bool Paused
         {
             get => paused;
             set => paused = value;
         }
 
-        /// <summary>Why the simulation stopped; empty while it did not.</summary>
+        /// <summary>The error that stopped the simulation, or an empty text.</summary>
         public string Failure => Simulation.Failure;
 
-        /// <summary>Random numbers of the scene as a whole, from the seed alone.</summary>
+        /// <summary>Random numbers for the scene. They depend only on the seed.</summary>
         public RandomStream Random => Simulation.Random;
 
         /// <summary>The programs of the session; empty before the first frame.</summary>
         public IReadOnlyList<ProgramInfo> Programs => Simulation.Programs;
 
-        /// <summary>Nodes that take part, ascending by id.</summary>
+        /// <summary>Participating nodes, ascending by id.</summary>
         public IReadOnlyList<Node> Nodes => Simulation.Nodes;
 
-        /// <summary>Ticks done.</summary>
+        /// <summary>Number of completed ticks.</summary>
         public ulong Tick => Simulation.Tick;
 
         /// <summary>Simulated seconds.</summary>
@@ -101,19 +101,19 @@ namespace Collektive.Unity
         /// <summary>Errors of rounds, sensors, actuators, rules and handlers of <see cref="Ticked"/> so far.</summary>
         public long ErrorCount => Simulation.Errors.Count;
 
-        /// <summary>The same errors, by where they come from.</summary>
+        /// <summary>The same errors by node and source.</summary>
         public IReadOnlyList<NodeErrors> Errors => Simulation.Errors.All;
 
         /// <summary>Duration of the last tick's phases.</summary>
         public TickTimes Times => Simulation.Times;
 
-        /// <summary>Microseconds of the last step that the JVM spent, and of these in rounds.</summary>
+        /// <summary>Microseconds that the last step took in the JVM, and in rounds.</summary>
         public (int Host, int Rounds) HostMicros => Simulation.HostMicros;
 
-        /// <summary>What the network did in the last tick.</summary>
+        /// <summary>Message counts of the last tick.</summary>
         public NetworkCounts Network => Simulation.Network;
 
-        /// <summary>The simulation from the last time that the manager was enabled; it stays, with its errors, when the manager is disabled.</summary>
+        /// <summary>The simulation since the manager was last enabled. A disabled manager keeps it with its errors.</summary>
         internal Simulation Simulation => simulation ?? (simulation = new Simulation(settings, globals, this));
 
         /// <summary>
@@ -124,7 +124,7 @@ namespace Collektive.Unity
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 
-        /// <summary>Removes what <see cref="AddLink"/> made; links of neighbourhood rules stay, those of a node that left are gone already.</summary>
+        /// <summary>Removes a link added by <see cref="AddLink"/>. Links of neighbourhood rules stay; links of nodes that left are already removed.</summary>
         public void RemoveLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Remove(a, b, directed);
 
         /// <summary>
@@ -137,10 +137,10 @@ namespace Collektive.Unity
         /// <summary>Whether <paramref name="to"/> hears <paramref name="from"/>.</summary>
         public bool HasLink(int from, int to) => Simulation.PresentLinks.Contains(from, to);
 
-        /// <summary>Copies all directed links to <paramref name="target"/>, emptied first.</summary>
+        /// <summary>Replaces the content of <paramref name="target"/> with all directed links.</summary>
         public void CopyLinks(List<LinkRecord> target) => Simulation.PresentLinks.CopyTo(target);
 
-        /// <summary>The node of that id, or null.</summary>
+        /// <summary>Returns the node with that id, or null.</summary>
         public Node Find(int id) => Simulation.Find(id);
 
         /// <summary>
@@ -160,13 +160,13 @@ namespace Collektive.Unity
             grid.Copy(count < 1 ? default : grid.FindNearest(centre, count, grid.MeanRadius), found, distances);
         }
 
-        /// <summary>Does one tick now, paused or not.</summary>
+        /// <summary>Runs one tick now, even while paused.</summary>
         public void Step()
         {
             if (!isActiveAndEnabled || !Simulation.IsOpen)
             {
                 Debug.LogError(Failure.Length > 0 ? "the simulation has stopped: " + Failure
-                    : "the simulation has not started: step it from Update on, in play mode", this);
+                    : "the simulation has not started: call Step in play mode, from Update or later", this);
                 return;
             }
             if (stepping) throw new InvalidOperationException("Step was called from within a tick");
@@ -188,9 +188,9 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Stops the simulation with an error and disables the manager. The editor and the JVM go on. A click on the message selects
-        /// <paramref name="culprit"/>, or the manager if there is none.
+        /// <paramref name="context"/>, or the manager.
         /// </summary>
-        public void Fail(string message, UnityEngine.Object culprit = null) => Simulation.Fail(message, culprit);
+        public void Fail(string message, UnityEngine.Object context = null) => Simulation.Fail(message, context);
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void ResetStatics() => Current = null;
@@ -200,7 +200,7 @@ namespace Collektive.Unity
             simulation = new Simulation(PlayerArguments.Apply(settings), globals, this);
             if (Current != null && Current != this)
             {
-                Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' runs the simulation. Remove one of them", this);
+                Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' already runs the simulation. Remove one of them", this);
                 enabled = false;
                 return;
             }
@@ -231,7 +231,7 @@ namespace Collektive.Unity
             simulation.Log.Show(Logged);
             if (paused) return;
             accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
-            while (accumulated >= settings.deltaTime * Almost && isActiveAndEnabled && !paused)
+            while (accumulated >= settings.deltaTime * RoundingTolerance && isActiveAndEnabled && !paused)
             {
                 accumulated -= settings.deltaTime;
                 Step();
@@ -239,13 +239,14 @@ namespace Collektive.Unity
         }
 
         private bool IsAtEnd() =>
-            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * Almost || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
+            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * RoundingTolerance
+            || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
 
         private void Finish()
         {
             Finished = true;
             paused = true;
-            Debug.Log("The simulation has reached its end after " + SimulatedTime + " s and is paused", this);
+            Debug.Log("The simulation ended after " + SimulatedTime + " s and is paused", this);
             BatchPlayer.End(settings, ErrorCount == 0);
         }
     }

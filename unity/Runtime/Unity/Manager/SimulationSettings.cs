@@ -6,42 +6,42 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What a simulation is started with; read when its session opens, so changes take effect at the next start.</summary>
+    /// <summary>The settings of a simulation. Changes take effect at the next start.</summary>
     [Serializable]
     public sealed class SimulationSettings
     {
-        /// <summary>More physics sub-steps in a tick than any run could do.</summary>
+        /// <summary>Limit of physics sub-steps per tick.</summary>
         private const double MaxSubSteps = 1e6;
 
         /// <summary>Shorter ticks would have no physics.</summary>
         private const float MinDeltaTime = 1e-6f;
 
-        /// <summary>Full name of the generated schema class; empty when the project has only one.</summary>
-        [Tooltip("Full name of the generated schema class, for instance swarm.SwarmSchema. Empty: the only one.")]
+        /// <summary>Full name of the generated schema class. Empty: the project's only schema.</summary>
+        [Tooltip("Full name of the generated schema class, for example swarm.SwarmSchema. Empty: the project's only schema.")]
         public string schema = "";
 
-        /// <summary>Jars with programs; relative paths start at the project's folder. Empty: the jar that the editor makes of the schema's programs.</summary>
-        [Tooltip("Jars with programs. Relative paths start at the project's folder. Empty: Library/Collektive/NAME.jar, made of the schema's programs.")]
+        /// <summary>Jars with programs, relative to the project's folder. Empty: the jar that the editor builds from the schema's programs.</summary>
+        [Tooltip("Jars with programs, relative to the project's folder. Empty: Library/Collektive/NAME.jar, built from the schema's programs.")]
         public List<string> jars = new List<string>();
 
-        /// <summary>What runs the programs.</summary>
-        [Tooltip("What runs the programs: the package's own runtime, or Collektive itself, from jars of yours.")]
+        /// <summary>Runtime of the programs.</summary>
+        [Tooltip("Runtime of the programs: the built-in one, or Collektive from your jars.")]
         public AggregateRuntime runtime = AggregateRuntime.BuiltIn;
 
-        /// <summary>Collektive only: folder with its dsl and stdlib and all that they need. Relative paths start at the project's folder.</summary>
-        [Tooltip("Collektive only: folder with its dsl and stdlib and all that they need, as jars. Relative paths start at the project's folder.")]
+        /// <summary>Collektive only: folder with the jars of dsl, stdlib and their dependencies, relative to the project's folder.</summary>
+        [Tooltip("Collektive only: folder with the jars of dsl, stdlib and their dependencies, relative to the project's folder.")]
         public string runtimeJars = "";
 
-        /// <summary>Collektive only: jar of its compiler plugin, with which programs are built. Relative paths start at the project's folder.</summary>
-        [Tooltip("Collektive only: jar of its compiler plugin, with which programs are built. Relative paths start at the project's folder.")]
+        /// <summary>Collektive only: jar of its compiler plugin, relative to the project's folder.</summary>
+        [Tooltip("Collektive only: jar of its compiler plugin, relative to the project's folder. Used to build programs.")]
         public string runtimePlugin = "";
 
-        /// <summary>Program of nodes that name none.</summary>
-        [Tooltip("Program of nodes that name none.")]
+        /// <summary>Program of nodes without their own.</summary>
+        [Tooltip("Program of nodes without their own.")]
         public string program = "";
 
-        /// <summary>The one seed that all randomness comes from.</summary>
-        [Tooltip("The one seed that all randomness comes from: same scene, same seed, same result.")]
+        /// <summary>Seed of all random numbers.</summary>
+        [Tooltip("Seed of all random numbers. The same scene and seed give the same results.")]
         public ulong seed = 1;
 
         /// <summary>Simulated seconds from one round to the next, greater than 0.</summary>
@@ -50,7 +50,7 @@ namespace Collektive.Unity
         public float deltaTime = 0.05f;
 
         /// <summary>Longest physics sub-step in seconds, greater than 0 and at most 0.02.</summary>
-        [Tooltip("Longest physics sub-step in seconds; a tick is divided into equal sub-steps.")]
+        [Tooltip("Longest physics sub-step in seconds. A tick consists of equal sub-steps.")]
         [Range(0.001f, 0.02f)]
         public float physicsStep = 0.02f;
 
@@ -59,27 +59,27 @@ namespace Collektive.Unity
         [Min(0)]
         public float stopAfter;
 
-        /// <summary>When nodes run, and which messages a round sees.</summary>
-        [Tooltip("Lockstep: all nodes run in each tick and see what was sent before it. Sequential: in id order, each sees what earlier nodes sent. " +
+        /// <summary>Order of rounds, and the messages that a round receives.</summary>
+        [Tooltip("Lockstep: all nodes run in each tick and receive earlier messages. Sequential: in order of ids, nodes also receive messages of this tick. " +
             "Asynchronous: each node has its own period and phase.")]
         public Schedule schedule = Schedule.Lockstep;
 
-        /// <summary>When nodes without a timing of their own run under the asynchronous schedule.</summary>
-        [Tooltip("Asynchronous schedule only: when nodes without a timing of their own run.")]
+        /// <summary>When nodes without their own timing run under the asynchronous schedule.</summary>
+        [Tooltip("Asynchronous schedule only: when nodes without their own timing run.")]
         public RoundTiming timing = new RoundTiming();
 
-        /// <summary>What happens to messages between sending and receiving; default: ideal.</summary>
-        [Tooltip("Probability that a message is lost, and what a link's metres and attenuation add to it; seconds of delay, of jitter, " +
-            "and for which a message stays valid (0: until the next one). All 0: ideal.")]
+        /// <summary>Loss and delay of messages. Default: an ideal network.</summary>
+        [Tooltip("Probability of losing a message, and its increase per metre and per attenuation of the link. Seconds of delay and jitter, " +
+            "and until a message expires (0: with the next one). All 0: ideal network.")]
         public NetworkModel network = new NetworkModel();
 
         /// <summary>Threads of the JVM that run rounds. With 2 or more, a second thread also searches for neighbours in large scenes.</summary>
-        [Tooltip("Threads of the JVM that run rounds; with 2 or more, a second thread also searches for neighbours. Results do not depend on it.")]
+        [Tooltip("JVM threads for rounds. With 2 or more, a second thread also searches for neighbours. Results do not depend on it.")]
         [Range(1, 256)]
         public int threads = 1;
 
         /// <summary>Milliseconds after which a tick counts as hung.</summary>
-        [Tooltip("Milliseconds after which a tick counts as hung; the simulation then stops with an error.")]
+        [Tooltip("Milliseconds after which a tick counts as hung and the simulation stops with an error.")]
         [Min(1)]
         public int stepLimitMs = 10000;
 
@@ -87,21 +87,21 @@ namespace Collektive.Unity
         /// File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder, in a player at the
         /// folder that it is started in.
         /// </summary>
-        [Tooltip("File to record all frames in, for ./collektive replay and diff; overwritten at each start. " +
-            "Empty: none. Relative paths start at the project's folder, in a player at the folder that it is started in.")]
+        [Tooltip("File for a record of all frames, for ./collektive replay and diff. Overwritten at each start. " +
+            "Empty: no record. Relative to the project's folder, or to the player's working directory.")]
         public string record = "";
 
         /// <summary>Settings of the JVM, which starts once per process; null for the defaults.</summary>
         [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
-        /// <summary>What is wrong with the command line that settings were taken from, or null.</summary>
+        /// <summary>The error of the command line, or null.</summary>
         internal string ArgumentProblem { get; set; }
 
-        /// <summary>By program, values of its parameters on nodes that have none of their own.</summary>
+        /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
-        /// <summary>The parameters that a node's program gets: the node's own, and those of the program that it has no value for.</summary>
+        /// <summary>Returns the parameters of a node: its own, and the manager's for parameters without a value.</summary>
         internal List<NodeParameter> ParametersOf(Node node)
         {
             if (!ProgramParameters.TryGetValue(node.Program.Length > 0 ? node.Program : program, out var common)) return node.Parameters;
@@ -113,7 +113,7 @@ namespace Collektive.Unity
             return all;
         }
 
-        /// <summary>What of it the session's opening sends to the JVM.</summary>
+        /// <summary>Returns the settings that opening a session sends to the JVM.</summary>
         internal SessionSettings ToSession(DataSchema schema) => new SessionSettings
         {
             Seed = seed,
@@ -127,10 +127,10 @@ namespace Collektive.Unity
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };
 
-        /// <summary>The jars that are named, or else that of <paramref name="schema"/> for the runtime.</summary>
+        /// <summary>Returns the jars in the settings, or the jar of <paramref name="schema"/> for the runtime.</summary>
         internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File, runtime) };
 
-        /// <summary>The first thing that is wrong, with what to do; null when all is right.</summary>
+        /// <summary>Returns the first error with its fix, or null.</summary>
         internal string FindProblem()
         {
             if (ArgumentProblem != null) return ArgumentProblem;
@@ -138,15 +138,15 @@ namespace Collektive.Unity
             if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be in (0, 0.02]";
             if (deltaTime / (double)physicsStep > MaxSubSteps)
-                return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would have more than a million of them";
+                return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million of them";
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
-                return "runtime is Collektive, and runtime jars is empty: name the folder of Collektive's jars";
-            if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: add it to the settings, or remove the jar";
+                return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";
+            if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: enter the path, or remove the entry";
             var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
-            return problem ?? network.FindProblem(deltaTime);
+            return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
     }
 }

@@ -3,12 +3,12 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Neighbours are the nodes of a list, wherever they are. Nodes that take no part at the moment are passed over.</summary>
+    /// <summary>Neighbours are the nodes of a list, at any distance. Nodes outside the simulation are ignored.</summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Explicit Neighbourhood")]
     public sealed class ExplicitNeighbourhood : NeighbourhoodRule
     {
         [SerializeField]
-        [Tooltip("The nodes that hear this one, and unless the rule is directed are heard by it.")]
+        [Tooltip("Nodes that receive messages from this one. Unless the rule is directed, they also send to it.")]
         private List<Node> neighbours = new List<Node>();
 
         /// <summary>The neighbours; may be changed at any time.</summary>

@@ -12,12 +12,12 @@ namespace Collektive.Unity
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("How many nodes.")]
+        [Tooltip("Number of neighbours.")]
         private int count = 8;
 
         private float reach;
 
-        /// <summary>How many nodes, 0 or more.</summary>
+        /// <summary>Number of neighbours, 0 or more.</summary>
         public int Count
         {
             get => count;

@@ -17,16 +17,16 @@ namespace Collektive.Unity
         private float radius = 3;
 
         [SerializeField]
-        [Tooltip("Layers of the colliders that stand in the way.")]
+        [Tooltip("Layers of obstructing colliders.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
         [SerializeField]
-        [Tooltip("On: a collider in the way prevents the link. Off: it adds to the link's attenuation.")]
+        [Tooltip("On: an obstructing collider prevents the link. Off: it increases the link's attenuation.")]
         private bool blocking = true;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("What each collider in the way adds to the link's attenuation, which is 0 when the way is clear.")]
+        [Tooltip("Increase of the link's attenuation for each obstructing collider. Without colliders the attenuation is 0.")]
         private float attenuation = 1;
 
         // The nodes that were near when the lines of the tick were cast.
@@ -39,21 +39,21 @@ namespace Collektive.Unity
             set => radius = value;
         }
 
-        /// <summary>Layers of the colliders that stand in the way.</summary>
+        /// <summary>Layers of obstructing colliders.</summary>
         public LayerMask Layers
         {
             get => layers;
             set => layers = value;
         }
 
-        /// <summary>Whether a collider in the way prevents the link; if not, it adds to the link's attenuation.</summary>
+        /// <summary>Whether an obstructing collider prevents the link. Otherwise it increases the link's attenuation.</summary>
         public bool Blocking
         {
             get => blocking;
             set => blocking = value;
         }
 
-        /// <summary>What each collider in the way adds to the link's attenuation, 0 or greater.</summary>
+        /// <summary>Increase of the link's attenuation for each obstructing collider, 0 or greater.</summary>
         public float Attenuation
         {
             get => attenuation;
@@ -67,7 +67,7 @@ namespace Collektive.Unity
             if (!sight.Rules.Has(this))
             {
                 // The rule came in this tick.
-                AddAlone(neighbours, sight);
+                AddWithoutBatch(neighbours, sight);
                 return;
             }
             for (var i = 0; i < seen.Count; i++)
@@ -91,7 +91,7 @@ namespace Collektive.Unity
             }
         }
 
-        private void AddAlone(NeighbourCollector neighbours, SightLines sight)
+        private void AddWithoutBatch(NeighbourCollector neighbours, SightLines sight)
         {
             var near = neighbours.FindWithin(radius);
             for (var i = 0; i < near.Length; i++)

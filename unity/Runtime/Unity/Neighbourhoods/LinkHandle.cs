@@ -1,6 +1,6 @@
 namespace Collektive.Unity
 {
-    /// <summary>A hold on the links of a pair of nodes, one way or both; stale once they are gone.</summary>
+    /// <summary>A reference to the links of a pair of nodes in one or both directions; stale once they are removed.</summary>
     internal readonly struct LinkHandle
     {
         internal readonly int Pair;

@@ -1,6 +1,6 @@
 namespace Collektive.Unity
 {
-    /// <summary>Two nodes, and the links between them that exist: those with holders.</summary>
+    /// <summary>Two nodes and their links. A link exists while its reference count is positive.</summary>
     internal struct LinkPair
     {
         internal int Low;

@@ -6,10 +6,10 @@ using Collektive.Bridge;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// All directed links of the scene, each with the number of its holders, and the changes that are not sent to the JVM yet.
-    /// A link exists while at least one rule or script holds it. No allocation once its capacity is reached.
+    /// All directed links of the scene, with their reference counts, and the changes that are not sent to the JVM yet.
+    /// A link exists while at least one rule or script references it. No allocation once its capacity is reached.
     ///
-    /// In a large scene cache misses dominate. So the two links of a pair of nodes lie side by side, since most are held and released
+    /// In a large scene cache misses dominate. So the two links of a pair of nodes lie side by side, since most are referenced and released
     /// together, and values are collected and then written to all links in one pass.
     /// </summary>
     internal sealed class LinkTable
@@ -37,19 +37,19 @@ namespace Collektive.Unity
             Array.Fill(buckets, None);
         }
 
-        /// <summary>All pairs, unused ones among them, for views to look at: that copies nothing. Valid until a link is made.</summary>
+        /// <summary>All pairs, including unused ones, for views. The array is not a copy, and is valid until a link is added.</summary>
         internal Span<LinkPair> Pairs => new Span<LinkPair>(pairs, 0, used);
 
-        /// <summary>As many pairs as the table has memory for.</summary>
+        /// <summary>Number of pairs that fit in the table's memory.</summary>
         internal int PairCapacity => pairs.Length;
 
-        /// <summary>Links that exist.</summary>
+        /// <summary>Number of links.</summary>
         internal int Count { get; private set; }
 
-        /// <summary>Grows whenever links were dropped: while it stays the same, no handle has become stale.</summary>
+        /// <summary>Increases whenever links were dropped. While it is unchanged, no handle became stale.</summary>
         internal int Drops { get; private set; }
 
-        /// <summary>Copies all links to a list, emptied first, with the values of the last <see cref="Settle"/>.</summary>
+        /// <summary>Replaces a list's content with all links and the values of the last <see cref="Settle"/>.</summary>
         internal void CopyTo(List<LinkRecord> target)
         {
             target.Clear();
@@ -68,7 +68,7 @@ namespace Collektive.Unity
             return index != None && WayOf(index, from, to).Holders > 0;
         }
 
-        /// <summary>Holds a link, made if need be, or those of both ways, and returns the handle for <see cref="Release"/>.</summary>
+        /// <summary>Adds a reference to one or both links of a pair, which are created if needed, and returns the handle for <see cref="Release"/>.</summary>
         internal LinkHandle Hold(int from, int to, bool bothWays, float length, float attenuation)
         {
             var index = Find(from, to);
@@ -81,10 +81,10 @@ namespace Collektive.Unity
             return handle;
         }
 
-        /// <summary>Whether a hold is not stale: the link of a node that left is gone.</summary>
+        /// <summary>Whether a handle is not stale: links of nodes that left are removed.</summary>
         internal bool IsAlive(in LinkHandle handle) => IsAlive(pairs[handle.Pair], handle);
 
-        /// <summary>Gives what is held new values.</summary>
+        /// <summary>Sets new values of the handle's links.</summary>
         internal void Update(in LinkHandle handle, float length, float attenuation)
         {
             ref var change = ref changes.Add();
@@ -93,7 +93,7 @@ namespace Collektive.Unity
             change.Attenuation = attenuation;
         }
 
-        /// <summary>Lets links have the values that they were given.</summary>
+        /// <summary>Applies the values that were set.</summary>
         internal void Settle()
         {
             var all = changes.Items;
@@ -109,7 +109,7 @@ namespace Collektive.Unity
             changes.Clear();
         }
 
-        /// <summary>Ends one hold. Nothing happens when the link is gone already.</summary>
+        /// <summary>Releases one reference. Does nothing if the link is already removed.</summary>
         internal void Release(in LinkHandle handle)
         {
             ref var pair = ref pairs[handle.Pair];
@@ -118,7 +118,7 @@ namespace Collektive.Unity
             if (handle.Down) Release(handle.Pair, ref pair, ref pair.Down);
         }
 
-        /// <summary>Holds a link for scripts, at most once.</summary>
+        /// <summary>Adds the scripts' reference to a link, at most once.</summary>
         internal void HoldForScripts(int from, int to, float length, float attenuation)
         {
             var index = Find(from, to);
@@ -132,8 +132,8 @@ namespace Collektive.Unity
             Update(new LinkHandle(index, pairs[index].Generation, from <= to, from > to), length, attenuation);
         }
 
-        /// <summary>Ends the scripts' hold.</summary>
-        /// <returns>False when scripts hold no such link.</returns>
+        /// <summary>Releases the scripts' reference.</summary>
+        /// <returns>False if no script added the link.</returns>
         internal bool ReleaseForScripts(int from, int to)
         {
             var index = Find(from, to);

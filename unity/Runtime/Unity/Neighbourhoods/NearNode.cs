@@ -1,6 +1,6 @@
 namespace Collektive.Unity
 {
-    /// <summary>A node near a point, as a search found it at the beginning of this tick.</summary>
+    /// <summary>A node near a point at the beginning of this tick.</summary>
     public struct NearNode
     {
         internal int Place;

@@ -3,17 +3,17 @@ using System.Threading;
 
 namespace Collektive.Unity
 {
-    /// <summary>What one or several searches found. One thread appends; another one may read what was there before it was told of it.</summary>
+    /// <summary>Results of one or several searches. While one thread appends, another may read the results that were published to it.</summary>
     internal sealed class NearNodes
     {
         private NearNode[] items = new NearNode[64];
 
-        /// <summary>Only the first <see cref="Count"/> count.</summary>
+        /// <summary>Only the first <see cref="Count"/> items are valid.</summary>
         internal NearNode[] Items => Volatile.Read(ref items);
 
         internal int Count { get; set; }
 
-        /// <summary>The items, with room for so many more.</summary>
+        /// <summary>Returns the items, with space for so many more.</summary>
         internal NearNode[] WithRoomFor(int more)
         {
             if (items.Length >= Count + more) return items;
@@ -23,7 +23,7 @@ namespace Collektive.Unity
             return larger;
         }
 
-        /// <summary>Those that were appended after the first <paramref name="start"/>.</summary>
+        /// <summary>Returns the items after the first <paramref name="start"/>.</summary>
         internal Span<NearNode> From(int start) => new Span<NearNode>(items, start, Count - start);
     }
 }

@@ -6,7 +6,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Collects the neighbours of a node from a rule, and finds near nodes. For use in <see cref="NeighbourhoodRule.FindNeighbours"/>
-    /// only, where it is given. The node itself, nodes that take no part in the simulation, and nodes added before are passed over.
+    /// only. The node itself, nodes outside the simulation and nodes added before are ignored.
     /// Allocates nothing once its capacity is reached.
     /// </summary>
     public sealed class NeighbourCollector
@@ -28,7 +28,7 @@ namespace Collektive.Unity
             internal float Attenuation;
         }
 
-        /// <summary>All nodes that take part, ascending by id.</summary>
+        /// <summary>All participating nodes, ascending by id.</summary>
         public IReadOnlyList<Node> Nodes => simulation.Nodes;
 
         internal int Count { get; private set; }
@@ -37,7 +37,7 @@ namespace Collektive.Unity
 
         internal int[] Places => places;
 
-        /// <summary>Adds a node; the link's length is the distance of the two nodes, its attenuation 0.</summary>
+        /// <summary>Adds a node. The link's length is the distance of the nodes, and its attenuation 0.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public void Add(Node other)
         {
@@ -46,13 +46,13 @@ namespace Collektive.Unity
             if (other.Id >= 0) Add(other.Id, Vector3.Distance(node.Position, other.Position), 0);
         }
 
-        /// <summary>Adds a node with the link's length in metres and attenuation (0 = clear).</summary>
+        /// <summary>Adds a node with the link's length in metres and attenuation (0: none).</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or NaN.</exception>
         public void Add(Node other, float length, float attenuation)
         {
             CheckAsked();
-            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length is 0 or greater, and finite");
+            if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length must be finite and 0 or greater");
             CheckAttenuation(attenuation);
             Add(other.Id, length, attenuation);
         }
@@ -92,7 +92,7 @@ namespace Collektive.Unity
             Count = count;
         }
 
-        /// <summary>The nodes within <paramref name="radius"/> metres of the node, itself among them, in no order. Valid until the next search.</summary>
+        /// <summary>Returns the nodes within <paramref name="radius"/> metres, including the node itself, in no order. Valid until the next search.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
@@ -101,7 +101,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// The nodes nearest to the node, itself among them, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until
+        /// Returns the nearest nodes, including the node itself, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until
         /// the next search. It is fastest when <paramref name="guess"/> metres hold a few more than these; 0 for no guess.
         /// </summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
@@ -144,12 +144,12 @@ namespace Collektive.Unity
         private static void CheckAttenuation(float attenuation)
         {
             if (IsAmount(attenuation)) return;
-            throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation is 0 or greater, and finite");
+            throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation must be finite and 0 or greater");
         }
 
         private void CheckAsked()
         {
-            if (node is null) throw new InvalidOperationException("neighbours can be named in FindNeighbours only");
+            if (node is null) throw new InvalidOperationException("neighbours can be added in FindNeighbours only");
         }
 
         private void EnsureCapacity(int count)

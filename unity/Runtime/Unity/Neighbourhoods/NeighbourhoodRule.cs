@@ -4,18 +4,18 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Decides which nodes hear a node. Before each tick <see cref="FindNeighbours"/> collects the present neighbours; the rule makes
-    /// and removes the links. A node may have several rules: a link exists while one of them, or a script, holds it.
+    /// Decides which nodes receive a node's messages. Before each tick <see cref="FindNeighbours"/> collects the neighbours; the rule adds
+    /// and removes the links. A node may have several rules: a link exists while one of them, or a script, references it.
     /// </summary>
     public abstract class NeighbourhoodRule : NodePart
     {
         [SerializeField]
-        [Tooltip("On: only the neighbours hear this node. Off: this node hears them too.")]
+        [Tooltip("On: neighbours receive messages from this node. Off: it also receives theirs.")]
         private bool directed;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres. A link's length is sent to the JVM when it is made, and again when it changed by more than this.")]
+        [Tooltip("Metres. A link's length is sent to the JVM again after it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
         // Parallel arrays: `held` is read in each tick, `links` only when a link changes.
@@ -26,7 +26,7 @@ namespace Collektive.Unity
         // Users' code may do anything with physics.
         private bool isOwn;
 
-        /// <summary>Whether only the neighbours hear this node. Takes effect for links made from now on.</summary>
+        /// <summary>Whether neighbours receive messages from this node without sending to it. Takes effect for new links.</summary>
         public bool Directed
         {
             get => directed;
@@ -54,7 +54,7 @@ namespace Collektive.Unity
             if (Node.Simulation != null) ReleaseAll(Node.Simulation.Links);
         }
 
-        /// <summary>Brings the links of this rule up to date.</summary>
+        /// <summary>Updates the links of this rule.</summary>
         internal sealed override void Run(Simulation simulation, int index)
         {
             var neighbours = simulation.Neighbours;
@@ -79,7 +79,7 @@ namespace Collektive.Unity
             heldCount = 0;
         }
 
-        /// <summary>Adds this node's neighbours of now to <paramref name="neighbours"/>. Called once before each tick; must not allocate.</summary>
+        /// <summary>Adds this node's current neighbours to <paramref name="neighbours"/>. Called once before each tick; must not allocate.</summary>
         protected abstract void FindNeighbours(NeighbourCollector neighbours);
 
         private void Take(NeighbourCollector neighbours, LinkTable table)

@@ -7,7 +7,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// The positions of all nodes at this tick, in cubic cells: a search around a point costs as much as there are nodes near it.
-    /// A search over more cells than there are nodes looks at all nodes instead.
+    /// A search over more cells than nodes checks all nodes instead.
     /// Built once per tick, which also gives the nodes their <see cref="Node.Position"/>; no allocation once its capacity is reached.
     /// </summary>
     internal sealed class NodeGrid : IDisposable
@@ -15,10 +15,10 @@ namespace Collektive.Unity
         /// <summary>Beyond this a cell's number would not fit an int.</summary>
         private const int MaxCells = 1 << 30;
 
-        /// <summary>More rows than this have no numbers of their own.</summary>
+        /// <summary>Rows beyond this number share a number.</summary>
         private const int MaxRows = 0xFFFF;
 
-        /// <summary>Metres. No search needs to be larger, and its square still fits a float.</summary>
+        /// <summary>Metres. Searches need no larger radius, and its square fits a float.</summary>
         private const float MaxRadius = 1e18f;
 
         // By place in the list of nodes.
@@ -32,7 +32,7 @@ namespace Collektive.Unity
         private int[] starts = new int[129];
         private int count;
         private readonly NearNodes hits = new NearNodes();
-        private readonly SearchAhead ahead;
+        private readonly BackgroundSearch ahead;
         private int mask;
         private float cellSize = 1;
         private double cellsPerMetre = 1;
@@ -42,7 +42,7 @@ namespace Collektive.Unity
         private double asked;
         private int searches;
 
-        internal NodeGrid() => ahead = new SearchAhead(this);
+        internal NodeGrid() => ahead = new BackgroundSearch(this);
 
         private struct Cell
         {
@@ -62,7 +62,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Mean radius in metres of the searches since the grid was built; that of the time before while there was none. The mean and not the
+        /// Mean radius in metres of the searches since the grid was built, or of the previous grid before the first search. The mean and not the
         /// largest, so that one node with a long reach does not put all others into one cell.
         /// </summary>
         internal float MeanRadius => searches == 0 ? cellSize : (float)(asked / searches);
@@ -114,7 +114,7 @@ namespace Collektive.Unity
             // Each starts[bucket + 1] now holds its bucket's beginning: move them back by one.
             for (var bucket = 0; bucket <= mask; bucket++) starts[bucket] = starts[bucket + 1];
             starts[mask + 1] = count;
-            if (maySearchAhead && count >= SearchAhead.MinNodes) ahead.Begin(count);
+            if (maySearchAhead && count >= BackgroundSearch.MinNodes) ahead.Begin(count);
         }
 
         /// <summary>The nodes within <paramref name="radius"/> metres of a point, in no order; valid until the next search.</summary>
@@ -137,7 +137,7 @@ namespace Collektive.Unity
             return found;
         }
 
-        /// <summary>Appends to <paramref name="to"/> what <see cref="FindAround"/> will ask for; nothing for a node that has not asked yet.</summary>
+        /// <summary>Appends the expected results of <see cref="FindAround"/> to <paramref name="to"/>; none for a node without a previous search.</summary>
         internal void SearchAround(int place, NearNodes to)
         {
             if (!(expected[place] > 0)) return;
@@ -189,7 +189,7 @@ namespace Collektive.Unity
             searches++;
         }
 
-        /// <summary>Appends what is near. For several threads at once: it changes nothing else.</summary>
+        /// <summary>Appends the nodes near a point. Thread-safe, because it does not change the grid.</summary>
         private void Collect(Vector3 centre, float radius, NearNodes to)
         {
             if (!(radius >= 0)) return;
@@ -266,7 +266,7 @@ namespace Collektive.Unity
                 var hit = all[i];
                 if (sorted == wanted && !IsNearer(hit, all[sorted - 1])) continue;
                 var place = sorted < wanted ? sorted++ : sorted - 1;
-                // The hit in the way was looked at before, or is the farthest of those wanted.
+                // The replaced hit was already checked, or is the farthest of the requested ones.
                 for (; place > 0 && IsNearer(hit, all[place - 1]); place--) all[place] = all[place - 1];
                 all[place] = hit;
             }

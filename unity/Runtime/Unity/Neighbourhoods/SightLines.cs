@@ -13,11 +13,11 @@ namespace Collektive.Unity
         /// <summary>Not counted yet.</summary>
         private const int Unknown = -1;
 
-        /// <summary>More rays would need more memory, and be no faster.</summary>
-        private const int MostRays = 4096;
+        /// <summary>More rays would need more memory without being faster.</summary>
+        private const int MaxRays = 4096;
 
         private readonly RayBatch rays = new RayBatch(16);
-        private readonly Pair[] asked = new Pair[MostRays];
+        private readonly Pair[] asked = new Pair[MaxRays];
 
         // By the number of the line.
         private readonly GrowingArray<int> obstacles = new GrowingArray<int>();
@@ -44,7 +44,7 @@ namespace Collektive.Unity
             internal readonly int Layers;
             internal readonly float Distance;
 
-            /// <summary>Always the same way round: a ray does not see a collider that it begins in.</summary>
+            /// <summary>Starts at the node with the lower id, because a ray ignores a collider that contains its origin.</summary>
             internal Pair(Node a, Node b, int layers, float distance)
             {
                 From = a.Id < b.Id ? a : b;
@@ -78,7 +78,7 @@ namespace Collektive.Unity
         /// <returns>The line's number in this tick.</returns>
         internal int Ask(Node a, Node b, int layers, float distance)
         {
-            if (rays.Count == MostRays) Cast();
+            if (rays.Count == MaxRays) Cast();
             var number = NumberOf(a.Id, b.Id, layers, out var isNew);
             if (!isNew) return number;
             var pair = new Pair(a, b, layers, distance);
@@ -87,14 +87,14 @@ namespace Collektive.Unity
             return number;
         }
 
-        /// <summary>The number of colliders on a line that belong to neither of the two nodes.</summary>
+        /// <summary>Returns the number of colliders on a line, except those of the two nodes.</summary>
         internal int ObstaclesOf(int line) => obstacles.Items[line];
 
-        /// <summary>The same without a batch; <paramref name="distance"/> is that of the nodes.</summary>
+        /// <summary>The same without a batch; <paramref name="distance"/> is the distance between the nodes.</summary>
         internal int CountObstacles(Node a, Node b, int layers, float distance)
         {
             var line = NumberOf(a.Id, b.Id, layers, out _);
-            if (obstacles.Items[line] == Unknown) obstacles.Items[line] = CastAlone(new Pair(a, b, layers, distance));
+            if (obstacles.Items[line] == Unknown) obstacles.Items[line] = CastWithoutBatch(new Pair(a, b, layers, distance));
             return obstacles.Items[line];
         }
 
@@ -114,7 +114,7 @@ namespace Collektive.Unity
             rays.Clear();
         }
 
-        /// <summary>The obstacles that the batch found, or all of them if it could not keep all.</summary>
+        /// <summary>Returns the obstacles in the batch, or casts again if the batch could not store all.</summary>
         private int Count(int ray, in Pair pair)
         {
             var count = 0;
@@ -125,10 +125,10 @@ namespace Collektive.Unity
                 if (pair.IsForeign(collider)) count++;
             }
             rays.KeepMore();
-            return CastAlone(pair);
+            return CastWithoutBatch(pair);
         }
 
-        private int CastAlone(in Pair pair)
+        private int CastWithoutBatch(in Pair pair)
         {
             int hits;
             // A full array may have left some out.

@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A device of the simulation. It takes part from <c>OnEnable</c> to <c>OnDisable</c>; when enabled again it starts without
+    /// A device of the simulation, from <c>OnEnable</c> to <c>OnDisable</c>. When enabled again, it starts without
     /// state or messages. Its sensors and actuators are the enabled ones on its GameObject and on children without a Node.
     /// </summary>
     [AddComponentMenu("Collektive/Node")]
@@ -21,41 +21,41 @@ namespace Collektive.Unity
         private static readonly List<Node> EnabledNodes = new List<Node>();
         private static int gaps;
 
-        /// <summary>Whether the missing manager was reported already; once for all nodes.</summary>
-        private static bool saidAlone;
+        /// <summary>Whether the missing manager was reported, once for all nodes.</summary>
+        private static bool hasReportedNoManager;
 
         [SerializeField]
-        [Tooltip("Unique number of the node, 0 or greater. -1: the manager gives the next free one.")]
+        [Tooltip("Unique id of the node, 0 or greater. -1: the next free id.")]
         private int id = -1;
 
         [SerializeField]
-        [Tooltip("Name of the program that this node runs. Empty: the manager's.")]
+        [Tooltip("Program of this node. Empty: the manager's program.")]
         private string program = "";
 
         [SerializeField]
-        [Tooltip("Values of the program's parameters. Parameters without a value here have their default.")]
+        [Tooltip("Values of the program's parameters. Other parameters have their defaults.")]
         private List<NodeParameter> parameters = new List<NodeParameter>();
 
         [SerializeField]
-        [Tooltip("Asynchronous schedule only. On: the timing below; off: the manager's.")]
+        [Tooltip("Asynchronous schedule only. On: the timing below. Off: the manager's timing.")]
         private bool ownTiming;
 
         [SerializeField]
-        [Tooltip("When this node runs, if it has its own timing.")]
+        [Tooltip("Timing of this node's rounds if Own Timing is on.")]
         private RoundTiming timing = new RoundTiming();
 
         private RandomStream random;
         private int place;
         private ActuatorBuffer answers;
         private int answerIndex;
-        private KeptAnswer kept;
+        private AnswerCopy kept;
         private RoundTimer timer;
         private double asleepUntil;
 
-        /// <summary>The id in the running simulation; -1 while the node takes no part.</summary>
+        /// <summary>The id in the running simulation; -1 while the node is not in one.</summary>
         public int Id { get; private set; } = -1;
 
-        /// <summary>The wanted id, or -1 for the next free one. Read when the node joins.</summary>
+        /// <summary>The requested id, or -1 for the next free one. Read when the node joins.</summary>
         public int RequestedId
         {
             get => id;
@@ -72,20 +72,21 @@ namespace Collektive.Unity
         /// <summary>Values of the program's parameters. Read when the node joins.</summary>
         public List<NodeParameter> Parameters => parameters;
 
-        /// <summary>Whether <see cref="Timing"/> counts instead of the manager's, under the asynchronous schedule. Read when the node joins.</summary>
+        /// <summary>Whether <see cref="Timing"/> replaces the manager's under the asynchronous schedule. Read when the node joins.</summary>
         public bool OwnTiming
         {
             get => ownTiming;
             set => ownTiming = value;
         }
 
-        /// <summary>When this node runs if it has <see cref="OwnTiming"/>. Read when the node joins.</summary>
+        /// <summary>Timing of this node's rounds with <see cref="OwnTiming"/>. Read when the node joins.</summary>
         public RoundTiming Timing => timing;
 
-        /// <summary>Random numbers of this node, for its sensors and actuators; they depend on the seed and the id alone.</summary>
-        /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
+        /// <summary>Random numbers for this node's sensors and actuators. They depend only on the seed and the id.</summary>
+        /// <exception cref="InvalidOperationException">The node is not in a simulation.</exception>
         public RandomStream Random =>
-            random ?? throw new InvalidOperationException("node '" + name + "' has random numbers only while it takes part in a simulation");
+            random ?? throw new InvalidOperationException("node '" + name
+                + "' has random numbers only while it is in a simulation: use Node.Random in Sense, Act or FindNeighbours");
 
         /// <summary>
         /// The tick of the last answer; 0 before the first. <c>SimulationManager.Current.Tick - node.AnswerTick</c> is the answer's age in ticks.
@@ -102,7 +103,7 @@ namespace Collektive.Unity
         public float AnswerInterval { get; private set; }
 
         /// <summary>
-        /// The program's last answer, in the type that actuators get. It stays until the next one: while the node is not due, sleeps, or its rounds fail.
+        /// Returns the program's last answer in the type of actuators. It is kept until the next one: while the node is not due, sleeps, or its rounds fail.
         /// <see cref="AnswerTick"/> and <see cref="AnswerTime"/> give its age. While the actuators of a tick run, nodes that come later
         /// still have their previous answer. Data of a table is a view of the bridge's memory, valid until the next tick: then get it again.
         /// </summary>
@@ -112,31 +113,31 @@ namespace Collektive.Unity
             data = default;
             if (!(answers is ActuatorBuffer<TData> typed)) return false;
             var age = Simulation.Tick - AnswerTick;
-            data = age == 0 ? typed[answerIndex] : age == 1 ? typed.Former(answerIndex) : ((KeptAnswer<TData>)kept).Value;
+            data = age == 0 ? typed[answerIndex] : age == 1 ? typed.Previous(answerIndex) : ((AnswerCopy<TData>)kept).Value;
             return true;
         }
 
-        /// <summary>The last error of this node's round, sensors or actuators; empty while there was none.</summary>
+        /// <summary>The last error of this node's round, sensors or actuators; empty before the first.</summary>
         public string LastError { get; internal set; } = "";
 
-        /// <summary>The same as <see cref="TryGetAnswer{TData}"/>, boxed, for tools that know no schema; null when there is no answer.</summary>
+        /// <summary>The same as <see cref="TryGetAnswer{TData}"/>, boxed, for tools without the schema's types; null without an answer.</summary>
         internal object Answer
         {
             get
             {
                 if (answers == null) return null;
                 var age = Simulation.Tick - AnswerTick;
-                return age == 0 ? answers.Get(answerIndex) : age == 1 ? answers.GetFormer(answerIndex) : kept.Get();
+                return age == 0 ? answers.Get(answerIndex) : age == 1 ? answers.GetPrevious(answerIndex) : kept.Get();
             }
         }
 
         /// <summary>
-        /// Where the node is at this tick, in metres: read from its transform once a tick, before rules and sensors are called. Later
-        /// movements show in the next tick.
+        /// The node's position in this tick, in metres. It is read from the transform once per tick, before rules and sensors run. Later
+        /// movements take effect in the next tick.
         /// </summary>
         public Vector3 Position { get; internal set; }
 
-        /// <summary>Those that are enabled, in the order of their enabling.</summary>
+        /// <summary>The enabled nodes, in the order of their enabling.</summary>
         internal static List<Node> All
         {
             get
@@ -148,29 +149,29 @@ namespace Collektive.Unity
 
         internal Transform Body { get; private set; }
 
-        /// <summary>For the grid alone: its place there, if it is in it.</summary>
+        /// <summary>Index in the grid; used by the grid only.</summary>
         internal int PlaceInGrid { get; set; }
 
-        /// <summary>For the grid alone: metres of the last search around the node; 0 before.</summary>
+        /// <summary>Radius of the last search around the node, or 0; used by the grid only.</summary>
         internal float SearchRadius { get; set; }
 
-        /// <summary>The simulation that the node takes part in, or null.</summary>
+        /// <summary>The node's simulation, or null.</summary>
         internal Simulation Simulation { get; private set; }
 
         /// <summary>
-        /// Runs no round for the given simulated seconds from now; the node keeps its state, its links and its sent messages. 0 wakes it. Works
+        /// Suspends rounds for the given simulated seconds. The node keeps its state, its links and its sent messages. 0 wakes it. Works
         /// under any schedule. May be called from the node's own actuators.
         /// </summary>
-        /// <param name="seconds">0 or greater; infinity: until it is woken.</param>
-        /// <exception cref="InvalidOperationException">The node takes no part in a simulation.</exception>
+        /// <param name="seconds">0 or greater; infinity: until it is woken with 0.</param>
+        /// <exception cref="InvalidOperationException">The node is not in a simulation.</exception>
         public void Sleep(double seconds)
         {
-            if (!(seconds >= 0)) throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "a node sleeps 0 seconds or more");
-            if (Id < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it takes part in a simulation");
+            if (!(seconds >= 0)) throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "the duration of sleep must be 0 or greater");
+            if (Id < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it is in a simulation: call Sleep after it joined");
             asleepUntil = Simulation.Time + seconds;
         }
 
-        /// <summary>Starts the node's own timer; what is wrong with its timing, or null.</summary>
+        /// <summary>Starts the node's timer, and returns the error of its timing or null.</summary>
         internal string StartTimer()
         {
             var settings = Simulation.Settings;
@@ -181,13 +182,13 @@ namespace Collektive.Unity
             return problem;
         }
 
-        /// <summary>The result that <see cref="TakeDue"/> would have, without a change.</summary>
+        /// <summary>Returns the result of <see cref="TakeDue"/> without changing the timer.</summary>
         internal bool IsDue(double now) => asleepUntil <= now && (timer == null || timer.IsDue(now));
 
-        /// <summary>Whether the node runs in the tick at <paramref name="now"/>; asked once per tick.</summary>
+        /// <summary>Returns whether the node runs in the tick at <paramref name="now"/>, and advances its timer. Called once per tick.</summary>
         internal bool TakeDue(double now) => asleepUntil <= now && (timer == null || timer.TakeDue(now));
 
-        internal void Joined(Simulation simulation, int newId)
+        internal void OnJoined(Simulation simulation, int newId)
         {
             Simulation = simulation;
             Id = newId;
@@ -199,7 +200,7 @@ namespace Collektive.Unity
             asleepUntil = 0;
         }
 
-        internal void Answered(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)
+        internal void SetAnswer(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)
         {
             answers = buffer;
             answerIndex = index;
@@ -213,10 +214,10 @@ namespace Collektive.Unity
         /// </summary>
         internal void KeepAnswer(ulong lastTick)
         {
-            if (answers != null && AnswerTick + 1 == lastTick) answers.KeepFormer(answerIndex, ref kept);
+            if (answers != null && AnswerTick + 1 == lastTick) answers.CopyPrevious(answerIndex, ref kept);
         }
 
-        internal void Left()
+        internal void OnLeft()
         {
             Simulation = null;
             Id = -1;
@@ -237,7 +238,7 @@ namespace Collektive.Unity
         {
             EnabledNodes.Clear();
             gaps = 0;
-            saidAlone = false;
+            hasReportedNoManager = false;
         }
 
         private void OnEnable()
@@ -254,11 +255,13 @@ namespace Collektive.Unity
             var scale = Body.lossyScale;
             if (scale.x * scale.y * scale.z == 0)
             {
-                Debug.LogWarning("node '" + name + "' has a scale of zero, " + scale + ": its colliders touch nothing, and it cannot be seen", this);
+                Debug.LogWarning("node '" + name + "' has a scale of zero, " + scale
+                    + ": it is invisible, and physics ignores its colliders. Set a scale above zero", this);
             }
-            if (SimulationManager.Current != null || saidAlone) return;
-            saidAlone = true;
-            Debug.LogError("node '" + name + "' finds no Simulation Manager: add one to the scene (GameObject > Collektive > Simulation Manager)", this);
+            if (SimulationManager.Current != null || hasReportedNoManager) return;
+            hasReportedNoManager = true;
+            Debug.LogError("node '" + name + "' does not run because the scene has no Simulation Manager: add one (GameObject > Collektive > "
+                + "Simulation Manager)", this);
         }
 
         private void OnDisable()
@@ -290,15 +293,15 @@ namespace Collektive.Unity
     [Serializable]
     public struct NodeParameter
     {
-        /// <summary>The parameter's name, as the program declares it.</summary>
-        [Tooltip("The parameter's name, as the program declares it.")]
+        /// <summary>Name of the parameter in the program.</summary>
+        [Tooltip("Name of the parameter in the program.")]
         public string name;
 
-        /// <summary>Its value as text.</summary>
-        [Tooltip("Its value as text.")]
+        /// <summary>Value as text.</summary>
+        [Tooltip("Value as text.")]
         public string value;
 
-        /// <summary>Makes a value.</summary>
+        /// <summary>Creates a value.</summary>
         public NodeParameter(string name, string value)
         {
             this.name = name;

@@ -18,13 +18,13 @@ namespace Collektive.Unity
         internal RoundTimer(RoundTiming timing, RandomStream random, double start)
         {
             this.random = random;
-            period = timing.period;
-            jitter = timing.jitter;
-            origin = start + (timing.phase < 0 ? period * random.NextDouble() : timing.phase);
+            period = SimulatedSeconds.Exact(timing.period);
+            jitter = SimulatedSeconds.Exact(timing.jitter);
+            origin = start + (timing.phase < 0 ? period * random.NextDouble() : SimulatedSeconds.Exact(timing.phase));
             next = Next();
         }
 
-        /// <summary>The result that <see cref="TakeDue"/> would have, without a change.</summary>
+        /// <summary>Returns the result of <see cref="TakeDue"/> without advancing the timer.</summary>
         internal bool IsDue(double now) => next <= now;
 
         /// <summary>Whether a round came due since the last call that returned true; times must not decrease.</summary>

@@ -19,12 +19,12 @@ namespace Collektive.Unity
         [Tooltip("Simulated seconds from joining to the first round. Negative: random for each node, less than the period.")]
         public float phase = -1;
 
-        /// <summary>Seconds by which each round may come later, evenly spread; 0 or greater and less than the period.</summary>
+        /// <summary>Largest random delay of a round in seconds, uniformly distributed; 0 or greater and less than the period.</summary>
         [Tooltip("Largest random delay of a round in simulated seconds, uniformly distributed; less than the period.")]
         [Min(0)]
         public float jitter;
 
-        /// <summary>The first thing that is wrong; null when all is right.</summary>
+        /// <summary>Returns the first error, or null.</summary>
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(float deltaTime)
         {

@@ -7,7 +7,7 @@ namespace Collektive.Unity
     /// <summary>Base of all actuators; user actuators derive from <see cref="Actuator{TData}"/>.</summary>
     public abstract class Actuator : NodePart
     {
-        /// <summary>A vector of the program's answer, for physics, which does not recover from one that is not finite.</summary>
+        /// <summary>Returns a vector of the program's answer, or throws if it is not finite, because physics cannot recover from it.</summary>
         internal static Vector3 Finite(Vector3 answer)
         {
             if (float.IsFinite(answer.x) && float.IsFinite(answer.y) && float.IsFinite(answer.z)) return answer;
@@ -18,7 +18,7 @@ namespace Collektive.Unity
         internal sealed override ref PartList ListOf(Node node) => ref node.Actuators;
     }
 
-    /// <summary>Does in the scene what a node's program answered.</summary>
+    /// <summary>Applies the answer of a node's program to the scene.</summary>
     /// <typeparam name="TData">
     /// The generated type <c>ActuatorData</c> of the schema: a copy of a struct, a view of a table that is valid during the call.
     /// </typeparam>

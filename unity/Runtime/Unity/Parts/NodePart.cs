@@ -32,7 +32,7 @@ namespace Collektive.Unity
             if (Node == null)
             {
                 Debug.LogError(
-                    GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add one (Collektive/Node)", this);
+                    GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add the component Collektive/Node", this);
                 enabled = false;
                 return;
             }
@@ -56,7 +56,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Counts a failure.</summary>
-        /// <returns>Whether there were so many in a row that the component must be disabled, so that the rest can go on.</returns>
+        /// <returns>Whether the component failed too often in a row and must be disabled.</returns>
         internal bool HasFailedTooOften()
         {
             if (++failuresInRow < MaxFailuresInRow) return false;
@@ -77,11 +77,11 @@ namespace Collektive.Unity
         {
         }
 
-        /// <summary>Ends a simulation whose schema is another than the one that this sensor or actuator is made for.</summary>
-        internal void FailForData(Simulation simulation, string kind, Type has, Type wants)
+        /// <summary>Stops a simulation whose schema differs from the schema of this sensor or actuator.</summary>
+        internal void FailForData(Simulation simulation, string kind, Type actual, Type expected)
         {
-            simulation.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is made for " + has.FullName
-                + ", the session's schema has " + wants.FullName, this);
+            simulation.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is written for " + actual.FullName
+                + ", but the session's schema has " + expected.FullName + ": use a component for that schema, or select the other schema", this);
         }
 
         /// <summary>Called when the part has left the node's list.</summary>

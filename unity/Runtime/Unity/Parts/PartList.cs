@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A node's parts of one kind, in the order in which they were enabled. A field of the node rather than an object of its own: in a large
+    /// A node's parts of one kind, in the order in which they were enabled. A struct in the node rather than a separate object: in a large
     /// scene cache misses dominate a tick.
     /// </summary>
     internal struct PartList

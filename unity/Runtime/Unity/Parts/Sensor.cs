@@ -9,7 +9,7 @@ namespace Collektive.Unity
     }
 
     /// <summary>
-    /// Writes what a node perceives into the data of its next round. Several sensors of one node fill different fields of the same data.
+    /// Writes sensor data for a node's next round. Several sensors of one node may fill different fields.
     /// </summary>
     /// <typeparam name="TData">
     /// The generated type <c>SensorData</c> of the schema.
@@ -23,8 +23,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once before each round of the node, on the main thread, after physics were synchronised. The data holds the
-        /// schema's defaults and what earlier sensors of the node wrote. An exception costs the node this round.
+        /// Called once before each round of the node, on the main thread, after physics were synchronised. The data contains the
+        /// schema's defaults and what earlier sensors of the node wrote. After an exception, the node misses the round.
         /// </summary>
         protected abstract void Sense(ref TData data);
     }

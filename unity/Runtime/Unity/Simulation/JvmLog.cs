@@ -17,13 +17,13 @@ namespace Collektive.Unity
             this.context = context;
         }
 
-        /// <summary>Shows the lines that came since the last call, and gives them to <paramref name="shown"/>, which may be null.</summary>
+        /// <summary>Logs the new lines, and passes them to <paramref name="shown"/>, which may be null.</summary>
         internal void Show(Action<HostLogLevel, string> shown)
         {
             while (log.TryRead(out var level, out var line)) Show(level, line, shown);
         }
 
-        /// <summary>The same; then how many lines were left out.</summary>
+        /// <summary>The same, followed by the number of omitted lines.</summary>
         internal void ShowRest(Action<HostLogLevel, string> shown)
         {
             Show(shown);

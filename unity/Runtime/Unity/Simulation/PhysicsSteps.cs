@@ -3,10 +3,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The physics of a tick: equal steps, none longer than the setting, that together take as long as the tick.</summary>
+    /// <summary>The physics of a tick: equal steps, at most as long as the setting, that add up to the tick.</summary>
     internal static class PhysicsSteps
     {
-        /// <summary>Does them, unless a message of physics ends the simulation.</summary>
+        /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>
         internal static void Advance(Simulation simulation)
         {
             var settings = simulation.Settings;

@@ -15,16 +15,16 @@ namespace Collektive.Unity
     {
         private const int MinPerJob = 32;
 
-        /// <summary>Memory grows with it for all queries; the few with more hits are asked again alone.</summary>
-        private const int MostHits = 64;
+        /// <summary>Limits the memory of all queries. Queries with more hits run again, without the batch.</summary>
+        private const int MaxKeptHits = 64;
 
         private NativeArray<TCommand> commands;
         private NativeArray<THit> hits;
-        private int wantedHits;
+        private int nextMaxHits;
         private JobHandle running;
 
         /// <param name="maxHits">The most hits of a query that are kept, 1 or more; with 1, the nearest.</param>
-        protected QueryBatch(int maxHits) => MaxHits = wantedHits = maxHits;
+        protected QueryBatch(int maxHits) => MaxHits = nextMaxHits = maxHits;
 
         internal int MaxHits { get; private set; }
 
@@ -46,23 +46,23 @@ namespace Collektive.Unity
             Finish();
         }
 
-        /// <summary>Lets the queries run. The batch may not change before <see cref="Finish"/>.</summary>
+        /// <summary>Starts the queries. The batch must not change before <see cref="Finish"/>.</summary>
         internal void Begin()
         {
             if (Count == 0) return;
-            MaxHits = wantedHits;
+            MaxHits = nextMaxHits;
             if (Count * MaxHits > hits.Length) Grow(ref hits, 0, commands.Length * MaxHits);
             running = Schedule(commands.GetSubArray(0, Count), hits.GetSubArray(0, Count * MaxHits), MinPerJob, MaxHits);
         }
 
-        /// <summary>Waits until there are all results. A second call does nothing.</summary>
+        /// <summary>Waits for the results. A second call does nothing.</summary>
         internal void Finish() => running.Complete();
 
         /// <summary>A hit of a query; <paramref name="place"/> is below <see cref="MaxHits"/>. Hits have no order; one without a collider is the end.</summary>
         internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
 
-        /// <summary>A query had more hits than were kept: later batches keep more.</summary>
-        internal void KeepMore() => wantedHits = Math.Min(MostHits, 2 * MaxHits);
+        /// <summary>Increases the number of hits per query in later batches.</summary>
+        internal void KeepMore() => nextMaxHits = Math.Min(MaxKeptHits, 2 * MaxHits);
 
         /// <inheritdoc/>
         public void Dispose()
@@ -75,7 +75,7 @@ namespace Collektive.Unity
 
         protected abstract JobHandle Schedule(NativeArray<TCommand> commands, NativeArray<THit> hits, int minPerJob, int maxHits);
 
-        /// <summary>Makes an array longer, and keeps its first <paramref name="used"/> items.</summary>
+        /// <summary>Enlarges an array, and keeps its first <paramref name="used"/> items.</summary>
         private static void Grow<T>(ref NativeArray<T> array, int used, int length) where T : struct
         {
             var longer = new NativeArray<T>(length, Allocator.Persistent);

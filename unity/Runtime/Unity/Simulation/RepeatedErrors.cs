@@ -4,39 +4,39 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Errors for the console: each is logged whole when it comes for the first time, then counted. Errors with equal keys are the same error, on any node.
+    /// Logs each error completely the first time, then counts it. Errors with equal keys are the same error, on any node.
     /// </summary>
     internal sealed class RepeatedErrors
     {
         private const int MaxKinds = 256;
-        private const string Others = "errors of other kinds";
+        private const string Others = "different errors";
 
         private readonly Dictionary<string, Kind> kinds = new Dictionary<string, Kind>();
 
-        /// <summary>Counts an error, and logs its count when it has come 10, 100, 1000... times.</summary>
-        /// <param name="what">What happened, in the plural, for instance <c>rounds of program 'p' have failed so</c>.</param>
-        /// <param name="first">The first one, in a line.</param>
-        /// <returns>Whether it is the first one, which the caller logs.</returns>
+        /// <summary>Counts an error, and logs the count after 10, 100, 1000... occurrences.</summary>
+        /// <param name="what">The error in the plural, for example <c>rounds of program 'p' failed in the same way</c>.</param>
+        /// <param name="first">The first error, in one line.</param>
+        /// <returns>Whether it is the first occurrence, which the caller logs.</returns>
         internal bool IsFirst(string key, string what, int node, string first)
         {
             if (!kinds.ContainsKey(key) && kinds.Count >= MaxKinds) key = Others;
             if (!kinds.TryGetValue(key, out var kind))
             {
-                kind = key == Others ? new Kind("rounds or components have failed", Others) : new Kind(what, first);
+                kind = key == Others ? new Kind("rounds or components failed", Others) : new Kind(what, first);
                 kinds.Add(key, kind);
             }
             kind.Count++;
             kind.LastNode = node;
-            if (kind.Count > 1 && IsPowerOfTen(kind.Count)) kind.Tell();
+            if (kind.Count > 1 && IsPowerOfTen(kind.Count)) kind.LogCount();
             return kind.Count == 1;
         }
 
-        /// <summary>Logs how often each error has come, if more than once, and forgets them all.</summary>
-        internal void TellCounts()
+        /// <summary>Logs the counts of repeated errors, and resets them.</summary>
+        internal void LogCounts()
         {
             foreach (var kind in kinds.Values)
             {
-                if (kind.Count > 1 && !IsPowerOfTen(kind.Count)) kind.Tell();
+                if (kind.Count > 1 && !IsPowerOfTen(kind.Count)) kind.LogCount();
             }
             kinds.Clear();
         }
@@ -60,7 +60,7 @@ namespace Collektive.Unity
                 this.first = first;
             }
 
-            internal void Tell() => Debug.LogError(Count + " " + what + ", the last one of node " + LastNode + "; the first one: " + first);
+            internal void LogCount() => Debug.LogError(Count + " " + what + ", the last one of node " + LastNode + ". First error: " + first);
         }
     }
 }

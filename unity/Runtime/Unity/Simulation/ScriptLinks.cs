@@ -3,12 +3,12 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Links that scripts make and remove, beside those of neighbourhood rules.</summary>
+    /// <summary>Links that scripts add and remove, in addition to those of neighbourhood rules.</summary>
     internal sealed class ScriptLinks
     {
         private readonly Simulation simulation;
-        // Ids of absent nodes that were warned of.
-        private readonly HashSet<int> missed = new HashSet<int>();
+        // Ids of missing nodes with a warning.
+        private readonly HashSet<int> warnedOf = new HashSet<int>();
 
         internal ScriptLinks(Simulation simulation)
         {
@@ -24,13 +24,13 @@ namespace Collektive.Unity
             if (!directed) simulation.Links.HoldForScripts(b, a, length, 0);
         }
 
-        /// <summary>Removes what <see cref="Add"/> made.</summary>
+        /// <summary>Removes a link added by <see cref="Add"/>.</summary>
         internal void Remove(int a, int b, bool directed)
         {
             if (!CheckEnds("remove", a, b)) return;
             var removed = simulation.Links.ReleaseForScripts(a, b);
             if (!directed) removed |= simulation.Links.ReleaseForScripts(b, a);
-            if (!removed) Debug.LogWarning("no script made a link from node " + a + " to node " + b + ": nothing to remove", simulation.Manager);
+            if (!removed) Debug.LogWarning("cannot remove the link from node " + a + " to node " + b + ": no script added it", simulation.Manager);
         }
 
         private bool CheckEnds(string verb, int a, int b)
@@ -39,10 +39,10 @@ namespace Collektive.Unity
             if (simulation.Find(missing) == null)
             {
                 // Nodes may leave while scripts still have their ids or touch their colliders.
-                if (missed.Add(missing))
+                if (warnedOf.Add(missing))
                 {
                     Debug.LogWarning("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + missing
-                        + " takes no part in the simulation; later links of it are passed over without a word", simulation.Manager);
+                        + " is not in the simulation. Later links of this node are ignored without a warning", simulation.Manager);
                 }
                 return false;
             }

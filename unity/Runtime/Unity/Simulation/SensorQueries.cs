@@ -41,7 +41,7 @@ namespace Collektive.Unity
             Spheres.Finish();
         }
 
-        /// <summary>Makes both twice as long; what is in them stays.</summary>
+        /// <summary>Doubles the length of both arrays, and keeps their content.</summary>
         internal void Grow()
         {
             Array.Resize(ref Near, 2 * Near.Length);

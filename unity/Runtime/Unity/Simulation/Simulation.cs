@@ -13,13 +13,13 @@ namespace Collektive.Unity
     /// </summary>
     internal sealed class Simulation
     {
-        /// <summary>Share of a tick by which times may differ and still be the same: sums of ticks are not exact.</summary>
+        /// <summary>Relative tolerance of times in ticks, because sums of ticks are not exact.</summary>
         private const double Tolerance = 1e-3;
 
         /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
         private const int MaxLinks = 1 << 24;
 
-        private readonly Roster roster = new Roster();
+        private readonly NodeRegistry roster = new NodeRegistry();
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
         private Node[] present = Array.Empty<Node>();
@@ -27,6 +27,7 @@ namespace Collektive.Unity
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
         private bool isTicking;
+        private bool hasWarnedMovedCollider;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
         /// <param name="globals">What is written there goes out with the next tick.</param>
@@ -47,21 +48,21 @@ namespace Collektive.Unity
 
         internal SimulationManager Manager { get; }
 
-        /// <summary>Random numbers of the scene as a whole.</summary>
+        /// <summary>Random numbers for the scene.</summary>
         internal RandomStream Random { get; }
 
-        /// <summary>Whether there can be ticks.</summary>
+        /// <summary>Whether the session is open.</summary>
         internal bool IsOpen { get; private set; }
 
-        /// <summary>Why it ended; empty while it did not, or without a fault.</summary>
+        /// <summary>The error that ended the simulation, or an empty text.</summary>
         internal string Failure { get; private set; } = "";
 
         internal IReadOnlyList<ProgramInfo> Programs => IsOpen ? session.Programs : Array.Empty<ProgramInfo>();
 
-        /// <summary>Ticks done.</summary>
+        /// <summary>Number of completed ticks.</summary>
         internal ulong Tick => IsOpen ? session.Tick : 0;
 
-        /// <summary>The tick that is being done, or was last.</summary>
+        /// <summary>The current or last tick.</summary>
         internal ulong TickInProgress { get; private set; }
 
         /// <summary>Simulated seconds.</summary>
@@ -82,9 +83,9 @@ namespace Collektive.Unity
         /// <summary>Null before <see cref="TryOpen"/>.</summary>
         internal JvmLog Log { get; private set; }
 
-        internal ErrorTally Errors { get; } = new ErrorTally();
+        internal ErrorCounts Errors { get; } = new ErrorCounts();
 
-        /// <summary>Nodes that take part, ascending by id.</summary>
+        /// <summary>Participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => roster.Nodes;
 
         /// <summary>All ids are below it.</summary>
@@ -105,42 +106,51 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Where the nodes are at this tick; up to date while rules are asked.</summary>
+        /// <summary>Positions of the nodes in this tick; current while rules run.</summary>
         internal NodeGrid Grid { get; } = new NodeGrid();
 
-        /// <summary>What rules saw between nodes in this tick.</summary>
+        /// <summary>Sight lines between nodes in this tick.</summary>
         internal SightLines SightLines { get; }
 
-        /// <summary>What rules add neighbours to.</summary>
+        /// <summary>The collector for rules.</summary>
         internal NeighbourCollector Neighbours { get; }
 
         /// <summary>The physics queries of sensors.</summary>
         internal SensorQueries Queries { get; }
 
-        /// <summary>Where sensors write; in a tick.</summary>
+        /// <summary>Buffer for sensors in a tick.</summary>
         internal SensorBuffer Sensed => session.Request.Sensors;
 
-        /// <summary>What actuators read; in a tick.</summary>
+        /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
-        /// <summary>Starts the JVM if need be, and opens a session on it.</summary>
-        /// <returns>False when the simulation has failed instead, for good: each later frame would fail again.</returns>
+        /// <summary>Starts the JVM if needed, and opens a session.</summary>
+        /// <returns>False if the simulation failed. It is not opened again, because each later frame would fail.</returns>
         internal bool TryOpen()
         {
             try
             {
                 Log = new JvmLog(Manager);
-                session = Opening.Open(Settings, Manager);
+                session = SessionStart.Open(Settings, Manager);
                 IsOpen = true;
             }
             catch (Exception error)
             {
-                Fail(error, "it could not be started: ");
+                Fail(error, "the start failed: ");
             }
             return IsOpen;
         }
 
-        /// <summary>Does one tick.</summary>
+        /// <summary>Warns of the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
+        internal void WarnMovedCollider(Component part)
+        {
+            if (hasWarnedMovedCollider) return;
+            hasWarnedMovedCollider = true;
+            Debug.LogWarning(part.GetType().Name + " moves '" + part.name + "', a collider without a Rigidbody, through walls and other nodes: "
+                + "add a Rigidbody, or make the collider a trigger", part);
+        }
+
+        /// <summary>Runs one tick.</summary>
         /// <returns>Whether the tick was completed; otherwise the simulation has ended.</returns>
         internal bool TryTick()
         {
@@ -158,31 +168,34 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
-        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="culprit"/>, or the manager if there is none.</summary>
-        internal void Fail(string message, UnityEngine.Object culprit = null)
+        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
+        internal void Fail(string message, UnityEngine.Object context = null)
         {
             if (Failure.Length > 0) return;
             Failure = message;
-            Debug.LogError("Simulation stopped: " + message, culprit != null ? culprit : Manager);
+            Debug.LogError("Simulation stopped: " + message, context != null ? context : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
         }
 
-        /// <summary>Errors of the bridge are sentences for users; others are logged with their stack, and <paramref name="what"/> they did.</summary>
+        /// <summary>
+        /// Ends the simulation with an exception. Errors of the bridge are messages for users; others are logged with their stack, after <paramref
+        /// name="what"/>.
+        /// </summary>
         private void Fail(Exception error, string what)
         {
-            var told = error is BridgeException;
-            if (!told) Debug.LogException(error, Manager);
-            Fail((told ? "" : what) + error.Message);
+            var isUserError = error is BridgeException;
+            if (!isUserError) Debug.LogException(error, Manager);
+            Fail((isUserError ? "" : what) + error.Message);
         }
 
-        /// <summary>All nodes leave; the session closes, after the tick that is in progress. A second call does nothing.</summary>
+        /// <summary>Removes all nodes, and closes the session after the current tick. A second call does nothing.</summary>
         internal void End()
         {
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
             IsOpen = false;
             if (!isTicking) CloseSession();
-            Errors.TellCounts();
+            Errors.LogCounts();
         }
 
         internal void Join(Node node)
@@ -197,12 +210,12 @@ namespace Collektive.Unity
             Remove(node);
         }
 
-        /// <summary>At the end of a simulation its errors keep their nodes, for who looks at them afterwards.</summary>
+        /// <summary>At the end of a simulation, errors keep their nodes for the diagnostics window.</summary>
         private void Remove(Node node)
         {
             roster.Leave(node);
             for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
-            node.Left();
+            node.OnLeft();
         }
 
         internal Node Find(int id) => roster.Find(id);
@@ -223,7 +236,7 @@ namespace Collektive.Unity
             Grid.Dispose();
         }
 
-        /// <summary>A tick in its order. Users' code may end the simulation in any phase; the phases behind it are left out.</summary>
+        /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
         private void DoTick()
         {
             var start = Stopwatch.GetTimestamp();
@@ -243,7 +256,7 @@ namespace Collektive.Unity
             }
             if (!IsOpen) return;
             var sensed = Stopwatch.GetTimestamp();
-            using (TickMarkers.Step.Auto()) session.Step(Settings.deltaTime, Settings.stepLimitMs);
+            using (TickMarkers.Step.Auto()) session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             var stepped = Stopwatch.GetTimestamp();
             using (TickMarkers.Act.Auto())
             {
@@ -288,8 +301,8 @@ namespace Collektive.Unity
                 var node = present[i];
                 if (node.Id >= 0) node.Rules.Run(this, node, -1);
                 if (Links.Count <= MaxLinks) continue;
-                Fail("there are more than " + MaxLinks + " links, the last of them of node '" + node.name
-                    + "': use smaller neighbourhoods, or place the nodes apart", node);
+                Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
+                    + "': use smaller neighbourhoods, or increase the distances between nodes", node);
             }
         }
 
@@ -314,8 +327,8 @@ namespace Collektive.Unity
                 due.Add((node, node.Id));
                 var field = request.Sensors.FindNotFinite(index);
                 if (field == null) continue;
-                Fail("sensor data of node " + node.Id + " ('" + node.name + "') holds a number that is not finite in " + field
-                    + ": correct the sensor that writes it", node);
+                Fail("sensor data of node " + node.Id + " ('" + node.name + "') contains a number that is not finite in " + field
+                    + ": fix the sensor that writes it", node);
             }
         }
 
@@ -348,7 +361,7 @@ namespace Collektive.Unity
                 var (node, id) = due.Items[place];
                 // An earlier actuator may have made the node leave, or leave and come back.
                 if (node.Id != id || !roster.IsKnown[id]) continue;
-                node.Answered(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
+                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);
             }
         }

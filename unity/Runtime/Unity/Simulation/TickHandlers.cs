@@ -36,7 +36,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>What a stop condition says; false when it throws an exception.</summary>
+        /// <summary>Returns the value of a stop condition, or false if it throws an exception.</summary>
         internal static bool IsTrue(Func<SimulationManager, bool> condition, SimulationManager manager)
         {
             try
@@ -58,7 +58,7 @@ namespace Collektive.Unity
             if (failures < NodePart.MaxFailuresInRow) return;
             failuresInRow.Remove(handler);
             Remove(handler);
-            Debug.LogError(NameOf(handler) + " failed " + failures + " times in a row and is not called any more: correct it, then add it to Ticked again",
+            Debug.LogError(NameOf(handler) + " failed " + failures + " times in a row and was removed from Ticked: fix it, then add it again",
                 Context(handler, manager));
         }
 

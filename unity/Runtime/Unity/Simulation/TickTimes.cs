@@ -2,10 +2,10 @@ using System.Diagnostics;
 
 namespace Collektive.Unity
 {
-    /// <summary>How long the phases of a tick took, in milliseconds.</summary>
+    /// <summary>Durations of the phases of a tick, in milliseconds.</summary>
     public readonly struct TickTimes
     {
-        /// <summary>Makes a record of one tick.</summary>
+        /// <summary>Creates the durations of one tick.</summary>
         internal TickTimes(double rules, double sense, double step, double act, double physics)
         {
             Rules = rules;
@@ -35,7 +35,7 @@ namespace Collektive.Unity
         /// <summary>All physics sub-steps.</summary>
         public double Physics { get; }
 
-        /// <summary>The whole tick; handlers of <see cref="SimulationManager.Ticked"/> and the rest of Unity's frame are no part of it.</summary>
+        /// <summary>The whole tick, without handlers of <see cref="SimulationManager.Ticked"/> and the rest of Unity's frame.</summary>
         public double Total => Rules + Sense + Step + Act + Physics;
 
         private static double Milliseconds(long from, long to) => (to - from) * 1000.0 / Stopwatch.Frequency;

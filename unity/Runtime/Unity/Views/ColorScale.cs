@@ -18,16 +18,16 @@ namespace Collektive.Unity
         [Tooltip("Colour of the highest value.")]
         public Color high = new Color(1, 0.9f, 0.2f);
 
-        /// <summary>Whether the lowest and the highest value are those of the present tick.</summary>
-        [Tooltip("On: the lowest and highest value are those of the present tick. Off: those below.")]
+        /// <summary>Whether the scale adapts to the lowest and highest value of each tick.</summary>
+        [Tooltip("On: the scale adapts to the lowest and highest value of each tick. Off: it uses the values below.")]
         public bool automatic = true;
 
-        /// <summary>The lowest value; what is below has its colour.</summary>
-        [Tooltip("The lowest value; what is below has its colour.")]
+        /// <summary>The lowest value. Lower values have the same colour.</summary>
+        [Tooltip("The lowest value. Lower values have the same colour.")]
         public float lowest;
 
-        /// <summary>The highest value; what is above has its colour.</summary>
-        [Tooltip("The highest value; what is above has its colour.")]
+        /// <summary>The highest value. Higher values have the same colour.</summary>
+        [Tooltip("The highest value. Higher values have the same colour.")]
         public float highest = 1;
 
         private bool empty;
@@ -35,7 +35,7 @@ namespace Collektive.Unity
         /// <summary>The colour of a step below <see cref="Steps"/>.</summary>
         internal Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
 
-        /// <summary>The step of a value; values beyond the ends, and ones that are no number, have the ends' steps.</summary>
+        /// <summary>Returns the step of a value, clamped to the scale. NaN has a step, too.</summary>
         internal int StepOf(float value)
         {
             var place = (value - lowest) / (highest - lowest);

@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Colours all nodes by a number of the program's answers, and shows what the colours mean in a corner of the screen. A subclass of one line
-    /// says which number; one component anywhere in the scene is enough. A node keeps its colour while it has no answer.
+    /// Colours all nodes by a number of the program's answers, and shows a legend in a corner of the screen. A subclass
+    /// reads the number; add one component anywhere in the scene. A node keeps its colour while it has no answer.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class FieldView<TData> : MonoBehaviour
@@ -52,7 +52,7 @@ namespace Collektive.Unity
         /// <summary>The colours.</summary>
         public ColorScale Scale => scale;
 
-        /// <summary>What the legend says, in Unity's rich text. Made anew only when it is asked for and the title or the scale has changed.</summary>
+        /// <summary>Text of the legend, in Unity's rich text. Cached until the title or the scale changes.</summary>
         public string Legend
         {
             get

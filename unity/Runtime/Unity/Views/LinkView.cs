@@ -21,7 +21,7 @@ namespace Collektive.Unity
         private const int NoLink = 255;
 
         [SerializeField]
-        [Tooltip("Material with the shader Collektive/Link, or one that reads the same buffers. None: the package's own.")]
+        [Tooltip("Material with the shader Collektive/Link, or one that reads the same buffers. None: the package's material.")]
         private Material material;
 
         [SerializeField]
@@ -31,15 +31,15 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("The most links to draw; if there are more, none is drawn. 100,000 cost 2 ms of a tick.")]
+        [Tooltip("Maximum number of links. With more links, none are drawn. 100,000 links take 2 ms per tick.")]
         private int limit = 100000;
 
         [SerializeField]
-        [Tooltip("What links are coloured by.")]
+        [Tooltip("Value that determines the colour of links.")]
         private LinkColoring coloring;
 
         [SerializeField]
-        [Tooltip("Colours of the values. By direction: the high colour if two nodes hear each other, the low one if only one hears the other.")]
+        [Tooltip("Colours of the values. By direction: the high colour for links in both directions, the low one for one-way links.")]
         private ColorScale scale = new ColorScale();
 
         private GraphicsBuffer placesBuffer;
@@ -54,7 +54,7 @@ namespace Collektive.Unity
         private int[] placeOf = Array.Empty<int>();
         private Bounds bounds;
         private int count;
-        private bool saidTooMany;
+        private bool hasReportedLimit;
         private SimulationManager drawn;
         private ulong tick;
 
@@ -80,14 +80,14 @@ namespace Collektive.Unity
             set => width = value;
         }
 
-        /// <summary>Most directed links that are drawn, 0 or greater; while there are more, none is.</summary>
+        /// <summary>Maximum number of directed links, 0 or greater. With more links, none are drawn.</summary>
         public int Limit
         {
             get => limit;
             set => limit = value;
         }
 
-        /// <summary>What links are coloured by.</summary>
+        /// <summary>The value that determines the colour of links.</summary>
         public LinkColoring Coloring
         {
             get => coloring;
@@ -105,14 +105,15 @@ namespace Collektive.Unity
             var shader = material == null ? Shader.Find("Collektive/Link") : null;
             if (material == null && shader == null)
             {
-                Debug.LogError("Link View on '" + name + "' has no material, and the package's shader is not in this player: name a material", this);
+                Debug.LogError("Link View on '" + name + "' has no material, and the shader Collektive/Link is not in this player: select a material, "
+                    + "or add the shader to Always Included Shaders", this);
                 enabled = false;
                 return;
             }
             if (material != null && !material.HasProperty(ShaderNames.Width))
             {
                 Debug.LogError("Link View on '" + name + "' cannot draw with the material '" + material.name
-                    + "', whose shader reads no links: use one with the shader Collektive/Link, or none", this);
+                    + "', whose shader does not draw links: use one with the shader Collektive/Link, or none", this);
                 enabled = false;
                 return;
             }
@@ -163,9 +164,10 @@ namespace Collektive.Unity
             var links = manager.Simulation.PresentLinks;
             if (links.Count > limit)
             {
-                if (!saidTooMany) Debug.LogWarning("there are " + links.Count + " links, and the Link View draws " + limit + " at most: none is drawn while "
-                    + "there are more. Raise its limit, or use smaller neighbourhoods", this);
-                saidTooMany = true;
+                if (!hasReportedLimit) Debug.LogWarning("the scene has " + links.Count + " links, but the Link View draws at most " + limit
+                    + ": no links are drawn while "
+                    + "there are more. Raise its Limit, or use smaller neighbourhoods", this);
+                hasReportedLimit = true;
                 return;
             }
             TakePlaces(manager);
@@ -235,7 +237,7 @@ namespace Collektive.Unity
             for (var i = 0; i < nodes.Count; i++)
             {
                 var node = nodes[i];
-                // After physics: the node's own position is that of the tick's beginning.
+                // After physics: Node.Position is the position before the tick.
                 var place = node.Body.position;
                 placeOf[node.Id] = i;
                 places[i] = place;

@@ -3,7 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Pushes the node's body by the program's answer. A force or an acceleration acts for the simulated time since the node's last answer, as one
+    /// Applies a force from the program's answer to the node's body. A force or an acceleration acts for the simulated time since the node's last answer, as
+    /// one
     /// impulse at the beginning of the following physics steps; an impulse or a velocity change is applied unchanged.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
@@ -11,12 +12,12 @@ namespace Collektive.Unity
     public abstract class AddForceActuator<TData> : Actuator<TData>
     {
         [SerializeField]
-        [Tooltip("What the answer is: a force in newtons, an acceleration in m/s², an impulse in newton seconds, or a velocity change in m/s.")]
+        [Tooltip("Kind of the answer: force in newtons, acceleration in m/s², impulse in newton seconds, or velocity change in m/s.")]
         private ForceMode mode = ForceMode.Force;
 
         private Rigidbody body;
 
-        /// <summary>What the answer is: newtons, m/s², newton seconds or m/s.</summary>
+        /// <summary>Kind of the answer: force, acceleration, impulse or velocity change.</summary>
         public ForceMode Mode
         {
             get => mode;
@@ -40,7 +41,7 @@ namespace Collektive.Unity
             else body.AddForce(push, mode);
         }
 
-        /// <summary>The push in the program's answer, in the unit of <see cref="Mode"/>, in the world's directions.</summary>
+        /// <summary>Returns the force in the program's answer, in the unit of <see cref="Mode"/>, in world space.</summary>
         protected abstract Vector3 Read(TData data);
     }
 }

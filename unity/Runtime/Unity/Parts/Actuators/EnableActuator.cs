@@ -8,7 +8,7 @@ namespace Collektive.Unity
     public abstract class EnableActuator<TData> : Actuator<TData>
     {
         [SerializeField]
-        [Tooltip("The component to enable and disable: a script, light or other behaviour, a renderer or a collider.")]
+        [Tooltip("Component to enable and disable: a behaviour such as a script or light, a renderer or a collider.")]
         private Component target;
 
         /// <summary>The component to enable and disable: a behaviour, a renderer or a collider.</summary>
@@ -26,10 +26,10 @@ namespace Collektive.Unity
             else if (target is Renderer renderer) renderer.enabled = on;
             else if (target is Collider collider) collider.enabled = on;
             else throw new InvalidOperationException("its target is "
-                + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": name a behaviour, a renderer or a collider");
+                + (target == null ? "not set" : "a " + target.GetType().Name + ", which cannot be enabled") + ": select a behaviour, a renderer or a collider");
         }
 
-        /// <summary>Whether the program's answer wants the component enabled.</summary>
+        /// <summary>Returns whether the program's answer enables the component.</summary>
         protected abstract bool Read(TData data);
     }
 }

@@ -2,10 +2,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What a <see cref="ColorActuator{TData}"/> is, whatever its data.</summary>
+    /// <summary>The non-generic interface of <see cref="ColorActuator{TData}"/>.</summary>
     internal interface IColors
     {
-        /// <summary>What is coloured; null: nothing yet.</summary>
+        /// <summary>The coloured renderer, or null.</summary>
         Renderer Target { get; }
     }
 }

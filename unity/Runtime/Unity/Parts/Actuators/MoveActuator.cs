@@ -4,7 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Moves the node towards the program's target, at most at its maximum speed. A Rigidbody is driven by its velocity; its fall is left to
-    /// gravity if the body uses it. A kinematic body and a node without a body are moved by position. A subclass of one line selects
+    /// gravity if the body uses it. A kinematic body and a node without a body are moved by position. A subclass selects
     /// the field of the schema's data that is the target.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
@@ -12,24 +12,25 @@ namespace Collektive.Unity
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres per second.")]
+        [Tooltip("Speed limit in metres per second.")]
         private float maxSpeed = 5;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Seconds to the target at unlimited speed: the node slows down as it comes near.")]
+        [Tooltip("Seconds to the target without the speed limit. Longer times slow the node down earlier.")]
         private float reachTime = 0.5f;
 
         private Rigidbody body;
+        private bool isChecked;
 
-        /// <summary>Metres per second, 0 or greater.</summary>
+        /// <summary>Speed limit in metres per second, 0 or greater.</summary>
         public float MaxSpeed
         {
             get => maxSpeed;
             set => maxSpeed = value;
         }
 
-        /// <summary>Seconds in which the node would reach its target if it were fast enough, 0 or greater.</summary>
+        /// <summary>Seconds to the target without the speed limit, 0 or greater.</summary>
         public float ReachTime
         {
             get => reachTime;
@@ -52,11 +53,16 @@ namespace Collektive.Unity
             else Drive(target - body.position);
         }
 
-        /// <summary>The target in the program's answer, in metres.</summary>
+        /// <summary>Returns the target in the program's answer, in metres.</summary>
         protected abstract Vector3 Read(TData data);
 
         private void Go(Vector3 target)
         {
+            if (!isChecked)
+            {
+                isChecked = true;
+                if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) Node.Simulation.WarnMovedCollider(this);
+            }
             var place = Node.Body.position;
             Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);
         }

@@ -2,19 +2,19 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Gives the node's body the velocity that the program answers.</summary>
+    /// <summary>Sets the velocity of the node's body to the program's answer.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
     public abstract class SetVelocityActuator<TData> : Actuator<TData>
     {
         [SerializeField]
-        [Tooltip("On: the body's vertical velocity stays, so that it can fall.")]
+        [Tooltip("On: the body keeps its vertical velocity, so that it can fall.")]
         private bool keepVertical;
 
         private Rigidbody body;
-        private bool saidKinematic;
+        private bool hasReportedKinematic;
 
-        /// <summary>Whether the body's vertical velocity stays, so that it can fall.</summary>
+        /// <summary>Whether the body keeps its vertical velocity, so that it can fall.</summary>
         public bool KeepVertical
         {
             get => keepVertical;
@@ -34,23 +34,24 @@ namespace Collektive.Unity
             var velocity = Finite(Read(data));
             if (body.isKinematic)
             {
-                SayKinematic();
+                WarnOfKinematic();
                 return;
             }
             if (keepVertical) velocity.y = body.linearVelocity.y;
             body.linearVelocity = velocity;
         }
 
-        /// <summary>Unity would log at each answer.</summary>
-        private void SayKinematic()
+        /// <summary>Reported once, because Unity would log it at each answer.</summary>
+        private void WarnOfKinematic()
         {
-            if (saidKinematic) return;
-            saidKinematic = true;
-            Debug.LogWarning(GetType().Name + " on '" + name + "' has no effect while its Rigidbody is kinematic: switch that off, or move the node by a "
+            if (hasReportedKinematic) return;
+            hasReportedKinematic = true;
+            Debug.LogWarning(GetType().Name + " on '" + name
+                + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a "
                 + "Move actuator", this);
         }
 
-        /// <summary>The velocity in the program's answer, in metres per second.</summary>
+        /// <summary>Returns the velocity in the program's answer, in metres per second.</summary>
         protected abstract Vector3 Read(TData data);
     }
 }

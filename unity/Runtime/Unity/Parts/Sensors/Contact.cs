@@ -2,10 +2,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A collider that touches a node, as a <see cref="ContactSensor{TData}"/> perceives it.</summary>
+    /// <summary>A contact in a <see cref="ContactSensor{TData}"/>.</summary>
     public readonly struct Contact
     {
-        /// <summary>Makes one.</summary>
+        /// <summary>Creates a value.</summary>
         internal Contact(Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
         {
             Collider = collider;
@@ -17,16 +17,16 @@ namespace Collektive.Unity
         /// <summary>The collider that touches the node.</summary>
         public Collider Collider { get; }
 
-        /// <summary>The body that the collider belongs to; null for what stands still for ever.</summary>
+        /// <summary>The body that the collider belongs to; null for static colliders.</summary>
         public Rigidbody Body => Collider.attachedRigidbody;
 
-        /// <summary>Middle of the points of contact, in the world.</summary>
+        /// <summary>Mean contact point in world space.</summary>
         public Vector3 Point { get; }
 
-        /// <summary>Out of the other collider, towards the node, of length 1.</summary>
+        /// <summary>Unit vector from the other collider towards the node.</summary>
         public Vector3 Normal { get; }
 
-        /// <summary>What the contact did to the node since its last round, in newton seconds; it points away from the other collider.</summary>
+        /// <summary>Impulse on the node since its last round, in newton seconds. It points away from the other collider.</summary>
         public Vector3 Impulse { get; }
     }
 }

@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives which colliders touch the node's body, or touched it since its last round, where, and how hard. Put it on the GameObject
-    /// with the Rigidbody, which gets Unity's collision messages. For sleeping bodies the last known point is kept.
+    /// Detects the colliders that touch the node's body or touched it since its last round, with point and impulse. Put it on the GameObject
+    /// with the Rigidbody, which receives Unity's collision messages. Contacts of sleeping bodies keep their last point.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ContactSensor<TData> : Sensor<TData>
@@ -40,16 +40,16 @@ namespace Collektive.Unity
             BeginRound();
         }
 
-        /// <summary>Writes the contacts, the nearest to the node's centre first. They are valid during the call only.</summary>
+        /// <summary>Writes the contacts, the nearest to the node's centre first. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Contact> contacts);
 
-        /// <summary>Takes a contact that begins.</summary>
+        /// <summary>Handles the start of a contact.</summary>
         protected virtual void OnCollisionEnter(Collision collision) => Touch(collision);
 
-        /// <summary>Takes a contact that goes on.</summary>
+        /// <summary>Handles a continuing contact.</summary>
         protected virtual void OnCollisionStay(Collision collision) => Touch(collision);
 
-        /// <summary>Takes the end of a contact.</summary>
+        /// <summary>Handles the end of a contact.</summary>
         protected virtual void OnCollisionExit(Collision collision)
         {
             var place = Find(collision.collider);
@@ -93,7 +93,7 @@ namespace Collektive.Unity
                 var hasEnded = ended.Items[i];
                 if (contact.Collider.IsGone()) continue;
                 var place = kept++;
-                for (; place > 0 && Touching.IsBefore(contact.Point - centre, contacts.Items[place - 1].Point - centre); place--)
+                for (; place > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[place - 1].Point - centre); place--)
                 {
                     contacts.Items[place] = contacts.Items[place - 1];
                     ended.Items[place] = ended.Items[place - 1];

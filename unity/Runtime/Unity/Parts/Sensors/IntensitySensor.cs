@@ -2,15 +2,15 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Perceives the intensity of an <see cref="IntensitySource"/> at the node, or of all enabled ones together.</summary>
+    /// <summary>Measures the intensity of an <see cref="IntensitySource"/> at the node, or the sum of all enabled ones.</summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class IntensitySensor<TData> : Sensor<TData>
     {
         [SerializeField]
-        [Tooltip("The source to perceive. None: all enabled sources of the scene together.")]
+        [Tooltip("Source to measure. None: the sum of all enabled sources in the scene.")]
         private IntensitySource source;
 
-        /// <summary>The source to perceive, nothing while it is disabled; null: all enabled sources together.</summary>
+        /// <summary>The source to measure, with intensity 0 while it is disabled. Null: the sum of all enabled sources.</summary>
         public IntensitySource Source
         {
             get => source;

@@ -4,7 +4,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Something that can be sensed from afar, a light, a sound or a smell: its intensity falls linearly with the distance, down to 0. A subclass
+    /// A source of light, sound or smell. Its intensity decreases linearly with the distance, down to 0. A subclass
     /// may override that.
     /// </summary>
     [AddComponentMenu("Collektive/Intensity Source")]
@@ -19,7 +19,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("What the intensity loses with each metre.")]
+        [Tooltip("Decrease of the intensity per metre.")]
         private float falloff = 1;
 
         /// <summary>Intensity at the source itself, 0 or greater.</summary>
@@ -29,7 +29,7 @@ namespace Collektive.Unity
             set => peak = value;
         }
 
-        /// <summary>What the intensity loses with each metre, 0 or greater.</summary>
+        /// <summary>Decrease of the intensity per metre, 0 or greater.</summary>
         public float Falloff
         {
             get => falloff;
@@ -38,13 +38,13 @@ namespace Collektive.Unity
 
         internal static List<IntensitySource> All => EnabledSources;
 
-        /// <summary>The intensity at a point, 0 or greater. Called for each node that senses the source; must not allocate.</summary>
+        /// <summary>Returns the intensity at a point, 0 or greater. Called for each node that senses the source; must not allocate.</summary>
         public virtual float IntensityAt(Vector3 point) => Mathf.Max(0, peak - falloff * Vector3.Distance(transform.position, point));
 
-        /// <summary>Takes part in what sensors perceive.</summary>
+        /// <summary>Adds the source to the sources that sensors measure.</summary>
         protected virtual void OnEnable() => EnabledSources.Add(this);
 
-        /// <summary>Is perceived no longer.</summary>
+        /// <summary>Removes the source from the sources that sensors measure.</summary>
         protected virtual void OnDisable() => EnabledSources.Remove(this);
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]

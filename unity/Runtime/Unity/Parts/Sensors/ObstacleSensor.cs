@@ -4,19 +4,19 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives the colliders within reach of the node's centre, other nodes' bodies included, its own and triggers not, with the closest point of
-    /// each. The closest point is exact for boxes, spheres, capsules and convex meshes; for other colliders it is that of their bounds.
+    /// Measures the colliders within reach of the node's centre, other nodes' bodies included, its own and triggers not, with the closest point of
+    /// each. The closest point is exact for boxes, spheres, capsules and convex meshes; for other colliders it is the closest point of their bounds.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ObstacleSensor<TData> : Sensor<TData>
     {
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres from the node's centre.")]
+        [Tooltip("Reach from the node's centre, in metres.")]
         private float reach = 1;
 
         [SerializeField]
-        [Tooltip("Layers to perceive.")]
+        [Tooltip("Layers of the measured colliders.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
         // The number of the query in the batch.
@@ -29,7 +29,7 @@ namespace Collektive.Unity
             set => reach = value;
         }
 
-        /// <summary>Layers to perceive.</summary>
+        /// <summary>Layers of the measured colliders.</summary>
         public LayerMask Layers
         {
             get => layers;
@@ -50,11 +50,11 @@ namespace Collektive.Unity
             query = Node.Simulation.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
         }
 
-        /// <summary>Writes what there is, the nearest first. The obstacles are valid during the call only.</summary>
+        /// <summary>Writes the obstacles, the nearest first. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Obstacle> obstacles);
 
-        /// <summary>Takes what the batch found.</summary>
-        /// <returns>False if it could not keep all.</returns>
+        /// <summary>Reads the results of the batch.</summary>
+        /// <returns>False if the batch could not store all hits.</returns>
         private bool TryTakeHits(SensorQueries queries, out int found)
         {
             var spheres = queries.Spheres;
@@ -87,7 +87,7 @@ namespace Collektive.Unity
             var centre = Node.Position;
             var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
             var place = found++;
-            for (; place > 0 && Touching.IsBefore(obstacle.Vector, obstacles[place - 1].Vector); place--) obstacles[place] = obstacles[place - 1];
+            for (; place > 0 && ColliderExtensions.IsBefore(obstacle.Vector, obstacles[place - 1].Vector); place--) obstacles[place] = obstacles[place - 1];
             obstacles[place] = obstacle;
         }
 

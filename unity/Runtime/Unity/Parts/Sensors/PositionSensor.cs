@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Perceives where the node is. A subclass of one line says into which field of the schema's data it goes.</summary>
+    /// <summary>Measures the node's position. A subclass writes it to a field of the schema.</summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class PositionSensor<TData> : Sensor<TData>
     {

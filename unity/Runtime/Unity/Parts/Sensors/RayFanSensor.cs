@@ -4,30 +4,30 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives distances by rays from the node's centre, spread in the plane of its right and forward axes like a fan around forward. The
-    /// node's own colliders and triggers are passed through.
+    /// Measures distances along rays from the node's centre, in a fan around forward in the plane of its right and forward axes. The
+    /// rays ignore triggers and the node's own colliders.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class RayFanSensor<TData> : Sensor<TData>
     {
         private const float Whole = 360;
 
-        /// <summary>Metres behind a point of the node's own collider where a ray goes on.</summary>
+        /// <summary>Metres behind a hit of the node's own collider where the ray continues.</summary>
         private const float Gap = 1e-3f;
 
         [SerializeField]
         [Range(1, 360)]
-        [Tooltip("How many rays.")]
+        [Tooltip("Number of rays.")]
         private int rays = 8;
 
         [SerializeField]
         [Range(0, Whole)]
-        [Tooltip("Degrees from the first ray to the last; 360: all around, the first ray straight ahead.")]
+        [Tooltip("Degrees between the first and the last ray. 360: all around, starting forward.")]
         private float angle = Whole;
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Metres that a ray reaches.")]
+        [Tooltip("Length of the rays in metres.")]
         private float range = 5;
 
         [SerializeField]
@@ -42,21 +42,21 @@ namespace Collektive.Unity
         // The number of the first ray in the batch.
         private int query;
 
-        /// <summary>How many rays, 1 or more.</summary>
+        /// <summary>Number of rays, 1 or more.</summary>
         public int Rays
         {
             get => rays;
             set => rays = value;
         }
 
-        /// <summary>Degrees from the first ray to the last, 0..360; 360: all around, the first ray straight ahead.</summary>
+        /// <summary>Degrees between the first and the last ray, 0..360; 360: all around, starting forward.</summary>
         public float Angle
         {
             get => angle;
             set => angle = value;
         }
 
-        /// <summary>Metres that a ray reaches, 0 or greater.</summary>
+        /// <summary>Length of the rays in metres, 0 or greater.</summary>
         public float Range
         {
             get => range;
@@ -71,14 +71,14 @@ namespace Collektive.Unity
         }
 
         /// <summary>By the hits: when scripts are compiled during play, Unity keeps the directions alone.</summary>
-        private bool MustSpread => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
+        private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
             var queries = Node.Simulation.Queries;
             // Not when another sensor has changed the fan since.
-            var isBatched = queries.Sensors.Has(this) && !MustSpread;
+            var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
             if (!isBatched) Aim();
             var centre = Node.Position;
             for (var i = 0; i < aims.Length; i++)
@@ -98,13 +98,13 @@ namespace Collektive.Unity
             for (var i = 0; i < aims.Length; i++) fans.Add(new RaycastCommand(Node.Position, aims[i], parameters, range));
         }
 
-        /// <summary>Writes what the rays met, from left to right, or clockwise seen from above. The hits are valid during the call only.</summary>
+        /// <summary>Writes the hits from left to right, clockwise seen from above. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<RayHit> hits);
 
-        /// <summary>Turns the fan as the node is turned now.</summary>
+        /// <summary>Rotates the rays with the node.</summary>
         private void Aim()
         {
-            if (MustSpread) Spread();
+            if (MustUpdateDirections) Spread();
             var turn = Node.Body.rotation;
             for (var i = 0; i < aims.Length; i++) aims[i] = turn * directions[i];
         }

@@ -2,10 +2,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What one ray of a <see cref="RayFanSensor{TData}"/> met.</summary>
+    /// <summary>The hit of a ray of a <see cref="RayFanSensor{TData}"/>.</summary>
     public readonly struct RayHit
     {
-        /// <summary>Makes one.</summary>
+        /// <summary>Creates a value.</summary>
         internal RayHit(Vector3 direction, float distance, Collider collider)
         {
             Direction = direction;
@@ -16,10 +16,10 @@ namespace Collektive.Unity
         /// <summary>Direction of the ray in the world, of length 1.</summary>
         public Vector3 Direction { get; }
 
-        /// <summary>Metres to what the ray met; the sensor's range when it met nothing.</summary>
+        /// <summary>Distance of the hit in metres, or the sensor's range without a hit.</summary>
         public float Distance { get; }
 
-        /// <summary>What the ray met; null when it met nothing.</summary>
+        /// <summary>The collider, or null without a hit.</summary>
         public Collider Collider { get; }
     }
 }

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Perceives the node's own Rigidbody: its mass, velocities, rotation and other properties.</summary>
+    /// <summary>Measures the node's Rigidbody: its mass, velocities, rotation and other properties.</summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
     public abstract class RigidbodySensor<TData> : Sensor<TData>
@@ -19,7 +19,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, body);
 
-        /// <summary>Writes what the program shall know of the body.</summary>
+        /// <summary>Writes the properties of the body that the program needs.</summary>
         protected abstract void Write(ref TData data, Rigidbody body);
     }
 }

@@ -3,7 +3,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives how the node moves: the velocity of its Rigidbody, or without one, or with a kinematic one, the mean velocity since the node's
+    /// Measures the velocity of the node's Rigidbody. Without one, or with a kinematic one, it is the mean velocity since the node's
     /// last round (zero in its first).
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>

@@ -2,10 +2,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A trigger zone, as a <see cref="ZoneSensor{TData}"/> perceives it.</summary>
+    /// <summary>A trigger zone in a <see cref="ZoneSensor{TData}"/>.</summary>
     public readonly struct Zone
     {
-        /// <summary>Makes one.</summary>
+        /// <summary>Creates a value.</summary>
         internal Zone(Collider collider, bool entered, bool left)
         {
             Collider = collider;
@@ -13,13 +13,13 @@ namespace Collektive.Unity
             Left = left;
         }
 
-        /// <summary>The zone's trigger collider. One that was destroyed compares equal to null; the zone counts as left then.</summary>
+        /// <summary>The zone's trigger collider. A destroyed one compares equal to null, and its zone counts as left.</summary>
         public Collider Collider { get; }
 
-        /// <summary>Whether the node came in since its last round.</summary>
+        /// <summary>Whether the node entered since its last round.</summary>
         public bool Entered { get; }
 
-        /// <summary>Whether the node went out since its last round; it is inside otherwise.</summary>
+        /// <summary>Whether the node left since its last round. Otherwise it is inside.</summary>
         public bool Left { get; }
     }
 }

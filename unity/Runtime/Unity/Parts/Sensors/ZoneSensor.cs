@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Perceives the trigger zones that the node is in, entered or left since its last round: trigger colliders that belong to no node. As
+    /// Detects the trigger zones that the node is in, entered or left since its last round: trigger colliders without a Node. As
     /// everywhere in Unity, the node or the zone needs a Rigidbody, and the sensor must be on the GameObject with the node's collider or body.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
@@ -15,7 +15,7 @@ namespace Collektive.Unity
         private Zone[] zones = Array.Empty<Zone>();
 
         [SerializeField]
-        [Tooltip("Layers of the zones to perceive.")]
+        [Tooltip("Layers of the detected zones.")]
         private LayerMask layers = Physics.AllLayers;
 
         private struct Visit
@@ -26,7 +26,7 @@ namespace Collektive.Unity
             internal bool IsNew;
         }
 
-        /// <summary>Layers of the zones to perceive. It counts for zones that are entered from now on.</summary>
+        /// <summary>Layers of the detected zones. A change applies to zones that are entered afterwards.</summary>
         public LayerMask Layers
         {
             get => layers;
@@ -59,10 +59,10 @@ namespace Collektive.Unity
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
-        /// <summary>Writes the zones, those entered first at the beginning. They are valid during the call only.</summary>
+        /// <summary>Writes the zones in the order in which they were entered. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
-        /// <summary>Takes a zone that the node enters.</summary>
+        /// <summary>Handles a zone that the node enters.</summary>
         protected virtual void OnTriggerEnter(Collider other)
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
@@ -71,7 +71,7 @@ namespace Collektive.Unity
             visits.Items[place].Entries++;
         }
 
-        /// <summary>Takes a zone that the node leaves.</summary>
+        /// <summary>Handles a zone that the node leaves.</summary>
         protected virtual void OnTriggerExit(Collider other)
         {
             var place = Find(other);

@@ -16,6 +16,12 @@ public interface AlignmentStack {
     /** Pushes [token] and returns the depth before the push, for [popTo]. */
     public fun pushToken(token: String): Int
 
+    /**
+     * Pushes the id of an entry of a field without values, and returns the depth before the push, for [popTo]. Primitives are aligned on it,
+     * but [projected] is not.
+     */
+    public fun pushEntry(id: Any): Int
+
     /** Pops tokens until the depth is [depth]. */
     public fun popTo(depth: Int)
 

@@ -2,6 +2,9 @@ package org.collektive.engine
 
 import org.collektive.spi.Export
 
+/** State of a link in the model of burst losses; unknown before the first message. */
+internal enum class Burst { UNKNOWN, GOOD, BAD }
+
 /** The messages of one link under a network model: those in flight, and the one received. Not thread-safe. */
 internal class Channel {
     /** The message received last; `null` once it has expired. */
@@ -14,6 +17,9 @@ internal class Channel {
 
     /** Tick of the last message that entered this link; 0 before the first. */
     var lastSentTick = 0L
+
+    /** State of the link in the model of burst losses. */
+    var burst = Burst.UNKNOWN
 
     private var validUntil = 0.0
 

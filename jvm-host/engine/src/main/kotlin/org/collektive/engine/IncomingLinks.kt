@@ -47,7 +47,7 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     private fun collect(index: Int, transmitter: Transmitter) {
         val channel = channel(index)
         channel.lastSentTick = node(index).sentAt
-        transmitter.send(node(index), receiver, lengths[index], attenuations[index], channel)
+        transmitter.send(node(index).id, node(index), receiver, lengths[index], attenuations[index], channel)
     }
 
     private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel $index of $size links")

@@ -7,12 +7,19 @@ package org.collektive.engine
  * A message is lost with probability `loss + lossPerMetre * length + lossPerAttenuation * attenuation` of its link, at most 1. It arrives
  * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a later one is ignored.
  *
+ * Losses can come in bursts: each link is in a good or a bad state, and may change it with each message (Gilbert-Elliott model: E. O. Elliott,
+ * "Estimates of error rates for codes on burst-noise channels", Bell System Technical Journal 42(5), 1963). In the bad state a message that the
+ * other losses spare is lost with probability [burstLoss].
+ *
  * @property loss base probability of loss, 0..1.
  * @property lossPerMetre additional probability per metre of the link, 0 or greater.
  * @property lossPerAttenuation additional probability per unit of attenuation, 0 or greater.
  * @property delay least delay in seconds, 0 or greater.
  * @property jitter greatest additional delay in seconds, 0 or greater; uniformly distributed.
  * @property retention seconds for which a received message stays readable, greater than 0.
+ * @property burstShare share of a link's messages that are sent in the bad state in the long run, 0 or greater and less than 1.
+ * @property burstLength mean number of successive messages in the bad state, at least 1 and at least `burstShare / (1 - burstShare)`.
+ * @property burstLoss probability of loss in the bad state, 0..1.
  * @throws IllegalArgumentException when a value is out of range.
  */
 public class NetworkModel(
@@ -22,6 +29,9 @@ public class NetworkModel(
     public val delay: Double = 0.0,
     public val jitter: Double = 0.0,
     public val retention: Double = Double.POSITIVE_INFINITY,
+    public val burstShare: Double = 0.0,
+    public val burstLength: Double = 1.0,
+    public val burstLoss: Double = 1.0,
 ) {
     init {
         require(loss in 0.0..1.0) { "the network's loss must be 0..1, but is $loss" }
@@ -29,12 +39,25 @@ public class NetworkModel(
         requireAmount("loss per attenuation", lossPerAttenuation)
         requireAmount("delay", delay)
         requireAmount("jitter", jitter)
+        require(burstShare >= 0.0 && burstShare < 1.0) {
+            "the network's burst share must be at least 0 and less than 1, but is $burstShare"
+        }
+        require(burstLength >= 1.0 && burstLength >= burstShare / (1.0 - burstShare) && burstLength.isFinite()) {
+            "the network's burst length must be finite, at least 1 and at least burst share / (1 - burst share), but is $burstLength"
+        }
+        require(burstLoss in 0.0..1.0) { "the network's burst loss must be 0..1, but is $burstLoss" }
         require(retention > 0.0) { "the network's retention must be greater than 0, but is $retention" }
     }
 
     /** Whether every message arrives immediately and stays readable. */
-    public val isIdeal: Boolean =
-        loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 && retention.isInfinite()
+    public val isIdeal: Boolean = loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 &&
+        retention.isInfinite() && burstShare == 0.0
+
+    /** Probability that a link leaves the bad state with a message. */
+    internal val leavesBad = 1.0 / burstLength
+
+    /** Probability that a link enters the bad state with a message. */
+    internal val entersBad = leavesBad * burstShare / (1.0 - burstShare)
 
     private fun requireAmount(name: String, value: Double) {
         require(value >= 0.0 && value.isFinite()) { "the network's $name must be finite and 0 or greater, but is $value" }

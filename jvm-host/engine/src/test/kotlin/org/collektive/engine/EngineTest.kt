@@ -178,7 +178,7 @@ class EngineTest {
                 add(1)
                 due(1)
             }
-            assertTrue("cannot be described" in result.failure(0).orEmpty())
+            assertTrue("no details: the exception's own code failed" in result.failure(0).orEmpty())
         }
     }
 
@@ -223,7 +223,7 @@ class EngineTest {
     fun `threads outside 1 to 256 are refused`() {
         for (threads in listOf(0, -1, 257)) {
             val error = assertFailsWith<IllegalArgumentException> { EngineSettings(1, threads) }
-            assertEquals("threads must be 1..256, but is $threads", error.message)
+            assertEquals("the number of threads must be 1..256, but is $threads", error.message)
         }
     }
 

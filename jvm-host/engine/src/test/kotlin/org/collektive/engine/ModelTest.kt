@@ -21,6 +21,7 @@ class ModelTest {
         "lossy" to NetworkModel(loss = 0.3, lossPerMetre = 0.02, lossPerAttenuation = 0.1),
         "slow" to NetworkModel(delay = 0.7, jitter = 2.0),
         "forgetful" to NetworkModel(jitter = 0.4, retention = 0.8),
+        "bursty" to NetworkModel(loss = 0.1, burstShare = 0.4, burstLength = 3.0, burstLoss = 0.8),
         "bad" to NetworkModel(loss = 0.2, lossPerMetre = 0.01, lossPerAttenuation = 0.05, delay = 0.5, jitter = 1.6, retention = 1.5),
     )
 
@@ -102,6 +103,7 @@ class ModelTest {
             val arrivals = ArrayList<Pair<Message, Double>>()
             var newest: Message? = null
             var current: Pair<Message, Double>? = null
+            var isBad: Boolean? = null
         }
 
         private val last = HashMap<Int, Message>()
@@ -152,19 +154,29 @@ class ModelTest {
 
         private fun put(message: Message, line: Line, link: Link) {
             counts[0]++
-            val words = intArrayOf(message.tick, line.from, line.to, 4)
-            Philox.block(words, SEED.toInt(), 0)
-            val (first, second) = words.map { it.toUInt().toDouble() }.chunked(2).map { (high, low) ->
-                (high * 4294967296.0 + (low - low % 2048.0)) / 18446744073709551616.0
-            }
+            val (first, second) = numbers(message, line, purpose = 4)
             val loss = network.loss + network.lossPerMetre * link.values.length + network.lossPerAttenuation * link.values.attenuation
-            if (first < loss) {
+            val state = numbers(message, line, purpose = 5).first()
+            link.isBad = when (link.isBad) {
+                null -> state < network.burstShare
+                true -> state >= 1 / network.burstLength
+                false -> state < 1 / network.burstLength * network.burstShare / (1 - network.burstShare)
+            }
+            if (first < loss + if (link.isBad == true) (1 - loss) * network.burstLoss else 0.0) {
                 counts[1]++
                 return
             }
             val delay = network.delay + network.jitter * second
             if (delay > 0) counts[2]++
             link.arrivals += message to message.tick * 0.5 + delay
+        }
+
+        private fun numbers(message: Message, line: Line, purpose: Int): List<Double> {
+            val words = intArrayOf(message.tick, line.from, line.to, purpose)
+            Philox.block(words, SEED.toInt(), 0)
+            return words.map { it.toUInt().toDouble() }.chunked(2).map { (high, low) ->
+                (high * 4294967296.0 + (low - low % 2048.0)) / 18446744073709551616.0
+            }
         }
 
         /** The newest message that has arrived and has not expired. */

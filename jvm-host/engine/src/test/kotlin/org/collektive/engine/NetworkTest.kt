@@ -3,6 +3,7 @@ package org.collektive.engine
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
+import org.collektive.spi.Export
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
@@ -253,6 +254,42 @@ class NetworkTest {
     }
 
     @TestFactory
+    fun `losses have the share and the mean length of bursts that were asked for`(): List<DynamicTest> =
+        listOf(0.05 to 4.0, 0.2 to 8.0, 0.5 to 1.0, 0.6 to 2.5).map { (share, length) ->
+            DynamicTest.dynamicTest("$share, $length") {
+                val (messages, bursts) = bursts(NetworkModel(burstShare = share, burstLength = length))
+                assertEquals(share, bursts.sum().toDouble() / messages, 0.01 * share)
+                assertEquals(length, bursts.average(), 0.01 * length)
+            }
+        }
+
+    /** Sends messages on many links. Returns their number, and how many were lost in succession each time. */
+    private fun bursts(network: NetworkModel): Pair<Int, List<Int>> {
+        val ticks = 40_000
+        val links = 200
+        val sender = object : Outbox() {}
+        val transmitter = Transmitter(network, seed = 1, Clock())
+        val channels = List(links) { Channel() }
+        val lost = IntArray(links)
+        val bursts = ArrayList<Int>()
+        for (tick in 1L..ticks) {
+            sender.send(object : Export() {}, tick, time = 0.5 * tick)
+            for ((to, channel) in channels.withIndex()) {
+                val dropped = transmitter.counts.dropped
+                transmitter.send(1, sender, to, length = 1f, attenuation = 0f, channel)
+                channel.receiveDue(now = 0.5 * tick, network.retention)
+                if (transmitter.counts.dropped > dropped) {
+                    lost[to]++
+                } else if (lost[to] > 0) {
+                    bursts += lost[to]
+                    lost[to] = 0
+                }
+            }
+        }
+        return ticks * links to bursts
+    }
+
+    @TestFactory
     fun `a value out of range is refused by name`(): List<DynamicTest> {
         val nan = Double.NaN
         val cases = mapOf<String, () -> NetworkModel>(
@@ -264,6 +301,13 @@ class NetworkTest {
             "delay must be finite and 0 or greater, but is Infinity" to { NetworkModel(delay = Double.POSITIVE_INFINITY) },
             "jitter must be finite and 0 or greater, but is -0.5" to { NetworkModel(jitter = -0.5) },
             "retention must be greater than 0, but is 0.0" to { NetworkModel(retention = 0.0) },
+            "burst share must be at least 0 and less than 1, but is 1.0" to { NetworkModel(burstShare = 1.0) },
+            "burst share must be at least 0 and less than 1, but is NaN" to { NetworkModel(burstShare = nan) },
+            "burst length must be finite, at least 1 and at least burst share / (1 - burst share), but is 0.5" to
+                { NetworkModel(burstLength = 0.5) },
+            "burst length must be finite, at least 1 and at least burst share / (1 - burst share), but is 2.0" to
+                { NetworkModel(burstShare = 0.75, burstLength = 2.0) },
+            "burst loss must be 0..1, but is 1.1" to { NetworkModel(burstLoss = 1.1) },
             "retention must be greater than 0, but is NaN" to { NetworkModel(retention = nan) },
         )
         return cases.map { (message, make) ->

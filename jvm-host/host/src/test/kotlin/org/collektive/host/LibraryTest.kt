@@ -68,12 +68,12 @@ class LibraryTest {
     @Test
     fun `a jar that references a class that is missing in the library is refused`() {
         val other = patched("it/unibo/collektive/aggregate/FieldEntry", "it/unibo/collektive/aggregate/FieldOther")
-        refused(other, AggregateRuntime.BuiltIn, "links to it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
+        refused(other, AggregateRuntime.BuiltIn, "references it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
         val plugin = patched("it/unibo/collektive/aggregate/FieldEntry", "org/collektive/alignment/ProgramPlacesOf")
         refused(
             plugin,
             AggregateRuntime.Collektive,
-            "links to org.collektive.alignment.ProgramPlacesOf",
+            "references org.collektive.alignment.ProgramPlacesOf",
             "it was compiled for the built-in runtime",
         )
     }

@@ -253,7 +253,7 @@ class StepTest {
             sensors = listOf(Step.Sensor(0, "text:100000"))
         }
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(step.bytes()))
-        assertContains(shim.error, "no native memory")
+        assertContains(shim.error, "cannot allocate native memory")
         assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(Step(3).bytes()))
     }
 
@@ -296,7 +296,7 @@ class StepTest {
         val cases = listOf<Triple<Int, String, Step.() -> Unit>>(
             Triple(-12, "tick 2: node 7 cannot be removed: unknown node") { removed = listOf(7) },
             Triple(-12, "tick 2: due node 7: unknown node") { due = listOf(7) },
-            Triple(-12, "sensor data of 1 nodes, but 2 are due") {
+            Triple(-12, "sensor data has 1 elements, but 2 nodes are due") {
                 due = listOf(1, 2)
                 sensors = listOf(Step.Sensor(1))
             },

@@ -125,7 +125,7 @@ internal fun openFrame(
 ): ByteBuffer {
     val builder = FlatBufferBuilder(1024)
     val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
-    val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5]) } ?: 0
+    val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5], 0.0, 1.0, 1.0) } ?: 0
     val paths = jars.map { builder.createString(it) }
     builder.finish(
         OpenRequest.createOpenRequest(

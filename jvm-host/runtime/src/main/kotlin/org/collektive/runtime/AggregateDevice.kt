@@ -90,6 +90,8 @@ internal class AggregateDevice<ID : Any>(
 
     override fun push(token: Any?) = stack.push(token)
 
+    override fun markEntry() = stack.markEntry()
+
     override fun popTo(depth: Int) = stack.popTo(depth)
 
     override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()
@@ -193,7 +195,7 @@ internal class AggregateDevice<ID : Any>(
     }
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
-        val path = stack.path(this)
+        val path = stack.projectionPath(this)
         if (running.claim(path)) running.send(path, Unit)
         val inbox = checkNotNull(inbox)
         val ids = inbox.ids

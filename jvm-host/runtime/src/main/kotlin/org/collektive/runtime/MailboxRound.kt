@@ -25,6 +25,9 @@ internal class MailboxRound<ID : Any>(
     private val inbound: NeighborsData<ID>,
 ) : Primitives<ID, Path>() {
     private val stack = ArrayList<Any?>()
+
+    // The depths of ids of entries.
+    private val entries = ArrayList<Int>(0)
     private val visited = HashSet<Path>()
     private val newState = LinkedHashMap<Path, Any?>()
     private val outbound = Envelope(localId)
@@ -46,20 +49,25 @@ internal class MailboxRound<ID : Any>(
         stack += token
     }
 
+    override fun markEntry() {
+        entries += stack.size
+    }
+
     override fun tokens(): List<Any?> = stack.toList()
 
     override fun popTo(depth: Int) {
         while (stack.size > depth) stack.removeLast()
+        while (entries.isNotEmpty() && entries.last() > depth) entries.removeLast()
     }
 
     override fun claimPath(value: Any?): Path {
-        val path = currentPath()
+        val path = path(stack)
         if (!visited.add(path)) throw AlignmentClashException(path, outbound.defaultAt(path), SharedData<ID, Any?>(value), place)
         return path
     }
 
-    private fun currentPath(): Path = try {
-        pathFactory(stack)
+    private fun path(tokens: List<Any?>): Path = try {
+        pathFactory(tokens)
     } catch (failure: IllegalArgumentException) {
         throw IllegalArgumentException(withPlace(failure.message.orEmpty()), failure)
     }
@@ -94,7 +102,7 @@ internal class MailboxRound<ID : Any>(
     }
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
-        val path = currentPath()
+        val path = path(if (entries.isEmpty()) stack else stack.filterIndexed { index, _ -> index + 1 !in entries })
         val sharing = dataSharingMethod<Unit>()
         if (visited.add(path)) sendToAll(path, Unit, sharing)
         val aligned = inbound.dataAt(path, sharing).keys as Set<*>

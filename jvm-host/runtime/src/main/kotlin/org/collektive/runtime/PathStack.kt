@@ -13,6 +13,10 @@ internal class PathStack(private val tree: PathTree) {
         private set
     private var resolved = 0
 
+    // The depths of ids of entries, ascending.
+    private var entries = IntArray(2)
+    private var entryCount = 0
+
     fun push(token: Any?) {
         if (depth == tokens.size) {
             tokens = tokens.copyOf(2 * depth)
@@ -21,10 +25,17 @@ internal class PathStack(private val tree: PathTree) {
         tokens[depth++] = token
     }
 
+    /** Marks the last token as the id of an entry. */
+    fun markEntry() {
+        if (entryCount == entries.size) entries = entries.copyOf(2 * entryCount)
+        entries[entryCount++] = depth
+    }
+
     /** Pops tokens until the depth is [depth], and clears them, so that they can be collected. */
     fun popTo(depth: Int) {
         while (this.depth > depth) tokens[--this.depth] = null
         while (resolved > depth) nodes[resolved--] = null
+        while (entryCount > 0 && entries[entryCount - 1] > depth) entryCount--
     }
 
     /** A copy of the tokens on the stack. */
@@ -39,6 +50,21 @@ internal class PathStack(private val tree: PathTree) {
         while (resolved < depth) {
             node = tree.find(node, tokens[resolved]) ?: device.enter(node, tokens[resolved])
             nodes[++resolved] = node
+        }
+        return node
+    }
+
+    /** The path of the stack without ids of entries. */
+    fun projectionPath(device: AggregateDevice<*>): PathNode {
+        if (entryCount == 0) return path(device)
+        var node = tree.root
+        var entry = 0
+        for (index in 0 until depth) {
+            if (entry < entryCount && entries[entry] == index + 1) {
+                entry++
+            } else {
+                node = tree.find(node, tokens[index]) ?: device.enter(node, tokens[index])
+            }
         }
         return node
     }

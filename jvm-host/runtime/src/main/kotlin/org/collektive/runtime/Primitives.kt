@@ -26,6 +26,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** Pushes [token]. */
     protected abstract fun push(token: Any?)
 
+    /** Marks the last token as the id of an entry, which paths of projections leave out. */
+    protected abstract fun markEntry()
+
     /**
      * Reserves the current path for a primitive that starts from [value], and returns it; throws [AlignmentClashException] when it is
      * in use.
@@ -131,6 +134,11 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     }
 
     override fun pushToken(token: String): Int = depth.also { push(token) }
+
+    override fun pushEntry(id: Any): Int = depth.also {
+        push(id)
+        markEntry()
+    }
 
     private fun <T> rejectField(result: T, primitive: String): T {
         check(result !is Field<*, *>) {

@@ -114,13 +114,13 @@ public open class ReferenceDevice internal constructor(override val localId: Int
     }
 
     /** Pops tokens until the depth is [depth]. */
-    public fun popTo(depth: Int) {
+    public open fun popTo(depth: Int) {
         while (stack.size > depth) stack.removeLast()
     }
 
-    /** Announces to neighbours that this device reached the current path. */
-    protected fun markSeen() {
-        running.sent.putIfAbsent(stack.toList(), SharedData(null))
+    /** Announces to neighbours that this device reached [path]. */
+    protected fun markSeen(path: List<Any?>) {
+        running.sent.putIfAbsent(path, SharedData(null))
     }
 
     /** The values that neighbours sent to this device from [path] in their last round, by id. */
@@ -165,6 +165,9 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
     public var failed: Pair<ProgramPlace, Throwable>? = null
         private set
 
+    // The depths of ids of entries.
+    private val entries = ArrayList<Int>()
+
     override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())
 
     override fun recordFailure(failure: Throwable) {
@@ -176,9 +179,20 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
         pushed += token
     }
 
+    override fun pushEntry(id: Any): Int = stack.size.also {
+        stack += id
+        entries += stack.size
+    }
+
+    override fun popTo(depth: Int) {
+        super.popTo(depth)
+        entries.removeIf { it > depth }
+    }
+
     override fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T> {
-        markSeen()
-        val senders = messages(stack.toList()).keys
+        val path = stack.filterIndexed { index, _ -> index + 1 !in entries }
+        markSeen(path)
+        val senders = messages(path).keys
         val kept = field.neighbors.list.filter { entry -> senders.any { it == entry.id } }
         return Field.make(
             field.context,

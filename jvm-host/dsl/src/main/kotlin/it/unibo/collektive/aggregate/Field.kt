@@ -4,6 +4,7 @@ package it.unibo.collektive.aggregate
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
+import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.withPlace
 
 /**
@@ -20,6 +21,9 @@ import org.collektive.alignment.withPlace
  * val near = seen.neighbors.values.list.min()
  * if (source) 0 else near + 1 // inside `else`, `seen` lacks the sources: they took the other branch
  * ```
+ *
+ * Inside `map` of [neighborhood][it.unibo.collektive.aggregate.api.neighborhood] and of other fields without values, such a field has the
+ * neighbours that entered the branch for any of their entries. Inside `map` of other fields, it has those that entered it for the same entry.
  *
  * @property context the device and the round that the field belongs to.
  */
@@ -244,11 +248,13 @@ public class Field<ID : Any, out T> private constructor(
     }
 
     private inline fun <R> alignedAt(index: Int, value: (Int) -> R): R {
-        context.align(idAt(index))
+        val stack = if (isConstant) context as? AlignmentStack else null
+        val depth = stack?.pushEntry(idAt(index)) ?: 0
+        if (stack == null) context.align(idAt(index))
         try {
             return value(index)
         } finally {
-            context.dealign()
+            if (stack == null) context.dealign() else stack.popTo(depth)
         }
     }
 

@@ -11,6 +11,9 @@ public data class FieldEntry<out ID : Any, out T>(public val id: ID, public val 
     /** The id and the value. */
     public val pair: Pair<ID, T> get() = id to value
 
+    /** Returns `id=value`. */
+    override fun toString(): String = "$id=$value"
+
     /** Returns an entry with the same id and the result of [transform] for this entry. */
     public inline fun <R> map(transform: (FieldEntry<ID, T>) -> R): FieldEntry<ID, R> = FieldEntry(id, transform(this))
 

@@ -17,14 +17,14 @@ import java.util.logging.LogRecord
  *
  * This includes slf4j, whose binding to `java.util.logging` is on the host's class path.
  */
-internal class HostLog(private val shim: ShimCalls) {
+public class HostLog(private val shim: ShimCalls) {
     private val out = ShimStream(LogLevel.INFO)
     private val err = ShimStream(LogLevel.WARNING)
     private val handler = ShimHandler()
     private val failures = ThreadFailures(shim)
 
     /** Redirects standard output, `java.util.logging` and uncaught exceptions. Call it again to undo redirections by a program. */
-    fun install() {
+    public fun install() {
         System.setOut(out)
         System.setErr(err)
         val root = LogManager.getLogManager().getLogger("")
@@ -35,7 +35,7 @@ internal class HostLog(private val shim: ShimCalls) {
     }
 
     /** Logs the counts of repeated uncaught exceptions. */
-    fun logCounts() {
+    public fun logCounts() {
         failures.logCounts()
     }
 
@@ -123,7 +123,7 @@ internal class HostLog(private val shim: ShimCalls) {
         }
     }
 
-    companion object {
+    internal companion object {
         // Both are in bytes of UTF-8.
         private const val MAX_LINE = 4096
         private const val MAX_CHARACTER = 4

@@ -16,6 +16,7 @@ public class ProgramJar private constructor(public val path: String, internal va
     public companion object {
         /** A small file can unpack to any size. */
         private const val MAX_BYTES = 256 shl 20
+        private const val BUFFER_BYTES = 1 shl 16
         private const val END_RECORD_BYTES = 22
         private const val END_RECORD = 0x06054b50
 
@@ -27,6 +28,7 @@ public class ProgramJar private constructor(public val path: String, internal va
         public fun open(jar: JarBytes): ProgramJar {
             if (!hasEndRecord(jar.bytes)) throw jar.damaged("the end of the file is missing")
             return try {
+                requireSize(jar)
                 ProgramJar(jar.path, unzip(jar))
             } catch (e: IOException) {
                 throw jar.damaged(e.message)
@@ -35,21 +37,32 @@ public class ProgramJar private constructor(public val path: String, internal va
             }
         }
 
-        private fun unzip(jar: JarBytes): Map<String, ByteArray> {
-            val entries = LinkedHashMap<String, ByteArray>()
+        /** Refuses a jar that unpacks to too much, before anything of it takes memory. */
+        private fun requireSize(jar: JarBytes) {
             var left = MAX_BYTES
+            val buffer = ByteArray(BUFFER_BYTES)
             ZipInputStream(ByteArrayInputStream(jar.bytes)).use { zip ->
-                while (true) {
-                    val entry = zip.nextEntry ?: break
-                    val bytes = zip.readNBytes(left + 1)
-                    left -= bytes.size
-                    if (left < 0) {
+                while (zip.nextEntry != null) {
+                    while (true) {
+                        val count = zip.read(buffer)
+                        if (count < 0) break
+                        left -= count
+                        if (left >= 0) continue
                         throw HostException(
                             HostError.PROGRAM,
                             "the jar ${jar.path} contains more than 256 MiB: divide it into several jars",
                         )
                     }
-                    if (!entry.isDirectory) entries[entry.name] = bytes
+                }
+            }
+        }
+
+        private fun unzip(jar: JarBytes): Map<String, ByteArray> {
+            val entries = LinkedHashMap<String, ByteArray>()
+            ZipInputStream(ByteArrayInputStream(jar.bytes)).use { zip ->
+                while (true) {
+                    val entry = zip.nextEntry ?: break
+                    if (!entry.isDirectory) entries[entry.name] = zip.readAllBytes()
                 }
             }
             return entries

@@ -101,6 +101,9 @@ public object SessionOpening {
             request.delay(),
             request.jitter(),
             if (request.retention() == 0.0) Double.POSITIVE_INFINITY else request.retention(),
+            request.burstShare(),
+            request.burstLength(),
+            request.burstLoss(),
         )
     }
 }

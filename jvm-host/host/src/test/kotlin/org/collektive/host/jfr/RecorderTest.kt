@@ -145,7 +145,7 @@ class RecorderTest {
     @Test
     fun `an action that fails reports the reason, and the next one works`() {
         assertContains(refused { control.record(RecordingAction.Stop).recordingError() }, "no recording is running")
-        assertContains(refused { start(folder.resolve("a.jfr"), "fast").recordingError() }, "no settings 'fast'")
+        assertContains(refused { start(folder.resolve("a.jfr"), "fast").recordingError() }, "unknown settings 'fast'")
         assertContains(refused { start(folder.resolve("a.jfr"), "$folder/none.jfc").recordingError() }, "none.jfc")
         assertContains(refused { start(folder).recordingError() }, "is a folder")
         val broken = Files.writeString(folder.resolve("broken.jfc"), "<configuration")

@@ -58,7 +58,7 @@ class SessionTest {
         session.close()
         assertFalse(channel.open)
         val (_, message) = shim.logs.single()
-        assertContains(message, "the record full.rec cannot be written")
+        assertContains(message, "cannot write the record full.rec")
         assertContains(message, "disk full")
     }
 

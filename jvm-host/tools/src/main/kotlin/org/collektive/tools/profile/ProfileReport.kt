@@ -81,7 +81,7 @@ internal class ProfileReport {
             val frames = sample.stackTrace?.frames.orEmpty().filter(RecordedFrame::isJavaFrame)
             if (frames.isEmpty()) continue
             val owner = programs.values.firstOrNull { program -> frames.any { it.place() == program.function } }
-            (owner?.methods ?: others).add(frames.first().place(), 1)
+            (owner?.methods ?: others).add(frames.first().place(), 1, frames.first().lineNumber)
         }
         for ((name, program) in programs) {
             val rounds = program.rounds.map { it.toNanos() / NANOS_PER_MICRO }.sorted()
@@ -131,16 +131,25 @@ internal class ProfileReport {
 
     private class Counter {
         private val counts = HashMap<String, Long>()
+        private val lines = HashMap<String, HashMap<Int, Long>>()
         var total = 0L
             private set
 
-        fun add(name: String, count: Long) {
+        fun add(name: String, count: Long, line: Int = 0) {
             counts.merge(name, count, Long::plus)
+            if (line > 0) lines.getOrPut(name, ::HashMap).merge(line, count, Long::plus)
             total += count
         }
 
-        fun top(): List<Map.Entry<String, Long>> =
-            counts.entries.sortedWith(compareByDescending<Map.Entry<String, Long>> { it.value }.thenBy { it.key }).take(TOP)
+        /** Returns the names with the largest counts, each followed by its line with the largest count. */
+        fun top(): List<Pair<String, Long>> = counts.entries.sortedWith(
+            compareByDescending<Map.Entry<String, Long>> {
+                it.value
+            }.thenBy { it.key },
+        ).take(TOP).map { (name, count) ->
+            val line = lines[name]?.entries?.maxWith(compareBy<Map.Entry<Int, Long>> { it.value }.thenByDescending { it.key })?.key
+            (if (line == null) name else "$name:$line") to count
+        }
     }
 
     internal companion object {

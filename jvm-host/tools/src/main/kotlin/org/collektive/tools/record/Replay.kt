@@ -5,6 +5,7 @@ import org.collektive.frames.session.openFrame
 import org.collektive.frames.session.openRequest
 import org.collektive.frames.tick.StepResponseReader
 import org.collektive.host.library.AggregateRuntime
+import org.collektive.host.log.HostLog
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.session.Session
@@ -41,10 +42,15 @@ internal class Replay(
     fun run(): Boolean {
         val frame = openFrame(request)
         val session = SessionOpening.open(openRequest(frame), programs, this) { out?.let { RecordWriter.create(it, frame, programs) } }
+        val out = System.out
+        val err = System.err
+        HostLog(this).install()
         return try {
             run(session)
         } finally {
             session.close()
+            System.setOut(out)
+            System.setErr(err)
         }
     }
 

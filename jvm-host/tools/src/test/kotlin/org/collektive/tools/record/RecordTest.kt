@@ -91,6 +91,14 @@ class RecordTest {
     }
 
     @Test
+    fun `a replay prints output of programs with the node`() {
+        val printing = summing("new Object() { int value() { System.out.println(\"heard\"); return sensors.value(); } }.value()")
+        val result = run("replay", record(jar = printing))
+        assertEquals(0, result.code, result.messages)
+        assertContains(result.messages, "[node 1, program sum] heard")
+    }
+
+    @Test
     fun `a record contains its jars`() {
         val jar = folder.resolve("moved.jar")
         Files.copy(ProbeJars.programs, jar)
@@ -445,7 +453,7 @@ class RecordTest {
         other.writeBytes(bytes.copyOf().also { it[0] = 'X'.code.toByte() })
         assertContains(refused("replay", other), "is not a record")
         other.writeBytes(bytes.copyOf().also { it[RecordWriter.MAGIC_TEXT.length] = 9 })
-        assertContains(refused("replay", other), "version 9, and this release reads version 1")
+        assertContains(refused("replay", other), "version 9, but this release reads version 1")
         other.writeBytes(ByteArray(0))
         assertContains(refused("replay", other), "is not a record")
         assertContains(refused("replay", file, "--programs", folder.resolve("no.jar")), "no.jar")
@@ -458,7 +466,7 @@ class RecordTest {
             folder.resolve("schema").also { path -> RecordWriter.create(path.toString(), open, record.jars).use(RecordWriter::end) }
         }
         assertContains(refused("replay", changed), "type ")
-        assertContains(refused("diff", file, changed), "different schemas")
+        assertContains(refused("diff", file, changed), "the schemas of the records differ in type ")
     }
 
     @Test
@@ -469,7 +477,7 @@ class RecordTest {
         val refused = run("replay", file, "--own", own)
         assertEquals(2, refused.code)
         val hash = sha256(JarBytes.read(jar.toString()))
-        assertContains(refused.messages, "$file contains programs that were never run here (SHA-256 $hash)")
+        assertContains(refused.messages, "$file contains programs that have never run here (SHA-256 $hash)")
         assertContains(refused.messages, "add --trust")
         assertFalse("ticks replayed" in refused.results)
         assertEquals(0, run("replay", file, "--own", own, "--trust").code)

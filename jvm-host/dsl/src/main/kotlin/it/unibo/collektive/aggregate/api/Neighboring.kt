@@ -10,7 +10,7 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.neighboring(local: Sh
     neighboring(local, dataSharingMethod<Shared>())
 
 /** The field of the aligned neighbours, without values. */
-public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, *> = neighboring(Unit)
+public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, *> = neighboring(Unit).mapToConstant(Unit)
 
 /** The field of [local] applied to the id of each aligned neighbour and of this device. */
 public inline fun <ID : Any, Value> Aggregate<ID>.mapNeighborhood(crossinline local: (ID) -> Value): Field<ID, Value> =

@@ -9,9 +9,6 @@ import it.unibo.collektive.aggregate.FieldEntry
 /** The neighbour with the greatest value; `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMax(): ID? = maxBy { it.value }?.id
 
-/** The device with the greatest value. */
-public fun <ID : Any, T : Comparable<T>> CollapseAll<FieldEntry<ID, T>>.idOfMax(): ID = maxBy { it.value }.id
-
 /** The neighbour whose entry's [selector] is greatest; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxBy(
     selector: (FieldEntry<ID, T>) -> C,
@@ -47,9 +44,6 @@ public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparato
 
 /** The neighbour with the least value; `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMin(): ID? = minBy { it.value }?.id
-
-/** The device with the least value. */
-public fun <ID : Any, T : Comparable<T>> CollapseAll<FieldEntry<ID, T>>.idOfMin(): ID = minBy { it.value }.id
 
 /** The neighbour whose entry's [selector] is least; `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinBy(

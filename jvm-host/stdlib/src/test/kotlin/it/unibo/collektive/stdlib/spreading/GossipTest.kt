@@ -65,7 +65,9 @@ class GossipTest {
         val swarm = Swarm(4).apply { for ((a, b) in listOf(3 to 2, 2 to 1, 1 to 0, 3 to 0)) link(a, b) }
         fun round(id: Int, best: Int?) = swarm.round(listOf(id)) { gossipMax(if (localId == best) 9 else 0) }.getValue(id)
         for (id in listOf(3, 2, 1)) round(id, best = 3)
+        swarm.unlink(3, 2)
         swarm.round(listOf(2)) { gossipMax(5) }
+        swarm.link(3, 2)
         assertEquals(5, round(3, best = null))
         assertEquals(5, round(0, best = null), "device 1 offers 9 over 3 and 2, device 3 offers 5 over 2")
     }

@@ -6,7 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>The nodes of a simulation, and those that joined and left since the last tick.</summary>
-    internal sealed class Roster
+    internal sealed class NodeRegistry
     {
         /// <summary>Ids index arrays.</summary>
         private const int MaxId = (1 << 24) - 1;
@@ -19,10 +19,10 @@ namespace Collektive.Unity
         private bool anyGone;
         private int nextId;
 
-        /// <summary>Those that take part, ascending by id.</summary>
+        /// <summary>The participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => nodes;
 
-        /// <summary>Those that came since the last tick.</summary>
+        /// <summary>The nodes that joined since the last tick.</summary>
         internal IReadOnlyList<Node> Joining => joining;
 
         /// <summary>All ids are below it.</summary>
@@ -31,21 +31,22 @@ namespace Collektive.Unity
         /// <summary>By id: whether the node was sent to the JVM.</summary>
         internal bool[] IsKnown => isKnown;
 
-        /// <summary>The node of that id, or null.</summary>
+        /// <summary>Returns the node with that id, or null.</summary>
         internal Node Find(int id)
         {
             var index = IndexOf(id);
             return index < 0 ? null : nodes[index];
         }
 
-        /// <summary>Adds a node under the id that it wants, or the next free one.</summary>
-        /// <returns>What is wrong with that id; null when the node was added.</returns>
+        /// <summary>Adds a node with its requested id, or the next free one.</summary>
+        /// <returns>The error of that id, or null if the node was added.</returns>
         internal string Join(Node node, Simulation simulation)
         {
             var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
-            if (id > MaxId) return "node '" + node.name + "' wants id " + id + ": the largest id is " + MaxId;
+            if (id > MaxId) return "node '" + node.name + "' has id " + id + ", but the largest id is " + MaxId + ": use smaller ids, or -1";
             var place = ~IndexOf(id);
-            if (place < 0) return "node '" + node.name + "' wants id " + id + ", which node '" + nodes[~place].name + "' has: give each node its own id, or -1";
+            if (place < 0) return "node '" + node.name + "' has id " + id + ", which node '" + nodes[~place].name
+                + "' already uses: give each node its own id, or -1";
             nextId = Math.Max(nextId, id + 1);
             if (id >= isKnown.Length)
             {
@@ -53,7 +54,7 @@ namespace Collektive.Unity
                 Array.Resize(ref isGone, isKnown.Length);
             }
             if (isGone[id]) DropLinksOfGone(simulation.Links);
-            node.Joined(simulation, id);
+            node.OnJoined(simulation, id);
             nodes.Insert(place, node);
             joining.Add(node);
             return null;
@@ -71,7 +72,7 @@ namespace Collektive.Unity
             anyGone = true;
         }
 
-        /// <summary>Drops the links of nodes that left, all at once: each time costs a look at all links.</summary>
+        /// <summary>Drops the links of all nodes that left, in one pass over the links.</summary>
         internal void DropLinksOfGone(LinkTable links)
         {
             if (!anyGone) return;
@@ -86,7 +87,7 @@ namespace Collektive.Unity
             for (var i = 0; i < leaving.Count; i++) request.RemoveNode(leaving.Items[i]);
             leaving.Clear();
             if (joining.Count == 0) return;
-            WarnOfOnePlace();
+            WarnIfAtOnePosition();
             for (var i = 0; i < joining.Count; i++)
             {
                 request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
@@ -95,8 +96,8 @@ namespace Collektive.Unity
             joining.Clear();
         }
 
-        /// <summary>All nodes at one point is a scene that was not finished, and every radius makes all of them neighbours.</summary>
-        private void WarnOfOnePlace()
+        /// <summary>Warns of a scene without positions, where all nodes are neighbours at any radius.</summary>
+        private void WarnIfAtOnePosition()
         {
             if (nodes.Count < 2) return;
             var place = nodes[0].Body.position;
@@ -104,7 +105,7 @@ namespace Collektive.Unity
             {
                 if (nodes[i].Body.position != place) return;
             }
-            Debug.LogWarning("all " + nodes.Count + " nodes are at one point, " + place + ": place them apart", nodes[0]);
+            Debug.LogWarning("all " + nodes.Count + " nodes have the same position, " + place + ": give them different positions", nodes[0]);
         }
 
         private static KeyValuePair<string, string>[] ParametersOf(Node node)

@@ -2,35 +2,36 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>What messages about touching colliders leave open.</summary>
-    internal static class Touching
+    /// <summary>Helpers for colliders in contact.</summary>
+    internal static class ColliderExtensions
     {
-        /// <summary>Whether the use of bounds was reported already; once for all colliders.</summary>
-        private static bool saidBounds;
+        /// <summary>Whether the use of bounds was reported, once for all colliders.</summary>
+        private static bool hasReportedBounds;
 
-        /// <summary>Whether a collider takes no part any more: Unity reports no exit when it is destroyed or disabled while it touches.</summary>
+        /// <summary>Returns whether a collider is destroyed or disabled: Unity reports no exit for it.</summary>
         internal static bool IsGone(this Collider collider) =>
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
-        /// The point of a collider that is closest to another one. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error for each
-        /// call with another collider: for these it is the closest point of their bounds.
+        /// Returns the point of a collider that is closest to a point. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error
+        /// for each
+        /// call with another collider. For these, it is the closest point of their bounds.
         /// </summary>
         internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
         {
             if (collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider || collider is MeshCollider mesh && mesh.convex)
                 return collider.ClosestPoint(point);
-            if (!saidBounds)
+            if (!hasReportedBounds)
             {
-                saidBounds = true;
-                Debug.LogWarning("the closest point of '" + collider.name + "', whose collider is no box, sphere, capsule or convex mesh, is that of its "
-                    + "bounds: make its mesh convex, or keep it on a layer that sensors do not look at", collider);
+                hasReportedBounds = true;
+                Debug.LogWarning("the collider of '" + collider.name + "' is not a box, sphere, capsule or convex mesh: its closest point is computed from its "
+                    + "bounds. Make its mesh convex, or move it to a layer that sensors ignore", collider);
             }
             return collider.bounds.ClosestPoint(point);
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void ResetStatics() => saidBounds = false;
+        private static void ResetStatics() => hasReportedBounds = false;
 
         /// <summary>
         /// Whether a vector comes before another: the shorter one first, equally long ones by x, z, y. Unity returns hits in no defined

@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>How a simulation gets its session.</summary>
-    internal static class Opening
+    /// <summary>Opens the session of a simulation.</summary>
+    internal static class SessionStart
     {
         /// <summary>Checks the settings, starts the JVM if none runs, and opens a session on it.</summary>
         /// <param name="context">What a click on a message selects.</param>

@@ -5,15 +5,15 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// A second thread that searches around nodes in a grid, from the last one to the first, while the main thread goes from the first to the last.
-    /// The main thread never waits for a search: it takes what is done, and searches itself around the other nodes. What is found is the same,
-    /// whoever finds it. All members are for the main thread.
+    /// The main thread never waits for a search: it takes what is done, and searches itself around the other nodes. The results do not depend
+    /// on the thread. Call all members from the main thread.
     /// </summary>
-    internal sealed class SearchAhead : IDisposable
+    internal sealed class BackgroundSearch : IDisposable
     {
         /// <summary>For fewer nodes, waking a thread takes longer than the searches.</summary>
         internal const int MinNodes = 128;
 
-        /// <summary>Hits, of 12 bytes each, after which the thread leaves the rest to the main thread.</summary>
+        /// <summary>Number of hits, of 12 bytes each, after which the thread stops.</summary>
         private const int MaxHits = 1 << 21;
 
         private readonly NodeGrid grid;
@@ -30,9 +30,9 @@ namespace Collektive.Unity
         private int done = int.MaxValue;
         private bool quits;
 
-        internal SearchAhead(NodeGrid grid) => this.grid = grid;
+        internal BackgroundSearch(NodeGrid grid) => this.grid = grid;
 
-        /// <summary>Lets the thread begin, around the first <paramref name="count"/> nodes. The grid may not change before <see cref="End"/>.</summary>
+        /// <summary>Starts searches around the first <paramref name="count"/> nodes. The grid may not change before <see cref="End"/>.</summary>
         internal void Begin(int count)
         {
             if (thread == null)
@@ -53,7 +53,7 @@ namespace Collektive.Unity
             work.Release();
         }
 
-        /// <summary>What is near a node, if the thread has searched around it. Valid until <see cref="End"/>.</summary>
+        /// <summary>Returns the hits near a node if the thread has searched around it. Valid until <see cref="End"/>.</summary>
         internal bool TryTake(int place, out Span<NearNode> near)
         {
             near = default;
@@ -63,7 +63,7 @@ namespace Collektive.Unity
             return true;
         }
 
-        /// <summary>Lets the thread stop, and waits until it has: for one search at most. What it found is forgotten.</summary>
+        /// <summary>Stops the thread, waits for at most one search, and discards the results.</summary>
         /// <exception cref="InvalidOperationException">A search failed; the error is its cause.</exception>
         internal void End()
         {

@@ -9,7 +9,7 @@ namespace Collektive.Unity
     /// Logs and counts the errors of a simulation, by where they come from; it keeps the last message of each place. Places are programs and components of
     /// nodes that take part. Those of nodes that have left are added up, so that a scene whose nodes come and go does not fill the memory.
     /// </summary>
-    internal sealed class ErrorTally
+    internal sealed class ErrorCounts
     {
         private readonly Dictionary<int, List<NodeErrors>> places = new Dictionary<int, List<NodeErrors>>();
         private readonly List<NodeErrors> all = new List<NodeErrors>();
@@ -25,7 +25,7 @@ namespace Collektive.Unity
             if (node != null) node.LastError = message;
             Count++;
             PlaceOf(program, node == null ? NodeErrors.Left : id).Add(1, tick, message);
-            if (repeated.IsFirst(KeyOf(program, message), "rounds of program '" + program + "' have failed so", id, FirstLine(message)))
+            if (repeated.IsFirst(KeyOf(program, message), "rounds of program '" + program + "' failed in the same way", id, FirstLine(message)))
                 Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + tick + ": " + message, node);
         }
 
@@ -35,17 +35,17 @@ namespace Collektive.Unity
             var source = part.GetType().Name;
             node.LastError = error.Message;
             Count++;
-            // Its own code may have made the node leave: then the id is that of those that have left.
+            // The component may have removed its node: then the error counts for NodeErrors.Left.
             PlaceOf(source, node.Id).Add(1, tick, error.Message);
-            if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " have failed so", node.Id, error.GetType() + ": " + error.Message))
+            if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " failed in the same way", node.Id, error.GetType() + ": " + error.Message))
             {
                 var message = source + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tick + ": " + error.Message;
                 Debug.LogException(new InvalidOperationException(message, error), part);
             }
             if (!part.HasFailedTooOften()) return;
             var disabled = source + " on '" + part.name + "' failed " + NodePart.MaxFailuresInRow + " times in a row and is disabled";
-            if (repeated.IsFirst("disabled " + source, "components " + source + " are disabled so", node.Id, disabled))
-                Debug.LogError(disabled + ": correct it, then enable it again", part);
+            if (repeated.IsFirst("disabled " + source, "components " + source + " were disabled for the same reason", node.Id, disabled))
+                Debug.LogError(disabled + ": fix the component, then enable it again", part);
             part.enabled = false;
         }
 
@@ -58,7 +58,7 @@ namespace Collektive.Unity
             Debug.LogException(new InvalidOperationException(source + " failed after tick " + tick + ": " + error.Message, error), context);
         }
 
-        /// <summary>Adds what is counted for a node to that of the nodes that have left before.</summary>
+        /// <summary>Moves the counts of a node to the nodes that have left.</summary>
         internal void Leave(int node)
         {
             if (!places.TryGetValue(node, out var left)) return;
@@ -70,8 +70,8 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Logs how often errors have come that were not logged each time.</summary>
-        internal void TellCounts() => repeated.TellCounts();
+        /// <summary>Logs the counts of repeated errors.</summary>
+        internal void LogCounts() => repeated.LogCounts();
 
         /// <summary>Errors with the same program, exception and place in the code: without the text, which may contain numbers, if there is a stack.</summary>
         private static string KeyOf(string program, string message)
@@ -145,16 +145,16 @@ namespace Collektive.Unity
         /// <summary>The node's id, <see cref="Left"/> or <see cref="NoNode"/>.</summary>
         public int Node { get; }
 
-        /// <summary>How many there were.</summary>
+        /// <summary>Number of errors.</summary>
         public long Count { get; private set; }
 
-        /// <summary>The tick of the last one.</summary>
+        /// <summary>Tick of the last error.</summary>
         public ulong LastTick { get; private set; }
 
-        /// <summary>The message of the last one.</summary>
+        /// <summary>Message of the last error.</summary>
         public string LastMessage { get; private set; } = "";
 
-        /// <summary>Where it is in the list of all.</summary>
+        /// <summary>Index in the list of all errors.</summary>
         internal int Index { get; set; }
 
         internal void Add(long count, ulong tick, string message)

@@ -4,10 +4,10 @@ using System.Text.RegularExpressions;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The flags of the JVM that can neither write a file, open a port nor load code, whatever else they do: those that a scenario file may set by itself.
-    /// A flag is harmful unless its form is known: new JVMs have new flags. Flags that endanger the process are the native library's matter.
+    /// The JVM flags that cannot write files, open ports or load code, which a scenario file may set without <c>--trust-jvm</c>.
+    /// Unknown flags are unsafe, because new JVMs have new flags. The native library refuses flags that endanger the process.
     /// </summary>
-    internal static class HarmlessFlags
+    internal static class SafeJvmFlags
     {
         private static readonly Regex[] Forms = new[]
         {

@@ -2,8 +2,8 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Gives single objects a colour of their own without a material of their own.</summary>
-    internal static class Painting
+    /// <summary>Colours single objects without creating a material for each.</summary>
+    internal static class RendererColors
     {
         // The built-in pipeline's shaders and those of the scriptable ones name the colour differently.
         private static readonly int BuiltIn = Shader.PropertyToID("_Color");

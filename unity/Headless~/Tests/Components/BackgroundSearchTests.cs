@@ -11,7 +11,7 @@ namespace Collektive.Headless.Tests.Components
 {
     /// <summary>The second thread that searches for neighbours: nobody sees which thread found them.</summary>
     [TestFixture]
-    public sealed class SearchAheadTests
+    public sealed class BackgroundSearchTests
     {
         private const int Count = 600;
 
@@ -74,7 +74,7 @@ namespace Collektive.Headless.Tests.Components
             grid.Build(nodes, 3);
             for (var i = 0; i < Count; i++) grid.FindAround(nodes[i], i % 2 == 0 ? 2 : 4);
             grid.Build(nodes, 3);
-            using (var ahead = new SearchAhead(grid))
+            using (var ahead = new BackgroundSearch(grid))
             {
                 var taken = false;
                 for (var patience = 1; !taken && patience < 10000; patience *= 2)
@@ -99,7 +99,7 @@ namespace Collektive.Headless.Tests.Components
         public void A_failure_of_its_thread_is_told_to_the_main_thread_once()
         {
             grid.Build(nodes, 3);
-            using (var ahead = new SearchAhead(grid))
+            using (var ahead = new BackgroundSearch(grid))
             {
                 ahead.Begin(100000);
                 Thread.Sleep(50);
