@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Draws fields marked with <see cref="ReadOnlyAttribute"/>: as usual, but nobody can change them.</summary>
+    /// <summary>Draws fields marked with <see cref="ReadOnlyAttribute"/>: as usual, but disabled.</summary>
     [CustomPropertyDrawer(typeof(ReadOnlyAttribute))]
     internal sealed class ReadOnlyDrawer : PropertyDrawer
     {

@@ -76,7 +76,7 @@ namespace Collektive.Unity.Editor
             var part = Path.Combine(work, "programs.jar");
             var mark = Path.Combine(work, "mark");
             File.WriteAllText(mark, "Collektive-Runtime: " + project.Runtime.Mark + "\n");
-            // The schema's service entry and binary form lie beside the generated code.
+            // The schema's service entry and binary form are in the folder of the generated code.
             if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
                 { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;

@@ -6,7 +6,7 @@ namespace Collektive.Unity.Editor
 {
     /// <summary>
     /// A user's schema, and what belongs to it by location: the generated C# in <c>Generated</c> beside it, the Kotlin in
-    /// <c>Programs</c> beside it, and the jar that is made of both, <c>Library/Collektive/NAME.jar</c>.
+    /// <c>Programs</c> beside it, and the jar that is built from both, <c>Library/Collektive/NAME.jar</c>.
     /// </summary>
     internal sealed class SchemaProject
     {
@@ -33,7 +33,7 @@ namespace Collektive.Unity.Editor
 
         internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
 
-        /// <summary>Names the package's version that made the jar, which generates other code than others, and what the jar was made for.</summary>
+        /// <summary>Names the version of the package that built the jar, whose generated code is specific to it, and the runtime of the jar.</summary>
         private string Maker => Jar + ".version";
 
         private string Made => PackageState.Version + " " + Runtime.Mark;
@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>All schemas below <c>Assets</c>, by path; folders that Unity ignores are left out.</summary>
+        /// <summary>All schemas below <c>Assets</c>, by path, without folders that Unity ignores.</summary>
         internal static List<SchemaProject> FindAll(ProgramRuntime runtime)
         {
             var found = new List<SchemaProject>();

@@ -50,7 +50,7 @@ namespace Collektive.Headless.Bench
 
         private static void AtLeast(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at least", limit, value >= limit);
 
-        /// <summary>What a promise is made of.</summary>
+        /// <summary>The parts of a promise.</summary>
         private static void Part(TextWriter output, string what, double value) =>
             output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#}", what, value));
 

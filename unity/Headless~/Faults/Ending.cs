@@ -21,7 +21,7 @@ namespace Collektive.Headless.Faults
         public override void Measure(double[] values)
         {
             values[0] = simulation.Tick;
-            if (how == "exception" && simulation.Tick >= 20) throw new InvalidOperationException("nobody handles this");
+            if (how == "exception" && simulation.Tick >= 20) throw new InvalidOperationException("unhandled");
         }
 
         protected override void Build(SimulationManager manager)
@@ -43,7 +43,7 @@ namespace Collektive.Headless.Faults
             if (manager.Tick < 10) return;
             if (manager.Tick == 10) Console.WriteLine("ten ticks done");
             if (how == "quit") Application.Quit(3);
-            if (how == "thread-exception" && manager.Tick == 10) new Thread(() => throw new InvalidOperationException("nobody handles this")).Start();
+            if (how == "thread-exception" && manager.Tick == 10) new Thread(() => throw new InvalidOperationException("unhandled")).Start();
         }
     }
 }

@@ -6,7 +6,7 @@ using Mono.Unix.Native;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ctrl-C and SIGTERM. While a run plays, the first ends it after the tick at hand, with its outputs. Before that, and the second time,
+    /// Ctrl-C and SIGTERM. While a run plays, the first ends it after the current tick, with its outputs. Before that, and the second time,
     /// the process ends at once: users' code may be at work that does not end. One object for the whole process.
     /// </summary>
     internal sealed class Interrupt

@@ -11,13 +11,13 @@ namespace Collektive.Headless
     /// <summary>Records the scene's nodes, links and standing shapes for the replay page.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
-        /// <summary>Frames of a simulated second, at most; ticks in between are left out.</summary>
+        /// <summary>Frames of a simulated second, at most; ticks in between are skipped.</summary>
         private const double MaxFrames = 10;
 
         /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
         private const double MaxNodes = 50000;
 
-        /// <summary>Moving shapes that are recorded, at most: their poses lie in the page's header.</summary>
+        /// <summary>Moving shapes that are recorded, at most: their poses are in the page's header.</summary>
         private const int MaxMovers = 64;
 
         /// <summary>Along each side of a terrain that is drawn, at most.</summary>

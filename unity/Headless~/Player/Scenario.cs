@@ -282,7 +282,7 @@ namespace Collektive.Headless
             return settings;
         }
 
-        /// <summary>A scenario file may come from anybody: what its settings of the JVM do to this machine is the user's decision.</summary>
+        /// <summary>A scenario file may come from someone else. The user decides whether its JVM settings may affect this machine.</summary>
         private static void RefuseUnsafe(JsonFile file, JObject root, JvmSettings settings)
         {
             const string advice = "; add --trust-jvm if you trust the file, or remove it";

@@ -36,7 +36,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Waits until a file or the entries of a folder are on disk. A file that is not there is left out.</summary>
+        /// <summary>Waits until a file or the entries of a folder are on disk. Ignores a missing file.</summary>
         internal static void Sync(string path)
         {
             var descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_NOFOLLOW);

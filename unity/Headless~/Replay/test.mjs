@@ -243,7 +243,7 @@ async function testSample(test, tab) {
     assert.ok(await tab.locator('#selection').isHidden(), 'it does not deselect');
   });
 
-  await test('the focus of the view is no frame around the page', async () => {
+  await test('the focus of the view has a hint instead of a frame around the page', async () => {
     await tab.focus('#field');
     await tab.keyboard.press('Shift+Tab');
     assert.equal(await tab.evaluate(() => document.activeElement.id), 'canvas');

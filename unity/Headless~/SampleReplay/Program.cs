@@ -6,7 +6,8 @@ using Newtonsoft.Json;
 namespace Collektive.Headless.Samples
 {
     /// <summary>
-    /// Writes a made-up run for the test of the page, which reads it back: nodes walk at random, come and go; each has a link to the next two, and each third one a link back.
+    /// Writes an artificial run for the test of the page, which reads it back: nodes walk at random, come and go. Each has a link to the next two,
+    /// and each third one a link back.
     /// Beside it lies OUTPUT.html.expected.json, what some of its frames must show.
     /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html NODES FRAMES
     /// </summary>

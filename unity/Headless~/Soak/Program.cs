@@ -10,7 +10,7 @@ namespace Collektive.Headless.Soak
 {
     /// <summary>
     /// Plays a scene whose nodes join, fail and leave for a given time, and reports growing memory or resources.
-    /// Arguments are key=value: home, host, jar, seconds and, if wanted, results (a file for JUnit XML). Exit code 1 when something grew.
+    /// Arguments are key=value: home, host, jar, seconds and optionally results (a file for JUnit XML). Exit code 1 when something grew.
     /// </summary>
     internal static class Program
     {

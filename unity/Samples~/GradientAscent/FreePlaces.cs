@@ -8,7 +8,7 @@ namespace Collektive.Samples.GradientAscent
     internal sealed class FreePlaces
     {
         /// <summary>
-        /// Side of a grid cell, in units of the distance. A cell has room for one place, and places that are too near lie at most two cells
+        /// Side of a grid cell, in units of the distance. A cell has room for one place, and places that are too near are at most two cells
         /// away.
         /// </summary>
         private const double CellSize = 0.625;

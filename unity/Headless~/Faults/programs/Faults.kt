@@ -83,7 +83,7 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
 
         "thread-throws" -> thread { error("in a thread") }.join()
 
-        "print" -> while (true) println("printing without end")
+        "print" -> while (true) println("printing endlessly")
 
         "print-much" -> repeat(200_000) { println("line $it") }
 

@@ -54,7 +54,7 @@ PHYSICS_API const char *physics_error(void);
 /* Makes an empty world. `threads` (1 or more, the calling one among them) work for it together. NULL without memory. */
 PHYSICS_API physics_world *physics_world_create(int32_t threads);
 
-/* Frees the world with all that is in it. Meshes stay. */
+/* Frees the world and its actors. Meshes stay. */
 PHYSICS_API void physics_world_destroy(physics_world *world);
 
 /* Pairs of layers that pass through each other: bit j of row i for the layers i and j. The matrix is symmetric. */
@@ -151,7 +151,7 @@ typedef struct {
         target; /* N/m and N s/m, or N m/rad and N m s/rad; the angle of a hinge's spring, the tolerance of a spring's distance */
 } physics_joint;
 
-/* Makes a joint and wakes nobody. PHYSICS_NONE, with physics_error set, when it is impossible. A joint ends with either actor, or when it breaks. */
+/* Makes a joint without waking bodies. PHYSICS_NONE, with physics_error set, when it is impossible. A joint ends with either actor, or when it breaks. */
 PHYSICS_API int32_t physics_joint_create(physics_world *world, const physics_joint *joint);
 
 PHYSICS_API void physics_joint_destroy(physics_world *world, int32_t joint);
@@ -222,7 +222,7 @@ typedef struct {
 /* Applies commands without a step. */
 PHYSICS_API void physics_apply(physics_world *world, const physics_command *commands, int32_t count);
 
-/* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes lie in one
+/* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes are in one
  * place than memory allows pairs of. `motions` has an item for each handle of a body; the bodies that move or fall asleep are written, with
  * the step's number. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
 PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds,
@@ -269,7 +269,7 @@ PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry
                                     const physics_filter *filter, int32_t *shapes, int32_t capacity);
 
 /* Begins to find all shapes that overlap each of several spheres, in no particular order: `capacity` places of `shapes` (1 or more) for each sphere, what
- * does not fit is left out; PHYSICS_NONE ends those that are fewer. There are as many filters as spheres. The world's other threads work on them; until
+ * does not fit is skipped; PHYSICS_NONE ends those that are fewer. There are as many filters as spheres. The world's other threads work on them; until
  * physics_finish_overlaps the arrays belong to the world, and no other function may be called with it. */
 PHYSICS_API void physics_begin_overlaps(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
                                         int32_t *shapes, int32_t capacity);

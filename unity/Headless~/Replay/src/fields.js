@@ -17,13 +17,13 @@ export function fieldsOf(recording) {
   return [...recorded, ...derived.filter(({ name }) => !recorded.some((field) => field.name === name)).map((field) => ({ words: [], ...field }))];
 }
 
-/** The values of a field at a node in each frame, null where it has none; null for all once they are no longer `wanted`. */
-export async function historyOf({ recording, fields }, { name }, id, wanted) {
+/** The values of a field at a node in each frame, null where it has none. Returns null once `needed` returns false. */
+export async function historyOf({ recording, fields }, { name }, id, needed) {
   const field = fields.find((each) => each.name === name);
   const values = [];
   for (let number = 0; field && number < recording.texts.length; number++) {
     const segment = await recording.read(number);
-    if (!wanted()) return null;
+    if (!needed()) return null;
     for (let i = 0; i < segment.count; i++) {
       const frame = segment.frame(i);
       const value = field.valuesOf(frame)[slotOf(frame, id)];
@@ -33,7 +33,7 @@ export async function historyOf({ recording, fields }, { name }, id, wanted) {
   return values;
 }
 
-/** The slot of a node in a frame; -1 if it is not there. */
+/** The slot of a node in a frame; -1 if it is missing. */
 export function slotOf({ slots, ids }, id) {
   return slots.find((slot) => ids[slot] === id) ?? -1;
 }

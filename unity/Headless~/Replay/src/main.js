@@ -57,7 +57,7 @@ class Player {
     return this.runs[0].here;
   }
 
-  /** The recording that ends last: its frames are those of the playback bar. */
+  /** The recording that ends last, whose frames the playback bar shows. */
   get clock() {
     return this.runs.reduce((last, run) => (run.lastTime > last.lastTime ? run : last)).recording;
   }
@@ -153,7 +153,7 @@ class Player {
     element('selected-name').textContent = `Node ${this.selected}`;
     const here = selected >= 0;
     element('selected-position').textContent = here
-      ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not there at this time';
+      ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not in the scene at this time';
     const described = [this.selected, ...this.runs.map((run) => run.here)];
     if (described.every((each, i) => this.described?.[i] === each) && this.described.length === described.length) return;
     this.described = described;

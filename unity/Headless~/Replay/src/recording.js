@@ -146,7 +146,7 @@ class Segment {
       segment: this,
       ids: this.ids, // by slot
       ...this.readPresence(),
-      places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.slots / TEXELS), 1)), // by slot x, y, z; -1 in w if it is not there
+      places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.slots / TEXELS), 1)), // by slot x, y, z; -1 in w if it is missing
       // By field and slot; NaN: no value.
       values: this.recording.fields.map(({ kind }) => new (kind === 'number' ? Float32Array : Float64Array)(this.recording.slots).fill(NaN)),
     };

@@ -1,4 +1,4 @@
-// Nodes and links of the picture. The places of two recorded frames lie in textures, one texel for each slot; the vertex shaders look
+// Nodes and links of the picture. The places of two recorded frames are in textures, one texel for each slot; the vertex shaders look
 // them up and draw each node between them, so that the script's cost per picture does not depend on the number of nodes.
 import {
   BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
@@ -16,7 +16,7 @@ uniform float share, radius, halfLength;
 vec4 texelOf(float slot) {
   ivec2 at = ivec2(int(slot) % ${TEXELS}, int(slot) / ${TEXELS});
   vec4 from = texelFetch(here, at, 0), to = texelFetch(next, at, 0);
-  // Unity's z is mirrored. A node that is not there in the next frame stays where it is.
+  // Unity's z is mirrored. A node that is missing in the next frame stays where it is.
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
@@ -213,7 +213,7 @@ function instanced(shape, slots) {
 function linesOf(material, capacity, order) {
   const object = new LineSegments(new BufferGeometry(), material);
   object.geometry.setAttribute('position', new BufferAttribute(new Float32Array(2 * capacity), 1).setUsage(DynamicDrawUsage));
-  object.geometry.boundingSphere = new Sphere(); // none can be made of slots
+  object.geometry.boundingSphere = new Sphere(); // cannot be computed from slots
   object.renderOrder = order;
   return object;
 }

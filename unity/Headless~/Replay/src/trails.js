@@ -12,7 +12,7 @@ export class Trails {
     this.object.renderOrder = 1;
   }
 
-  /** Draws the trails of some slots up to a frame. Frames that are not there yet are asked for; then `again` is called. */
+  /** Draws the trails of some slots up to a frame. Missing frames are requested; then `again` is called. */
   show(recording, frame, slots, again) {
     const pieces = slots.length === 0 ? 0 : Math.floor(MOST_PIECES / slots.length);
     const first = Math.max(recording.frameAt(recording.times[frame.index] - SECONDS), frame.index - pieces, 0);

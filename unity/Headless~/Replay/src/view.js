@@ -1,7 +1,8 @@
 // The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
 import {
   BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, CapsuleGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry,
-  Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RingGeometry,
+  Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry,
+  RingGeometry,
   Scene, ShadowMaterial, SphereGeometry, Spherical, Sprite, SpriteMaterial, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';

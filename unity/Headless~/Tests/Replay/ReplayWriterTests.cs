@@ -438,7 +438,8 @@ namespace Collektive.Headless.Tests
                 }
             }
             Assert.AreEqual(
-                "{\"name\":\"leader\",\"kind\":\"category\",\"order\":[0,-1073741823,1073741823,16777217],\"words\":[\"none\"],\"least\":-1073741823.0,\"greatest\":1073741823.0,\"someWithout\":true}",
+                "{\"name\":\"leader\",\"kind\":\"category\",\"order\":[0,-1073741823,1073741823,16777217],\"words\":[\"none\"],"
+                + "\"least\":-1073741823.0,\"greatest\":1073741823.0,\"someWithout\":true}",
                 replay.Header["fields"][1].ToString(Formatting.None));
         }
 

@@ -193,7 +193,7 @@ namespace UnityEngine
             turned = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
-        /// The scale along the own axes, sheared parts left out.
+        /// The scale along the own axes, without shear.
         public Vector3 lossyScale
         {
             get
@@ -301,7 +301,7 @@ namespace UnityEngine
             if (ReferenceEquals(parent, parentOrNull)) return;
             if (!(parent is null) && parent.IsChildOf(this))
             {
-                Debug.LogError($"'{parent.name}' cannot become the parent of '{name}': it lies below it.", this);
+                Debug.LogError($"'{parent.name}' cannot become the parent of '{name}', which is one of its ancestors.", this);
                 return;
             }
             Follow();

@@ -81,7 +81,7 @@ namespace UnityEngine
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.Raycast(start, end - start, out hitInfo, (end - start).magnitude, layerMask, queryTriggerInteraction);
 
-        /// In no particular order, as in Unity; what does not fit is left out.
+        /// In no particular order, as in Unity; what does not fit is skipped.
         public static int RaycastNonAlloc(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance = Mathf.Infinity,
             int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.RaycastAll(origin, direction, results, maxDistance, layerMask, queryTriggerInteraction);
@@ -160,7 +160,7 @@ namespace UnityEngine
 
         // ---- Overlaps -------------------------------------------------------------------------------------------------
 
-        /// In no particular order, as in Unity; what does not fit is left out.
+        /// In no particular order, as in Unity; what does not fit is skipped.
         public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask = AllLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.Overlaps(Ball(radius), At(position), results, layerMask, queryTriggerInteraction);

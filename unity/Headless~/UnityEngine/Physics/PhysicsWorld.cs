@@ -246,7 +246,7 @@ namespace UnityEngine
                 var done = Physx.physics_step(Handle, commands, count, step, &gravity, StepCount + 1, Motions, &result);
                 StepCount++;
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
-                // Other transforms follow their bodies when somebody looks: between the steps of a tick, nobody does. These must follow before
+                // Other transforms follow their bodies when they are read, which does not happen between the steps of a tick. These must follow before
                 // their parents are moved.
                 foreach (var body in Nested) body.Lead();
                 foreach (var body in Unpublished) body.Publish();

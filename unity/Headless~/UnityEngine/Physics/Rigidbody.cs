@@ -127,7 +127,7 @@ namespace UnityEngine
             }
         }
 
-        /// How fast the solver pushes it out of what it lies in.
+        /// Largest speed at which the solver separates it from overlapping shapes.
         public float maxDepenetrationVelocity
         {
             get => ownDepenetration;

@@ -20,7 +20,7 @@ namespace Collektive.Bridge
         /// <summary>Whether the JVM would start with these settings.</summary>
         internal bool IsGood => problems.Count == 0;
 
-        /// <summary>A notice about the settings as a whole; may be empty.</summary>
+        /// <summary>A remark on all settings; may be empty.</summary>
         internal string Notice { get; private set; } = "";
 
         /// <summary>Checks <paramref name="settings"/> without starting a JVM.</summary>

@@ -64,7 +64,7 @@ namespace Collektive.Bridge
             level = HostLogLevel.Warning;
             line = null;
             if (leftOut == 0 && overflown == 0) return false;
-            line = (leftOut + (long)overflown) + " lines of the JVM and its programs were left out: the console takes " + LinesPerSecond +
+            line = (leftOut + (long)overflown) + " lines of the JVM and its programs were skipped: the console takes " + LinesPerSecond +
                 " a second of each severity" + (overflown > 0 ? "; " + overflown + " of them came faster than they could be read" : "");
             lost += overflown;
             leftOut = 0;

@@ -17,7 +17,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// A <see cref="Draft"/> whose table lies in the frame as <typeparamref name="TRow"/>: room for all fields, absent ones too, so that a table is one
+    /// A <see cref="Draft"/> whose table is in the frame as <typeparamref name="TRow"/>: room for all fields, absent ones too, so that a table is one
     /// block. Used by generated code.
     /// </summary>
     public abstract class Draft<TRow> : Draft where TRow : unmanaged

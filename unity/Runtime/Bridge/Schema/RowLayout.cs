@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>Where the fields of a table lie in its rows: see <see cref="Draft{TRow}"/>. Used by generated code.</summary>
+    /// <summary>The offsets of a table's fields in its rows: see <see cref="Draft{TRow}"/>. Used by generated code.</summary>
     public sealed class RowLayout
     {
         /// <summary>

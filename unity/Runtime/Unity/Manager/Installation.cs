@@ -78,7 +78,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Where below its streaming assets a player has a file that the settings name from the project's folder. Files outside of that folder get a
-        /// name made of their path.
+        /// name derived from their path.
         /// </summary>
         internal static string NameInPlayer(string file)
         {

@@ -27,7 +27,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            // One more than wanted, since the node finds itself. The last search radius is a good guess.
+            // One more than configured, since the node finds itself. The last search radius is a good guess.
             var nearest = neighbours.FindNearest(count < 1 ? 0 : count + 1, 1.25f * reach);
             reach = nearest.Length == 0 ? 0 : nearest[nearest.Length - 1].Distance;
             var left = count;

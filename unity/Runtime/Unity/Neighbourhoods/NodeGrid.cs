@@ -149,22 +149,22 @@ namespace Collektive.Unity
         public void Dispose() => ahead.Dispose();
 
         /// <summary>
-        /// The nodes nearest to a point, at most <paramref name="wanted"/> (1 or more), by distance and at equal distances by id; valid until the next
+        /// The nodes nearest to a point, at most <paramref name="limit"/> (1 or more), by distance and at equal distances by id; valid until the next
         /// search. It is fastest when <paramref name="guess"/> metres hold a few more than these.
         /// </summary>
-        internal Span<NearNode> FindNearest(Vector3 centre, int wanted, float guess)
+        internal Span<NearNode> FindNearest(Vector3 centre, int limit, float guess)
         {
             var radius = Math.Max(guess, 1e-3f);
             hits.Count = 0;
             Collect(centre, radius, hits);
-            while (hits.Count < wanted && hits.Count < count && radius < MaxRadius)
+            while (hits.Count < limit && hits.Count < count && radius < MaxRadius)
             {
                 radius *= 2;
                 hits.Count = 0;
                 Collect(centre, radius, hits);
             }
             Count(radius);
-            return new Span<NearNode>(hits.Items, 0, MoveNearestToFront(wanted));
+            return new Span<NearNode>(hits.Items, 0, MoveNearestToFront(limit));
         }
 
         /// <summary>Copies hits to lists, emptied first.</summary>
@@ -256,16 +256,16 @@ namespace Collektive.Unity
             to.Count = found;
         }
 
-        /// <returns>How many there are: <paramref name="wanted"/>, or all hits if these are fewer.</returns>
-        private int MoveNearestToFront(int wanted)
+        /// <returns>How many there are: <paramref name="limit"/>, or all hits if these are fewer.</returns>
+        private int MoveNearestToFront(int limit)
         {
             var all = hits.Items;
             var sorted = 0;
             for (var i = 0; i < hits.Count; i++)
             {
                 var hit = all[i];
-                if (sorted == wanted && !IsNearer(hit, all[sorted - 1])) continue;
-                var place = sorted < wanted ? sorted++ : sorted - 1;
+                if (sorted == limit && !IsNearer(hit, all[sorted - 1])) continue;
+                var place = sorted < limit ? sorted++ : sorted - 1;
                 // The replaced hit was already checked, or is the farthest of the requested ones.
                 for (; place > 0 && IsNearer(hit, all[place - 1]); place--) all[place] = all[place - 1];
                 all[place] = hit;

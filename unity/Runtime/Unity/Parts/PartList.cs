@@ -20,7 +20,7 @@ namespace Collektive.Unity
             parts[Count++] = part;
         }
 
-        /// <summary>Those behind it move up. Nothing happens when it is not there.</summary>
+        /// <summary>Those behind it move up. A missing part is ignored.</summary>
         internal void Remove(NodePart part)
         {
             var place = Count - 1;
@@ -31,7 +31,7 @@ namespace Collektive.Unity
             parts[Count] = null;
         }
 
-        /// <summary>Calls the parts in a tick; parts that an earlier one disables, destroys or adds are left out.</summary>
+        /// <summary>Calls the parts in a tick; parts that an earlier one disables, destroys or adds are skipped.</summary>
         /// <param name="node">The parts' node.</param>
         /// <returns>Whether no part threw an exception.</returns>
         internal bool Run(Simulation simulation, Node node, int index)
