@@ -55,10 +55,10 @@ class InvalidDemoOptionsTest(Folder):
     def test_numbers_that_make_no_sense_are_refused_and_earlier_results_are_kept(self) -> None:
         manifest = Path(self.path("out", "manifest.json"))
         manifest.parent.mkdir()
-        manifest.write_text("earlier")
+        manifest.write_text('{"outcome": "complete"}')
         for arguments, word in [(["--nodes", "0"], "0 nodes"), (["--nodes", "20000"], "too small for 20000"), (["--nodes", "many"], "--nodes"),
                                 (["--seconds", "-1"], "--seconds"), (["--seed", "1.5"], "--seed")]:
             result = collektive("demo", *arguments, "--out", self.path("out"), "--overwrite")
             self.assertEqual(result.returncode, 1, arguments)
             self.assertIn(word, last_error(result))
-            self.assertEqual(manifest.read_text(), "earlier")
+            self.assertEqual(manifest.read_text(), '{"outcome": "complete"}')

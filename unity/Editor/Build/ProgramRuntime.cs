@@ -60,7 +60,7 @@ namespace Collektive.Unity.Editor
             var folder = string.IsNullOrWhiteSpace(jars) ? "" : Installation.PathOf(jars);
             var found = Directory.Exists(folder) ? Directory.GetFiles(folder, "*.jar") : new string[0];
             if (found.Length == 0)
-                throw new ToolException("the folder '" + jars + "' contains no jars of Collektive: put dsl, stdlib and their "
+                throw new ToolException("the folder '" + jars + "' contains no jars of Collektive: put collektive-dsl-jvm, collektive-stdlib-jvm and their "
                     + "dependencies into a folder, and select it as Runtime Jars in the Simulation Manager's settings");
             Array.Sort(found, StringComparer.Ordinal);
             return found;

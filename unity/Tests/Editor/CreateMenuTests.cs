@@ -31,7 +31,7 @@ namespace Collektive.Unity.Editor.Tests
         public void A_second_manager_is_not_made()
         {
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
-            LogAssert.Expect(LogType.Warning, new Regex("has a Simulation Manager already"));
+            LogAssert.Expect(LogType.Warning, new Regex("already has a Simulation Manager"));
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
             Assert.That(ManagersRemoved(), Is.EqualTo(1));
         }

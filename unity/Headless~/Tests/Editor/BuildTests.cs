@@ -58,7 +58,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         {
             Write("Assets/swarm.fbs", "namespace swarm;\ntable SensorData { intensity: float; }\n");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
-            Assert.That(Logged("there is no ActuatorData"), Is.StringStarting("Error: "));
+            Assert.That(Logged("ActuatorData is missing"), Is.StringStarting("Error: "));
         }
 
         [Test, Category("Slow")]
@@ -114,7 +114,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         public void Without_schemas_the_menu_says_where_they_belong()
         {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
-            Assert.That(Logged("*.fbs below Assets"), Is.StringStarting("Warning: "));
+            Assert.That(Logged("no sources were found. Put schemas (*.fbs) below Assets"), Is.StringStarting("Warning: "));
         }
 
         [Test]

@@ -114,7 +114,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Directory.Delete("Packages/org.collektive.unity.jvm.win-x64", true);
             var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene("jars.Array.data[0]", Samples)));
-            Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM is installed"));
+            Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM package is installed"));
             Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or set Location in the JVM settings to JAVA_HOME"));
             Assert.That(Directory.Exists(Assets), Is.False, "nothing is half done");
         }

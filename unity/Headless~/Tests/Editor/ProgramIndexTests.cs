@@ -132,7 +132,7 @@ namespace Collektive.Headless.Tests.Editor
             node.Program = "hops";
             node.Parameters.Add(new NodeParameter("brigth", "80"));
             Inspect(node);
-            Assert.That(Gui.Lines, Has.Some.EqualTo("help Error: Program 'hops' has no parameter 'brigth'. There is: bright, path"));
+            Assert.That(Gui.Lines, Has.Some.EqualTo("help Error: Program 'hops' has no parameter 'brigth'. Its parameters: bright, path"));
         }
 
         private static void Inspect(Object target) => UnityEditor.Editor.CreateEditor(target).OnInspectorGUI();

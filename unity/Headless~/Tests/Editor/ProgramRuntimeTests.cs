@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             settings.runtimeJars = "nowhere";
             Rebuild();
-            Assert.That(Logged("the folder 'nowhere' contains no jars of Collektive"), Is.StringContaining("dsl and stdlib"));
+            Assert.That(Logged("the folder 'nowhere' contains no jars of Collektive"), Is.StringContaining("collektive-dsl-jvm, collektive-stdlib-jvm"));
         }
 
         [Test, Category("Slow")]

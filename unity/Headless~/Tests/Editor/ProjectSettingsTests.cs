@@ -27,7 +27,7 @@ namespace Collektive.Headless.Tests.Editor
             ProjectSettings.instance.jdk = "/nowhere/jdk";
             UseKotlin();
             Draw();
-            Assert.That(Gui.Lines, Has.Some.Contains("help Warning: the JDK of the project settings, /nowhere/jdk"));
+            Assert.That(Gui.Lines, Has.Some.Contains("help Warning: the JDK in the project settings, /nowhere/jdk"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : " + Path.GetFullPath("kotlinc")));
         }
 

@@ -28,8 +28,8 @@ namespace Collektive.Unity
         [Tooltip("Runtime of the programs: the built-in one, or Collektive from your jars.")]
         public AggregateRuntime runtime = AggregateRuntime.BuiltIn;
 
-        /// <summary>Collektive only: folder with the jars of dsl, stdlib and their dependencies, relative to the project's folder.</summary>
-        [Tooltip("Collektive only: folder with the jars of dsl, stdlib and their dependencies, relative to the project's folder.")]
+        /// <summary>Collektive only: folder with collektive-dsl-jvm, collektive-stdlib-jvm and their dependencies, relative to the project's folder.</summary>
+        [Tooltip("Collektive only: folder with collektive-dsl-jvm, collektive-stdlib-jvm and their dependencies, relative to the project's folder.")]
         public string runtimeJars = "";
 
         /// <summary>Collektive only: jar of its compiler plugin, relative to the project's folder.</summary>
