@@ -106,8 +106,8 @@ namespace Collektive.Headless
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
-                if (pair.Up.Holders > 0) writer.Link(pair.Low, pair.High);
-                if (pair.Down.Holders > 0) writer.Link(pair.High, pair.Low);
+                if (pair.Up.Holders > 0) writer.Link(pair.Low, pair.High, pair.Down.Holders > 0);
+                else if (pair.Down.Holders > 0) writer.Link(pair.High, pair.Low);
             }
             writer.EndFrame();
             clock.Stop();

@@ -65,10 +65,11 @@ namespace Collektive.Headless
 
         internal void SetValue(int field, int slot, double value) => values[field][slot] = value;
 
-        internal void Link(int from, int to)
+        internal void Link(int from, int to, bool isMutual)
         {
             if (PairCount == LinkKeys.Length) LinkKeys = Larger(LinkKeys, PairCount * 2);
-            LinkKeys[PairCount++] = from < to ? (long)from << 26 | (long)to << 2 | 1 : (long)to << 26 | (long)from << 2 | 2;
+            var direction = isMutual ? 3 : from < to ? 1 : 2;
+            LinkKeys[PairCount++] = (long)Math.Min(from, to) << 26 | (long)Math.Max(from, to) << 2 | (uint)direction;
         }
 
         /// <summary>Sorts the links, merges those of a pair, and returns the number of stored links, each direction counted.</summary>

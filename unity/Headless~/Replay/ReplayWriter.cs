@@ -135,7 +135,8 @@ namespace Collektive.Headless
         /// <summary>Adds a link between two different nodes of this frame. Repetitions have no effect.</summary>
         /// <param name="from">Id of the sender.</param>
         /// <param name="to">Id of the receiver.</param>
-        public void Link(int from, int to)
+        /// <param name="isMutual">Whether there is also a link in the other direction.</param>
+        public void Link(int from, int to, bool isMutual = false)
         {
             if (!inFrame) throw Order(nameof(Link), "no frame has begun");
             if (Hash(Math.Min(from, to), Math.Max(from, to)) >= linkLimit) return;
@@ -143,7 +144,7 @@ namespace Collektive.Headless
             if (sender == receiver)
                 throw new ArgumentException("Node " + Number(from) + " is linked to itself in frame " + Number(Frames - 1)
                     + " of the replay: leave that link out.");
-            frame.Link(sender, receiver);
+            frame.Link(sender, receiver, isMutual);
         }
 
         public void EndFrame()
