@@ -32,8 +32,8 @@ class Plan:
         Raises `Failure` before the compilation if the sources lack the scenario's program.
         """
         known = projects.program_names(self.parts["programs"])
-        if known is not None and self["program"] not in known:
-            raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known)) or 'no program'}")
+        if known and self["program"] not in known:
+            raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known))}")
         return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
 
     def scripts_dll(self) -> Path:

@@ -50,7 +50,7 @@ class WholeRuns(Project):
             ('"seconds": 1', '"seconds": NaN', ["greater than 0"]),
             ('"seconds": 1', '"seconds": Infinity', ["greater than 0"]),
             ('"seconds": 1', '"seconds": -1', ["greater than 0"]),
-            ('"deltaTime": 0.1', '"deltaTime": 1e-30', ["ticks, and a run has at most"]),
+            ('"deltaTime": 0.1', '"deltaTime": 1e-30', ["delta time is 1E-30 s", "at least"]),
             ('"deltaTime": 0.1', '"deltaTime": NaN', ["delta time"]),
             ('"deltaTime": 0.1', '"deltaTime": -1', ["delta time"]),
             ('"threads": 2', '"physicsStep": 1e-30', ["physics step"]),
@@ -138,7 +138,7 @@ class WholeRuns(Project):
         return result
 
     def test_a_script_that_ends_the_process_has_not_completed_the_run(self) -> None:
-        self.assertIn("the player ended with code 0 before its run did. Usual causes: ", last_error(self.fails_at_tick_4("System.Environment.Exit(0);")))
+        self.assertIn("the player exited with code 0 during the run. Usual causes: ", last_error(self.fails_at_tick_4("System.Environment.Exit(0);")))
 
     def test_a_crash_of_the_jvm_has_not_completed_the_run(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
@@ -157,7 +157,7 @@ class WholeRuns(Project):
         protected override void Sense(""")
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
-        self.assertIn("the player ended with code 1 before its run did. Usual causes: endless recursion in a script,", last_error(result))
+        self.assertIn("the player exited with code 1 during the run. Usual causes: infinite recursion in a script,", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "running")
 
     def test_a_debugger_may_stop_a_run_for_longer_than_the_limit_of_a_tick(self) -> None:

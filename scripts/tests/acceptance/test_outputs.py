@@ -218,7 +218,7 @@ class FullDisks(Project):
                     continue
                 reached.add(kilobytes)
                 self.assertEqual(result.returncode, 1)
-                self.assertRegex(last_error(result), "^collektive: [^\n]*(No space left|Disk full|could not be)", result.stderr)
+                self.assertRegex(result.stderr, "(?m)^collektive: [^\n]*(No space left|Disk full|could not be)")
                 manifest = os.path.join(found, "manifest.json")
                 if os.path.exists(manifest):
                     with open(manifest) as file:

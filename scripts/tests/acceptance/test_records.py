@@ -68,7 +68,7 @@ class Records(Project):
             file.write(with_another_jar(data))
         result = collektive("replay", elsewhere)
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("contains programs that were never run here", last_error(result))
+        self.assertIn("contains programs that have never run here", last_error(result))
         self.assertIn("--trust", last_error(result))
         self.assertNotIn("ticks replayed", result.stdout)
         result = collektive("replay", elsewhere, "--trust")
