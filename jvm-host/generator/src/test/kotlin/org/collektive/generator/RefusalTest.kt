@@ -92,14 +92,14 @@ internal class RefusalTest {
             type("struct String { y: int; }") to "user.fbs:3: String: generated code uses",
             type("enum Int : byte { A }") to "user.fbs:3: Int: generated code uses",
             type("table when {}") to "user.fbs:3: when: generated code uses",
-            type("table _ {}") to "user.fbs:3: _: a name needs a letter",
+            type("table _ {}") to "user.fbs:3: _: a name must contain a letter",
             type("table Foo {}\ntable foo {}") to "foo: its name is too similar to that of a.Foo; rename one of them",
             type("table Detail {}\ntable b {}\nnamespace a.b;\nenum E : byte { A }\nnamespace a;") to
                 "user.fbs:4: b: a namespace has the same name",
             type("enum E : byte { names }") to "user.fbs:3: E.names: generated code has a member of this name",
-            fields("_: int;") to "user.fbs:4: SensorData._: a name needs a letter",
-            fields("__assign: int;") to "user.fbs:4: SensorData.__assign: a name begins with a letter",
-            fields("_1: int;") to "user.fbs:4: SensorData._1: a name begins with a letter",
+            fields("_: int;") to "user.fbs:4: SensorData._: a name must contain a letter",
+            fields("__assign: int;") to "user.fbs:4: SensorData.__assign: a name must begin with a letter",
+            fields("_1: int;") to "user.fbs:4: SensorData._1: a name must begin with a letter",
             fields("foo_bar: int;\nfooBar: int;") to
                 "user.fbs:5: SensorData.fooBar: generated code calls both this field and foo_bar FooBar; rename",
             fields("xs: [int];\nxs_as_byte_buffer: int;") to
@@ -150,7 +150,7 @@ internal class RefusalTest {
     @Test
     fun `types that contain each other too deep or in too many ways are refused`() {
         fun chain(tables: Int) = (0 until tables).joinToString("\n") { "table T$it { next: T${it + 1}; }" } + "\ntable T$tables { x: int; }"
-        val deep = "more than 64 deep"
+        val deep = "more than 64 levels deep"
         assertContains(refusal(user(chain(3000), "first: T0;")), deep)
         assertContains(refusal(user(chain(64), "first: T0;")), deep)
         Fixture.generate(user(chain(60), "first: T0;"))
@@ -227,7 +227,7 @@ internal class RefusalTest {
         assertContains(message(), "--flatc is missing")
         assertContains(message("--flatc", flatc, "--schema"), "--schema needs a value")
         assertContains(message("--colour", "red"), "unknown option --colour")
-        assertContains(message("--flatc", flatc, "--flatc", flatc), "--flatc is given twice")
+        assertContains(message("--flatc", flatc, "--flatc", flatc), "--flatc is used twice")
         assertContains(message("--flatc", "nothing", "--schema", schema, "--include", "x"), "no flatc at nothing: run ./collektive setup")
         assertContains(message("--flatc", flatc, "--schema", "nothing.fbs", "--include", "x"), "the schema does not exist at nothing.fbs")
         assertContains(message("--flatc", flatc, "--schema", schema, "--include", "x"), "no types.fbs in x")
