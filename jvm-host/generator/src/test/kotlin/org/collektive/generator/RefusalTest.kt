@@ -111,10 +111,10 @@ internal class RefusalTest {
             namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class'",
             namespace("a.fun") to "the namespace has the keyword 'fun'; rename the namespace",
             namespace("String.inner") to "generated code uses a type named String; rename the namespace",
-            namespace("java.util") to "the namespace java.util is used by a library",
-            namespace("kotlin") to "the namespace kotlin is that of a library",
-            namespace("org.collektive.frames") to "the namespace org.collektive.frames is that of a library",
-            namespace("data") to "the namespace data is that of a library, or a name in generated code",
+            namespace("java.util") to "the namespace java.util is used by a library or by generated code",
+            namespace("kotlin") to "the namespace kotlin is used by a library",
+            namespace("org.collektive.frames") to "the namespace org.collektive.frames is used by a library",
+            namespace("data") to "the namespace data is used by a library or by generated code",
             fields("table: int;") to "user.fbs:4: SensorData.table: C# or Java has a member of this name",
             type("struct SensorDataVerify { y: int; }") to
                 "user.fbs:3: SensorDataVerify: generated code of a.SensorData has a class of this name; rename one of them",
@@ -126,7 +126,7 @@ internal class RefusalTest {
             type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
                 "user.fbs:4: B.is: C# cannot use this name where the struct is nested; rename the field",
             type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
-            type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier has other characters",
+            type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier may have only ASCII letters and digits",
         )
         for ((schema, message) in refusals) assertContains(refusal(schema), message, message = schema)
     }
@@ -148,21 +148,21 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `types that contain each other too deep or in too many ways are refused`() {
+    fun `types nested too deep or in too many ways are refused`() {
         fun chain(tables: Int) = (0 until tables).joinToString("\n") { "table T$it { next: T${it + 1}; }" } + "\ntable T$tables { x: int; }"
         val deep = "more than 64 levels deep"
         assertContains(refusal(user(chain(3000), "first: T0;")), deep)
         assertContains(refusal(user(chain(64), "first: T0;")), deep)
         Fixture.generate(user(chain(60), "first: T0;"))
         val doubling = (0 until 30).joinToString("\n") { "table T$it { a: T${it + 1}; b: T${it + 1}; }" } + "\ntable T30 { x: int; }"
-        assertContains(refusal(user(doubling, "first: T0;")), "contain each other in more than 20000 ways")
+        assertContains(refusal(user(doubling, "first: T0;")), "types are nested in more than 20000 ways")
         val ring = (0 until 30).joinToString("\n") { i -> "table T$i { ${(0 until 30).joinToString(" ") { "f$it: T$it;" }} }" }
         assertContains(refusal(user(ring, "first: T0;")), "in more than 20000 ways")
         val wide = (0 until 60).joinToString("\n") { i -> "table T$i { ${(0 until 60).joinToString(" ") { "f$it: int;" }} }" }
         val all = (0 until 60).joinToString(" ") { "t$it: T$it;" }
         assertContains(refusal(user(wide, all)), "its tables have 3660 fields, more than 3000")
         val numbers = (0 until 200).joinToString(" ") { "f$it: long;" }
-        assertContains(refusal(user("struct Big { $numbers }", "big: Big;")), "Big: it has more numbers than a call can pass, 240")
+        assertContains(refusal(user("struct Big { $numbers }", "big: Big;")), "Big: it has more numbers than a method can have parameters, 240")
     }
 
     @Test
