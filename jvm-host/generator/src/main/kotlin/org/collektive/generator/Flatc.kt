@@ -38,7 +38,8 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         }
         val process = ProcessBuilder(command).redirectErrorStream(true).start()
         process.outputStream.close()
-        val messages = process.inputStream.bufferedReader().readText().trim()
+        // Names of fields may be those of Alchemist's molecules, so flatc's warnings about their style are dropped.
+        val messages = process.inputStream.bufferedReader().readLines().filterNot { STYLE in it }.joinToString("\n").trim()
         val code = process.waitFor()
         if (code > SIGNAL) {
             throw GeneratorException(
@@ -52,6 +53,9 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
     internal companion object {
         /** The exit code of a process that a signal ended is this and the signal's number. */
         private const val SIGNAL = 128
+
+        /** Part of a warning about the style of names. */
+        private const val STYLE = "should be lowercase snake_case"
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
 

@@ -38,21 +38,29 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     // flatc prints its usage for files that are not text.
     SchemaText.read(file)
     flatc.fullBinarySchema(file, work)
-    val reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), file, include.resolve(CORE_TYPES))
+    var reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), file, include.resolve(CORE_TYPES))
     arguments.layouts?.let { folder ->
         val tables = reader.tables()
         val name = Layouts.name(file.fileName.toString(), tables.first().name.namespace)
         OutputFolder(folder).write("${path(name)}.java", Templates.render("Layouts.java", Layouts.model(file.fileName.toString(), tables)))
     }
     if (arguments.csharp == null && arguments.jvm == null) return
+    val addition = reader.missingSensorData()
+    val complete = if (addition.isEmpty()) file else Files.createDirectories(work.resolve("complete")).resolve(file.fileName)
+    if (complete != file) {
+        Files.writeString(complete, Files.readString(file) + addition)
+        flatc.fullBinarySchema(complete, work)
+        reader = SchemaReader(Files.readAllBytes(work.resolve(binary(file))), complete, include.resolve(CORE_TYPES))
+    }
     val schema = reader.read()
-    val copies = SanitizedSchemas(reader.files, include.resolve(CORE_TYPES), work)
+    val files = reader.files.map { if (it == complete) file else it }
+    val copies = SanitizedSchemas(files, include.resolve(CORE_TYPES), work, mapOf(file to addition))
     val sanitized = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
 
     arguments.csharp?.let { folder ->
         val output = OutputFolder(folder)
         val csharp = CSharp(schema)
-        reader.files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
+        files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.defineSymbols(text) else null }
         for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
@@ -61,7 +69,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     arguments.jvm?.let { folder ->
         val output = OutputFolder(folder)
         val kotlin = Kotlin(schema)
-        reader.files.forEach { sanitized.java(copies.of(it), work.resolve("java")) }
+        files.forEach { sanitized.java(copies.of(it), work.resolve("java")) }
         // Programs only write the actuator data.
         output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
         for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))

@@ -25,6 +25,18 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     /** How many types that contain each other are being read. */
     private var nesting = 0
 
+    /**
+     * Returns the definition of an empty `SensorData` if the schema of a program without sensors omits it, else an empty text. A type that
+     * neither the actuator nor the global data contains is probably a misspelt `SensorData`, which [read] reports as missing.
+     */
+    fun missingSensorData(): String {
+        val actuator = root("ActuatorData")
+        if (root("SensorData") != null || actuator == null) return ""
+        root("GlobalData")
+        val areAllUsed = objects().all { (index, type) -> index in composites || plain(type.declarationFile()) == core }
+        return if (areAllUsed) "\nnamespace ${actuator.name.namespace}; table SensorData { }\n" else ""
+    }
+
     fun read(): UserSchema {
         checkFile()
         files.forEach(::checkNumbers)

@@ -26,6 +26,14 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `a schema without SensorData has an empty one`() {
+        val schema = "namespace a; table GlobalData { part: Part; } struct Part { x: float; } struct ActuatorData { inChannel: bool; }"
+        val output = Fixture.generate(schema)
+        assertEquals(texts(Fixture.generate("$schema\nnamespace a; table SensorData { }\n")), texts(output))
+        for ((path, text) in texts(output)) assertFalse("/complete/" in text, path)
+    }
+
+    @Test
     fun `no file contains a path of the machine, and all C# is marked as generated`() {
         val output = Fixture.generate(
             "include \"types.fbs\"; namespace a.b; table SensorData { p: org.collektive.schema.Vector3; } struct ActuatorData { x: float; }",
