@@ -31,6 +31,7 @@ COMMANDS = {
     "profile": "run a scenario and profile the JVM",
     "replay": "replay a recorded run with its programs or with others",
     "diff": "compare two recorded runs",
+    "compare-runtimes": "compare the built-in runtime with Collektive on random networks",
     "test": "build and run tests",
     "bench": "run benchmarks",
     "package": "build the Unity package",
@@ -63,7 +64,7 @@ def parser_for(name: str | None) -> Parser:
     parser = Parser(prog="./collektive", allow_abbrev=False, epilog=EPILOGUE, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(metavar="COMMAND", dest="command", title="commands")
     for command, summary in COMMANDS.items():
-        module = importlib.import_module(f"commands.{command}") if command == name else None
+        module = importlib.import_module(f"commands.{command.replace('-', '_')}") if command == name else None
         sub = commands.add_parser(command, help=summary, allow_abbrev=False, description=module.__doc__ if module else None,
                                   formatter_class=argparse.RawDescriptionHelpFormatter)
         if module:

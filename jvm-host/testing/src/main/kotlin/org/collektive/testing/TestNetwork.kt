@@ -6,11 +6,13 @@ import org.collektive.api.Parameters
 import org.collektive.engine.Engine
 import org.collektive.engine.EngineSettings
 import org.collektive.engine.LinkList
+import org.collektive.engine.NetworkModel
 import org.collektive.engine.NewNode
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundData
 import org.collektive.engine.RoundDevice
 import org.collektive.engine.Tick
+import org.collektive.engine.TickResult
 import org.collektive.frames.data.ViewRule
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.RuntimeProvider
@@ -35,10 +37,16 @@ import java.util.concurrent.TimeUnit
  * @param seed the seed of all random numbers; the same seed gives the same answers.
  * @param deltaTime simulated seconds from one round to the next.
  * @param runtime name of the runtime, `builtIn` or `collektive`; `null` selects the one on the class path, or the built-in one if both are.
+ * @param loss probability that a message is lost, 0..1.
  * @throws IllegalStateException when the runtime is not on the class path.
  */
-public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, runtime: String? = null) : AutoCloseable {
-    private val engine = Engine(EngineSettings(seed), runtimes(runtime))
+public class TestNetwork(
+    seed: Long = 1,
+    private val deltaTime: Double = 1.0,
+    runtime: String? = null,
+    loss: Double = 0.0,
+) : AutoCloseable {
+    private val engine = Engine(EngineSettings(seed, network = NetworkModel(loss = loss)), runtimes(runtime))
     private val program = Program()
     private val tick = Tick()
     private val ids = TreeSet<Int>()
@@ -93,19 +101,22 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
      * @throws IllegalStateException when the round of a node failed. The message names the node and the place, and the cause is the original
      * exception. That node keeps the state of its last successful round; the rounds of all other nodes have run.
      */
-    public fun <T> round(program: Aggregate<Int>.(Device) -> T): Map<Int, T> {
+    public fun <T> round(program: Aggregate<Int>.(Device) -> T): Map<Int, T> = outcomes(ids, program).mapValues { it.value.getOrThrow() }
+
+    /** Runs one round of [program] on the nodes in [due]. Returns their answers or failures by id; see [round]. */
+    internal fun <T> outcomes(due: Set<Int>, program: Aggregate<Int>.(Device) -> T): Map<Int, Result<T>> {
         this.program.body = program
         this.program.failures.clear()
-        prepare()
+        prepare(due)
         val result = engine.step(tick, NoFrames, System.nanoTime() + LIMIT_NANOS)
         tick.clear()
-        val answers = LinkedHashMap<Int, T>()
-        for (index in 0 until result.size) {
-            result.failure(index)?.let { throw IllegalStateException("node ${result.id(index)}: $it", this.program.failures[it]) }
-            @Suppress("UNCHECKED_CAST")
-            answers[result.id(index)] = (result.answer(index) as Answer).value as T
-        }
-        return answers
+        return (0 until result.size).associate { index -> result.id(index) to outcome(result, index) }
+    }
+
+    @Suppress("UNCHECKED_CAST")
+    private fun <T> outcome(result: TickResult, index: Int): Result<T> {
+        val failure = result.failure(index) ?: return Result.success((result.answer(index) as Answer).value as T)
+        return Result.failure(IllegalStateException("node ${result.id(index)}: $failure", program.failures[failure]))
     }
 
     /** Runs [count] rounds, at least one, and returns the answers of the last one; see [round]. */
@@ -120,7 +131,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
 
     private fun known(id: Int): Int = id.also { require(it in ids) { "unknown node $it: add it first" } }
 
-    private fun prepare() {
+    private fun prepare(due: Set<Int>) {
         tick.number++
         tick.time = tick.number * deltaTime
         tick.deltaTime = deltaTime
@@ -130,7 +141,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             }
         links += newLinks.keys
         newLinks.clear()
-        ids.forEach(tick.due::add)
+        due.sorted().forEach(tick.due::add)
     }
 
     private class LinkValues(val length: Float, val attenuation: Float)

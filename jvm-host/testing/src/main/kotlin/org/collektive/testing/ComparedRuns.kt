@@ -1,0 +1,70 @@
+package org.collektive.testing
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.api.Device
+import java.io.File
+import java.lang.reflect.InvocationTargetException
+import java.lang.reflect.Method
+import java.lang.reflect.Modifier
+import java.util.jar.JarFile
+
+/**
+ * Runs the functions of a jar on the networks that standard input describes, for `./collektive compare-runtimes`. The arguments are the
+ * jar, which is also on the class path, and the name of the runtime.
+ *
+ * Prints the names of the functions, one a line, and an empty line. Then answers each request: `FUNCTION SEED LOSS`, one line
+ * `NODES|LINKS|DUE` for each tick such as `0 1 2|0-1 1-2|0 2`, and an empty line. The answer has one line `TICK NODE RESULT` for each
+ * round, and an empty line.
+ */
+public fun main(arguments: Array<String>) {
+    val output = System.out
+    // Programs may print.
+    System.setOut(System.err)
+    val (jar, runtime) = arguments
+    val functions = functions(File(jar)).associateBy { it.name }
+    functions.keys.sorted().forEach(output::println)
+    output.println()
+    output.flush()
+    while (true) {
+        val (function, seed, loss) = (readlnOrNull() ?: return).split(' ')
+        val ticks = generateSequence(::readlnOrNull).takeWhile { it.isNotEmpty() }.toList()
+        TestNetwork(seed.toLong(), runtime = runtime, loss = loss.toDouble()).use { network ->
+            ticks.forEachIndexed { index, tick ->
+                for ((id, result) in network.run(tick, functions.getValue(function))) output.println("${index + 1} $id ${text(result)}")
+            }
+        }
+        output.println()
+        output.flush()
+    }
+}
+
+/** The public top-level functions in [jar] that need only the aggregate and the device. */
+private fun functions(jar: File): List<Method> {
+    val names = JarFile(jar).use { file -> file.entries().toList().map { it.name } }
+    return names.filter { it.endsWith("Kt.class") && !it.startsWith("org/collektive/links/") }
+        .flatMap { Class.forName(it.removeSuffix(".class").replace('/', '.')).declaredMethods.toList() }
+        .filter { Modifier.isPublic(it.modifiers) && Modifier.isStatic(it.modifiers) && !it.isSynthetic }
+        .filter { it.parameterTypes.sortedBy(Class<*>::getSimpleName) in SIGNATURES }
+}
+
+private val SIGNATURES = listOf(listOf(Aggregate::class.java), listOf(Aggregate::class.java, Device::class.java))
+
+private fun TestNetwork.run(tick: String, function: Method): Map<Int, Result<Any?>> {
+    val (nodeIds, linkEnds, dueIds) = tick.split('|').map { part -> part.split(' ').filter { it.isNotEmpty() } }
+    val wanted = nodeIds.mapTo(sortedSetOf(), String::toInt)
+    (nodes - wanted).forEach(::remove)
+    (wanted - nodes).forEach { add(it) }
+    val links = linkEnds.mapTo(HashSet()) { link -> link.split('-').map(String::toInt).let { it[0] to it[1] } }
+    for (a in nodes) for (b in nodes.filter { it > a }) if (a to b in links) link(a, b) else unlink(a, b)
+    return outcomes(dueIds.mapTo(HashSet(), String::toInt)) { device ->
+        val values = function.parameterTypes.map { if (it == Device::class.java) device else this }
+        try {
+            function.invoke(null, *values.toTypedArray())
+        } catch (e: InvocationTargetException) {
+            throw e.targetException
+        }
+    }
+}
+
+private fun text(result: Result<Any?>): String =
+    result.fold({ "$it" }, { "fails (${(it.cause ?: it).javaClass.simpleName})" }).replace("\\", "\\\\").replace("\n", "\\n")

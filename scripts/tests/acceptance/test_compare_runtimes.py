@@ -1,0 +1,74 @@
+"""Functions are compared on two runtimes, and a difference is shrunk."""
+import os
+import re
+
+import pytest
+from command import Folder, collektive
+
+IMPORTS = """package compared
+
+import it.unibo.collektive.aggregate.*
+import it.unibo.collektive.aggregate.api.*
+import it.unibo.collektive.stdlib.collapse.*
+import it.unibo.collektive.stdlib.spreading.*
+import org.collektive.api.Device
+import org.collektive.links.distances
+
+"""
+PORTABLE = IMPORTS + """
+fun Aggregate<Int>.passedOn(): Int = exchanging(if (localId == 0) 1 else 0) { f ->
+    val next = f.neighbors.ids.list.minOrNull()
+    mapNeighborhood { id -> if (id == next) f.all.values.sum() else 0 }.yielding { f.all.values.sum() }
+}
+fun Aggregate<Int>.each(device: Device): Any? = exchanging(device.id) { f ->
+    f.map { (id, value) -> (value * 31 + id) % 997 }.yielding { f.all.toMap().toSortedMap() }
+}
+context(device: Device) fun Aggregate<Int>.reached(): Double = distanceTo(device.random.nextInt(4) == 0, metric = distances())
+fun Aggregate<Int>.fails(): Int = if (localId == 1) error("always") else neighboring(localId).neighbors.size
+fun plain(x: Int): Int = x
+"""
+# The class that implements Aggregate differs.
+DIFFERENT = IMPORTS + """
+fun Aggregate<Int>.different(): String {
+    val rounds = evolve(0) { it + 1 }
+    val near = neighboring(localId).neighbors.size
+    return if (rounds >= 3 && near >= 2) this.javaClass.simpleName else "$near"
+}
+"""
+
+
+class Compared(Folder):
+    def compare(self, text, *options):
+        with open(self.path("Compared.kt"), "w", encoding="utf-8") as file:
+            file.write(text)
+        return collektive("compare-runtimes", self.path("Compared.kt"), *options)
+
+    def test_all_functions_of_a_file_are_compared(self) -> None:
+        result = self.compare(PORTABLE, "--runs", "20")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["each", "fails", "passedOn", "reached"])
+
+    def test_a_difference_is_shrunk_to_the_smallest_network_and_the_shortest_run(self) -> None:
+        if os.environ.get("COLLEKTIVE_JARS"):
+            pytest.skip("the classes are those of this project")
+        result = self.compare(DIFFERENT)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        first, *ticks, last = result.stdout.splitlines()
+        self.assertIn("the smallest run has 3 nodes and 3 ticks", first)
+        self.assertEqual(len(ticks), 3)
+        self.assertRegex(last, r"tick 3, node \d+: AggregateDevice on the built-in runtime, MailboxRound on the mailbox runtime")
+        self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
+
+    def test_files_without_functions_are_refused(self) -> None:
+        result = self.compare(IMPORTS)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has no public function", result.stderr)
+        missing = collektive("compare-runtimes", self.path("nowhere"))
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn("does not exist", missing.stderr)
+
+    def test_collektive_gives_the_same_answers(self) -> None:
+        if not os.environ.get("COLLEKTIVE_JARS"):
+            pytest.skip("COLLEKTIVE_JARS is not set: name the folder of Collektive's jars to compare with Collektive")
+        result = self.compare(PORTABLE, "--runs", "60")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
