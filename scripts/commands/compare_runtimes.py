@@ -60,7 +60,7 @@ class Difference:
     answers: tuple[str, str]
 
 
-class Side:
+class RuntimeProcess:
     """A JVM that runs the functions of a jar on one runtime."""
 
     def __init__(self, runtime: str, programs: Path, jars: list[Path]) -> None:
@@ -70,7 +70,7 @@ class Side:
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.functions = self._lines()
 
-    def __enter__(self) -> "Side":
+    def __enter__(self) -> "RuntimeProcess":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -78,7 +78,7 @@ class Side:
         self._process.communicate()
 
     def answers(self, function: str, run: Run) -> list[str]:
-        """Returns a line `TICK NODE ANSWER` for each round."""
+        """Runs the function on the networks of `run` and returns a line `TICK NODE ANSWER` for each round."""
         assert self._process.stdin is not None
         self._process.stdin.write("".join(f"{line}\n" for line in [f"{function} {run.seed} {run.loss}", *run.ticks, ""]))
         self._process.stdin.flush()
@@ -96,63 +96,69 @@ class Side:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("programs", type=Path, nargs="+", metavar="PROGRAM")
-    parser.add_argument("--function", action="append", metavar="NAME", help="compare only these functions")
+    parser.add_argument("--function", action="append", default=[], metavar="NAME", help="compare only these functions")
     parser.add_argument("--runs", type=int, default=60, metavar="N", help="networks for each function (default: 60)")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="seed of the networks (default: 1)")
     parser.set_defaults(error_code=2)
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.runs < 1:
+        raise Failure(f"compare-runtimes: --runs is {arguments.runs}; use at least 1")
     graph.build("jvm", "jvm_modules")
     code = 0
     for programs in arguments.programs:
         with ExitStack() as stack:
-            sides = _sides(programs, stack)
-            functions = [name for name in sides[0].functions if arguments.function is None or name in arguments.function]
-            if not functions:
-                raise Failure(f"compare-runtimes: '{programs}' has no public function `fun Aggregate<Int>.NAME()` or `fun Aggregate<Int>.NAME(device: Device)`"
-                              + (f" named {' or '.join(arguments.function)}" if arguments.function else ""))
-            for function in functions:
-                code |= _compare(function, sides, _runs(arguments.seed, arguments.runs))
+            processes = _start(programs, stack)
+            functions = processes[0].functions
+            unknown = [name for name in arguments.function if name not in functions]
+            if unknown or not functions:
+                raise Failure(f"compare-runtimes: '{programs}' has no public function `fun Aggregate<Int>.{unknown[0] if unknown else 'NAME'}()`, with or "
+                              f"without a parameter of type Device{'; it has ' + ', '.join(functions) if functions else ''}")
+            for function in arguments.function or functions:
+                code |= _compare(function, processes, _runs(arguments.seed, arguments.runs))
     return code
 
 
-def _sides(programs: Path, stack: ExitStack) -> tuple[Side, Side]:
+def _start(programs: Path, stack: ExitStack) -> tuple[RuntimeProcess, RuntimeProcess]:
     if not programs.exists():
         raise Failure(f"compare-runtimes: '{programs}' does not exist")
     source = inputs.programs(programs) if programs.is_dir() else inputs.Part(programs.parent, lambda folder: {programs.name: folder / programs.name})
     schema = inputs.schema(SCHEMA)
-    own = projects.programs_jar(schema, source)
-    built_in = stack.enter_context(Side("builtIn", own, [LIBRARY_JAR]))
+    jar = projects.programs_jar(schema, source)
+    built_in = stack.enter_context(RuntimeProcess("builtIn", jar, [LIBRARY_JAR]))
     folder = os.environ.get("COLLEKTIVE_JARS")
     if not folder:
-        return built_in, stack.enter_context(Side("collektive", own, [LIBRARY_JAR, ADAPTER_JAR]))
+        return built_in, stack.enter_context(RuntimeProcess("collektive", jar, [LIBRARY_JAR, ADAPTER_JAR]))
     place = Path(folder)
     plugin = next((jar for near in (place, place.parent) for jar in sorted(near.glob("*compiler-plugin*.jar"))), compiler_plugin())
     jars = inputs.jars(place)
+    if not jars.files:
+        raise Failure(f"compare-runtimes: COLLEKTIVE_JARS names '{folder}', which contains no jars; name the folder of collektive-dsl, collektive-stdlib "
+                      "and their dependencies")
     other = projects.programs_jar(schema, source, jars, inputs.jar(plugin))
-    return built_in, stack.enter_context(Side("collektive", other, [ADAPTER_JAR, *jars.files.values()]))
+    return built_in, stack.enter_context(RuntimeProcess("collektive", other, [ADAPTER_JAR, *jars.files.values()]))
 
 
-def _compare(function: str, sides: tuple[Side, Side], runs: Iterator[Run]) -> int:
+def _compare(function: str, processes: tuple[RuntimeProcess, RuntimeProcess], runs: Iterator[Run]) -> int:
     """Compares a function on all runs until the first difference, which it prints. Returns 1 if there is one."""
     count = rounds = 0
     for candidate in runs:
-        found = _difference(function, sides, candidate)
+        found = _difference(function, processes, candidate)
         count += 1
         rounds += sum(len(tick.due) for tick in candidate.ticks)
         if found is not None:
-            smallest = _shrunk(candidate, lambda smaller: _difference(function, sides, smaller))
-            _print(function, smallest, _difference(function, sides, smallest) or found)
+            smallest = _shrunk(candidate, lambda smaller: _difference(function, processes, smaller))
+            _print(function, smallest, _difference(function, processes, smallest) or found)
             return 1
     print(f"{function}: no difference in {count} runs, {rounds} rounds")
     return 0
 
 
-def _difference(function: str, sides: tuple[Side, Side], candidate: Run) -> Difference | None:
-    for mine, other in zip(*(side.answers(function, candidate) for side in sides), strict=True):
-        if not _same(mine, other):
-            tick, node, answer = mine.split(" ", 2)
+def _difference(function: str, processes: tuple[RuntimeProcess, RuntimeProcess], candidate: Run) -> Difference | None:
+    for built_in, other in zip(*(side.answers(function, candidate) for side in processes), strict=True):
+        if not _same(built_in, other):
+            tick, node, answer = built_in.split(" ", 2)
             return Difference(int(tick), int(node), (answer, other.split(" ", 2)[2]))
     return None
 

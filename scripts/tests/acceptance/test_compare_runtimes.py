@@ -1,6 +1,7 @@
 """Functions are compared on two runtimes, and a difference is shrunk."""
 import os
 import re
+from unittest import mock
 
 import pytest
 from command import Folder, collektive
@@ -44,7 +45,7 @@ class Compared(Folder):
         return collektive("compare-runtimes", self.path("Compared.kt"), *options)
 
     def test_all_functions_of_a_file_are_compared(self) -> None:
-        result = self.compare(PORTABLE, "--runs", "20")
+        result = self.compare(PORTABLE, "--runs", "12")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["each", "fails", "passedOn", "reached"])
 
@@ -63,6 +64,14 @@ class Compared(Folder):
         result = self.compare(IMPORTS)
         self.assertEqual(result.returncode, 2)
         self.assertIn("has no public function", result.stderr)
+        unknown = self.compare(PORTABLE, "--function", "each", "--function", "eahc")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("Aggregate<Int>.eahc()`", unknown.stderr)
+        self.assertIn("it has each, fails, passedOn, reached", unknown.stderr)
+        with mock.patch.dict(os.environ, COLLEKTIVE_JARS=self.path("nowhere")):
+            jars = self.compare(PORTABLE)
+        self.assertEqual(jars.returncode, 2)
+        self.assertIn("which contains no jars", jars.stderr)
         missing = collektive("compare-runtimes", self.path("nowhere"))
         self.assertEqual(missing.returncode, 2)
         self.assertIn("does not exist", missing.stderr)

@@ -9,16 +9,16 @@ import java.lang.reflect.Modifier
 import java.util.jar.JarFile
 
 /**
- * Runs the functions of a jar on the networks that standard input describes, for `./collektive compare-runtimes`. The arguments are the
- * jar, which is also on the class path, and the name of the runtime.
+ * Runs the functions of a jar on networks for `./collektive compare-runtimes`. The arguments are the jar, which is also on the class path,
+ * and the name of the runtime.
  *
- * Prints the names of the functions, one a line, and an empty line. Then answers each request: `FUNCTION SEED LOSS`, one line
- * `NODES|LINKS|DUE` for each tick such as `0 1 2|0-1 1-2|0 2`, and an empty line. The answer has one line `TICK NODE RESULT` for each
+ * Prints the names of the functions, one per line, and an empty line. Then reads requests from standard input: `FUNCTION SEED LOSS`, one
+ * line `NODES|LINKS|DUE` per tick such as `0 1 2|0-1 1-2|0 2`, and an empty line. For each request, prints one line `TICK NODE RESULT` per
  * round, and an empty line.
  */
-public fun main(arguments: Array<String>) {
+internal fun main(arguments: Array<String>) {
     val output = System.out
-    // Programs may print.
+    // Programs may write to standard output.
     System.setOut(System.err)
     val (jar, runtime) = arguments
     val functions = functions(File(jar)).associateBy { it.name }
@@ -38,7 +38,7 @@ public fun main(arguments: Array<String>) {
     }
 }
 
-/** The public top-level functions in [jar] that need only the aggregate and the device. */
+/** Returns the public top-level functions in [jar] whose parameters are the aggregate and, optionally, the device. */
 private fun functions(jar: File): List<Method> {
     val names = JarFile(jar).use { file -> file.entries().toList().map { it.name } }
     return names.filter { it.endsWith("Kt.class") && !it.startsWith("org/collektive/links/") }
@@ -51,9 +51,9 @@ private val SIGNATURES = listOf(listOf(Aggregate::class.java), listOf(Aggregate:
 
 private fun TestNetwork.run(tick: String, function: Method): Map<Int, Result<Any?>> {
     val (nodeIds, linkEnds, dueIds) = tick.split('|').map { part -> part.split(' ').filter { it.isNotEmpty() } }
-    val wanted = nodeIds.mapTo(sortedSetOf(), String::toInt)
-    (nodes - wanted).forEach(::remove)
-    (wanted - nodes).forEach { add(it) }
+    val ids = nodeIds.mapTo(sortedSetOf(), String::toInt)
+    (nodes - ids).forEach(::remove)
+    (ids - nodes).forEach { add(it) }
     val links = linkEnds.mapTo(HashSet()) { link -> link.split('-').map(String::toInt).let { it[0] to it[1] } }
     for (a in nodes) for (b in nodes.filter { it > a }) if (a to b in links) link(a, b) else unlink(a, b)
     return outcomes(dueIds.mapTo(HashSet(), String::toInt)) { device ->
