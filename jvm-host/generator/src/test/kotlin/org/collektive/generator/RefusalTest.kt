@@ -126,7 +126,8 @@ internal class RefusalTest {
             type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
                 "user.fbs:4: B.is: C# cannot use this name where the struct is nested; rename the field",
             type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
-            type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to "user.fbs:1: the file_identifier may have only ASCII letters and digits",
+            type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to
+                "user.fbs:1: the file_identifier may have only ASCII letters and digits",
         )
         for ((schema, message) in refusals) assertContains(refusal(schema), message, message = schema)
     }
@@ -162,7 +163,8 @@ internal class RefusalTest {
         val all = (0 until 60).joinToString(" ") { "t$it: T$it;" }
         assertContains(refusal(user(wide, all)), "its tables have 3660 fields, more than 3000")
         val numbers = (0 until 200).joinToString(" ") { "f$it: long;" }
-        assertContains(refusal(user("struct Big { $numbers }", "big: Big;")), "Big: it has more numbers than a method can have parameters, 240")
+        val big = user("struct Big { $numbers }", "big: Big;")
+        assertContains(refusal(big), "Big: it has more numbers than a method can have parameters, 240")
     }
 
     @Test
