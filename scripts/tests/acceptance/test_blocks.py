@@ -12,7 +12,6 @@ from build.places import ROOT
 # Blocks without a test, and the reason.
 EXEMPT = {
     ("Documentation~/from-collektive.md", "kts"): "needs Collektive's artefacts, which the tests do not fetch",
-    ("docs/performance.md", "text"): "a report of measurements; the tutorial on profiling runs the command, and its test looks at the lines",
 }
 # Options of Unity's players in pages.
 UNITY = {"-batchmode", "-nographics"}

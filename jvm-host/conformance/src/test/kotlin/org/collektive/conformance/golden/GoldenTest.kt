@@ -13,7 +13,7 @@ import kotlin.test.assertEquals
 
 /**
  * Compares our answers with those of Collektive 28.3.2, in every round of every golden program. Programs that are meant to differ
- * are left out; `docs/decisions.md` says why they are.
+ * are left out; `Documentation~/from-collektive.md` lists the reasons.
  */
 class GoldenTest {
     @Test
