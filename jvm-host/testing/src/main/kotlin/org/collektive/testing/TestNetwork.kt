@@ -40,12 +40,8 @@ import java.util.concurrent.TimeUnit
  * @param loss probability that a message is lost, 0..1.
  * @throws IllegalStateException when the runtime is not on the class path.
  */
-public class TestNetwork(
-    seed: Long = 1,
-    private val deltaTime: Double = 1.0,
-    runtime: String? = null,
-    loss: Double = 0.0,
-) : AutoCloseable {
+public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, runtime: String? = null, loss: Double = 0.0) :
+    AutoCloseable {
     private val engine = Engine(EngineSettings(seed, network = NetworkModel(loss = loss)), runtimes(runtime))
     private val program = Program()
     private val tick = Tick()
