@@ -84,8 +84,8 @@ suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not 
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests UNLOCKED
-  SCRIPT experiments.py --junitxml RESULTS/pytest.xml --durations 8)
-suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py")
+  SCRIPT experiments.py --junitxml RESULTS/pytest.xml)
+suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
 suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED
   SCRIPT chaos/chaos.py 6 3 3 1 12 --results RESULTS/chaos.xml)

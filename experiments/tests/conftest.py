@@ -61,6 +61,19 @@ class Project:
         return dict(zip(table["run"], table["digest"]))
 
 
+def processes(*words: str) -> list[int]:
+    """Returns the ids of processes whose command lines contain all words."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            line = Path(f"/proc/{pid}/cmdline").read_bytes()
+        except OSError:
+            continue
+        if all(word.encode() in line for word in words):
+            found.append(int(pid))
+    return found
+
+
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
     return Project(tmp_path)

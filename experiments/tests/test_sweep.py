@@ -13,7 +13,7 @@ from typing import Any
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project
+from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
 from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
@@ -33,15 +33,7 @@ def await_runs(project: Project, count: int, out: str = "out") -> None:
 
 def workers(project: Project) -> list[int]:
     """Returns the ids of processes that run scenarios of the project."""
-    found = []
-    for pid in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            words = Path(f"/proc/{pid}/cmdline").read_bytes()
-        except OSError:
-            continue
-        if b"serve" in words and str(project.folder).encode() in words:
-            found.append(int(pid))
-    return found
+    return processes("serve", str(project.folder))
 
 
 def await_no_worker(project: Project) -> None:

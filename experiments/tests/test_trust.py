@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest import COLLEKTIVE, EIGHT, Project
+from conftest import COLLEKTIVE, EIGHT, Project, processes
 
 from collektive_experiments import read, tables
 from collektive_experiments.__main__ import main
@@ -141,7 +141,7 @@ def test_processes_of_scripts_end_with_the_sweep(project: Project) -> None:
     command = [COLLEKTIVE, "sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
     result = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert result.returncode == 0, result.stderr
-    assert not [path for path in Path("/proc").glob("[0-9]*/cmdline") if f"{project.folder}/child".encode() in path.read_bytes()]
+    assert not processes(f"{project.folder}/child")
 
 
 def test_a_folder_is_free_once_a_sweep_has_failed(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
