@@ -1,7 +1,10 @@
 """Sweeps, tables and figures of Collektive for Unity."""
 from .experiment import Experiment, Run, read
-from .figures import at_end, over_time, plot
+from .figure_options import FigureOptions, read_options
+from .figures import at_end, draw, over_time, plot
 from .positions import ExperimentError
-from .results import Results, compare, interval, load
+from .results import Results, compare, load
+from .statistics import holm, interval, kaplan_meier
 
-__all__ = ["Experiment", "ExperimentError", "Results", "Run", "at_end", "compare", "interval", "load", "over_time", "plot", "read"]
+__all__ = ["Experiment", "ExperimentError", "FigureOptions", "Results", "Run", "at_end", "compare", "draw", "holm", "interval", "kaplan_meier", "load",
+           "over_time", "plot", "read", "read_options"]

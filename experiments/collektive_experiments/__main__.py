@@ -6,7 +6,8 @@ import sys
 from typing import NoReturn
 
 from . import experiment as experiments
-from .options import add_sweep_arguments
+from . import figure_options
+from .options import add_plot_arguments, add_sweep_arguments
 from .positions import ExperimentError, Located
 from .slurm import run_task, write_job
 from .store import Store
@@ -33,7 +34,7 @@ def main(words: list[str]) -> int:
     task.add_argument("folder")
     task.add_argument("index", type=int)
     plotting = commands.add_parser("plot")
-    plotting.add_argument("folder")
+    add_plot_arguments(plotting)
     options = parser.parse_args(words)
     try:
         if options.command == "plot":
@@ -95,7 +96,10 @@ def _line(message: str) -> str:
 def _plot(options: argparse.Namespace) -> int:
     # Importing Matplotlib takes half a second.
     from .figures import plot
-    for path in plot(options.folder):
+    given = {option: value for option in figure_options.KEYS if (value := getattr(options, option)) is not None}
+    requested = figure_options.read_options(given, lambda option, problem: ExperimentError(f"plot: --{option} {problem}")) if given else None
+    experiment = experiments.read(options.experiment) if options.experiment else None
+    for path in plot(options.folder, options=requested, experiment=experiment):
         print(path)
     return 0
 

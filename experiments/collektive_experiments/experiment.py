@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+from .figure_options import FigureOptions, check_keys, read_options
 from .positions import ExperimentError, Located
 
-KEYS = ("version", "scenario", "vary", "zip", "set", "measure")
+KEYS = ("version", "scenario", "vary", "zip", "set", "measure", "figures", "labels")
 VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
@@ -53,6 +54,10 @@ class Experiment:
     """Keys that are the same in all runs."""
     measure: dict[str, str]
     """The metrics in tables and figures, in order, with their units. Empty for all metrics of the scene."""
+    figures: list[FigureOptions] = field(hash=False)
+    """Figures in addition to those of each metric."""
+    labels: dict[str, str] = field(hash=False)
+    """Texts for figures, by metric, key or value."""
     located: Located = field(repr=False)
 
     @property
@@ -127,7 +132,8 @@ def read(path: str) -> Experiment:
         raise located.error(f"the scenario file '{scenario}' does not exist", "scenario")
     if not isinstance(Located(scenario).root, dict):
         raise ExperimentError(f"{scenario}: the file must contain one JSON object")
-    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), _read_set(located), _read_measure(located), located)
+    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), _read_set(located), _read_measure(located),
+                            read_figures(located), _read_labels(located), located)
     _check(experiment)
     return experiment
 
@@ -185,6 +191,39 @@ def _read_measure(located: Located) -> dict[str, str]:
     raise located.error("'measure' must be a list of metrics, or an object with the unit of each metric", "measure")
 
 
+def read_figures(located: Located) -> list[FigureOptions]:
+    """Reads `figures` of an experiment file or of a sweep's settings."""
+    figures = located.root.get("figures", [])
+    if not isinstance(figures, list):
+        raise located.error("'figures' must be a list of objects", "figures")
+    return [_read_figure(located, index, figure) for index, figure in enumerate(figures)]
+
+
+def _read_figure(located: Located, index: int, figure: Any) -> FigureOptions:
+    if not isinstance(figure, dict):
+        raise located.error(f"'figures[{index}]' is {json.dumps(figure)}, it must be an object", "figures", index)
+    return read_options(figure, lambda option, problem: located.error(f"'figures[{index}].{option}' {problem}", "figures", index, option))
+
+
+def _read_labels(located: Located) -> dict[str, str]:
+    labels = located.root.get("labels", {})
+    if not isinstance(labels, dict):
+        raise located.error("'labels' must be an object with the text of each metric, key or value", "labels")
+    for name, label in labels.items():
+        if not isinstance(label, str) or not label.strip() or not label.isprintable():
+            raise located.error(f"'labels.{name}' is {json.dumps(label)}, it must be a text of one line", "labels", name)
+    return dict(labels)
+
+
+def check_labels(experiment: Experiment, metrics: list[str]) -> None:
+    """Checks that each label has a metric, key or value."""
+    known = {*metrics, *experiment.keys, *(text(value) for _, values in experiment.product + experiment.together for value in values)}
+    for name in experiment.labels:
+        if name not in known:
+            raise experiment.located.error(f"'labels.{name}' is unknown: it is not one of the varied keys ({', '.join(experiment.keys)}), their values, or the "
+                                           f"metrics ({', '.join(metrics)})", "labels", name)
+
+
 def _check(experiment: Experiment) -> None:
     located = experiment.located
     seen: dict[str, str] = {}
@@ -201,6 +240,8 @@ def _check(experiment: Experiment) -> None:
         raise located.error(f"the experiment has {experiment.count:,} runs; the maximum is {MAX_RUNS:,}", "vary")
     for key, values in experiment.product:
         _reject_duplicates(located, "vary", [key], [(value,) for value in values])
+    for options in experiment.figures:
+        check_keys(options, dict(experiment.product + experiment.together))
     if experiment.together:
         _reject_duplicates(located, "zip", [key for key, _ in experiment.together], list(zip(*(values for _, values in experiment.together))))
 

@@ -1,110 +1,390 @@
-"""Plots metrics of a sweep over time and at the end, as SVG and PDF files and one HTML page."""
+"""Plots metrics of a sweep as SVG and PDF files and one HTML page."""
 import hashlib
 import html
 import io
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import matplotlib
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter, PercentFormatter
 
 from . import files
-from .experiment import text
-from .positions import ExperimentError
-from .results import Results, compare, interval, label, load
+from .experiment import Experiment, check_labels, read_figures, text
+from .figure_options import CONVERGED, TIME, FigureOptions, check_keys, check_metrics
+from .positions import ExperimentError, Located
+from .results import VALUE, Results, compare, label, load
+from .statistics import interval, kaplan_meier
 
 # The colour-blind-safe palette of Okabe and Ito, without yellow, which is too pale for lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", "--", "-.", ":")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*", "<", ">")
+HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++", "oooo", "----", "||||", "****")
 COLUMNS = 4
+# PDF files contain TrueType fonts. Publishers refuse Matplotlib's default, Type 3.
 STYLE: Any = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.3, "svg.fonttype": "none",
-         "svg.hashsalt": "collektive", "legend.frameon": False, "text.parse_math": False}
+         "svg.hashsalt": "collektive", "legend.frameon": False, "text.parse_math": False, "pdf.fonttype": 42, "axes.axisbelow": True}
+SMALL: Any = {"font.size": 8, "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.title_fontsize": 7,
+              "lines.linewidth": 1.2, "lines.markersize": 4, "axes.linewidth": 0.6, "grid.linewidth": 0.4, "hatch.linewidth": 0.5,
+              "legend.handlelength": 2.6, "legend.columnspacing": 1.2, "legend.borderaxespad": 0.2, "figure.constrained_layout.w_pad": 0.02,
+              "figure.constrained_layout.h_pad": 0.02}
+# STIX resembles the text fonts of both publishers and is a part of Matplotlib, so figures are equal on all machines.
+PAPER: Any = {**SMALL, "font.family": "STIXGeneral", "svg.fonttype": "path"}
+STYLES: dict[str, Any] = {
+    "plain": SMALL,
+    "ieee": {**PAPER, "axes.spines.top": True, "axes.spines.right": True, "xtick.direction": "in", "ytick.direction": "in"},
+    "acm": PAPER,
+}
 MAX_PANELS = 24
+MAX_POINTS = 20
+"""Up to this number of runs, single points are drawn over a box plot."""
+CENSORED = "censored\0"
+"""A column that tells censored runs, whose name no metric has."""
+GOLDEN_RATIO = 0.618034
+"""Spreads the points of a box plot."""
+MAX_CELLS = 64
+"""Up to this number of cells, a heat map contains numbers."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A rendered figure."""
+    caption: str
+    svg: bytes
+    pdf: bytes
+
+    def write(self, path: str) -> Iterator[str]:
+        """Writes both files. Yields their paths."""
+        for ending, content in ((".svg", self.svg), (".pdf", self.pdf)):
+            with files.create(path + ending) as file:
+                file.write(content)
+            files.publish(path + ending)
+            yield path + ending
+
+    def markup(self) -> str:
+        """Returns the SVG element without the XML header."""
+        return self.svg.decode().split("?>", 1)[1].split(".dtd\">", 1)[-1]
 
 
 @matplotlib.rc_context(STYLE)
-def plot(folder: str, metrics: Sequence[str] | None = None) -> list[str]:
+def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptions | None = None, experiment: Experiment | None = None) -> list[str]:
     """
-    Writes `figures/METRIC-time` and `figures/METRIC-end` as SVG and PDF, and `figures.html` with all figures and captions, to the folder of a
-    sweep. Colours show the values of the first key that varies, and panels the combinations of the other keys. Returns the paths.
+    Writes figures of a sweep as SVG and PDF to `figures/` in its folder, and returns their paths.
+
+    With `options`, these are the requested figures. Otherwise they are `METRIC-time` and `METRIC-end` of each metric, with colours for the first
+    key that varies and panels for the others, the figures of the experiment file, and `figures.html` with all figures and captions. `experiment`
+    replaces the figures and labels that the experiment file had during the sweep.
     """
-    results = load(folder)
+    results = load(folder, experiment and experiment.labels)
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete run to plot: the message of each is in runs.parquet")
-    paths, sections = [], []
+    requests = [options] if options else _requests(folder, experiment)
+    for request in requests:
+        check(results, request)
+    if experiment:
+        check_labels(experiment, metrics_at_end(results))
+    drawn: dict[str, Drawing] = {}
+    tables: dict[str, str] = {}
+    for request in requests:
+        for name, figure, caption in draw(results, request):
+            if name in drawn:
+                raise request.fail("metric", f"and the other options describe a figure that exists: '{name}'; remove one")
+            drawn[name] = _render(figure, caption, STYLES[request.style])
+    if not options:
+        for metric in metrics or [*results.metrics, *results.convergence_times]:
+            if metric in results.metrics:
+                drawn[f"{file_name(metric)}-time"] = _render(*over_time(results, metric), {})
+            last = f"{file_name(metric)}-end"
+            drawn[last] = _render(*at_end(results, metric), {})
+            tables[last] = _table(results, metric)
     files.make(os.path.join(folder, "figures"))
-    converged = [name for name in results.runs.columns if name.startswith("converged.")]
-    for metric in list(metrics or results.metrics) + ([] if metrics else converged):
-        figures = {}
-        if metric not in converged:
-            figures["time"] = over_time(results, metric)
-        figures["end"] = at_end(results, metric)
-        for kind, (figure, caption) in figures.items():
-            name = os.path.join(folder, "figures", f"{_file_name(metric)}-{kind}")
-            for ending in (".svg", ".pdf"):
-                with files.create(name + ending) as file:
-                    figure.savefig(file, format=ending[1:], metadata={"Date": None} if ending == ".svg" else {"CreationDate": None})
-                files.publish(name + ending)
-                paths.append(name + ending)
-            sections.append(f"<figure>{_svg(figure)}<figcaption>{html.escape(caption)}</figcaption></figure>")
-        sections.append(_table(results, metric))
+    paths = [path for name, drawing in drawn.items() for path in drawing.write(os.path.join(folder, "figures", name))]
+    if options:
+        return paths
+    sections = [f"<figure>{drawing.markup()}<figcaption>{html.escape(drawing.caption)}</figcaption></figure>{tables.get(name, '')}"
+                for name, drawing in drawn.items()]
     page = os.path.join(folder, "figures.html")
     files.write(page, _page(os.path.basename(os.path.abspath(folder)), results, sections))
     return [*paths, page]
 
 
-def _file_name(metric: str) -> str:
+def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]:
+    """Returns the figures of the experiment file."""
+    if experiment:
+        return experiment.figures
+    return read_figures(Located(os.path.join(folder, "sweep.json")))
+
+
+def _render(figure: Figure, caption: str, style: dict[str, Any]) -> Drawing:
+    """Renders a figure, with the style in which it was drawn: Matplotlib creates ticks and fonts when it renders."""
+    svg, pdf = io.BytesIO(), io.BytesIO()
+    with matplotlib.rc_context(style):
+        figure.savefig(svg, format="svg", metadata={"Date": None})
+        figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
+    return Drawing(caption, svg.getvalue(), pdf.getvalue())
+
+
+def file_name(metric: str) -> str:
     """Returns a file name for a metric. Adds a hash if the metric's name has characters that file names cannot have."""
-    name = re.sub(r"[^A-Za-z0-9_.-]", "_", metric)[:100]
+    name = re.sub(r"[^A-Za-z0-9_.,=-]", "_", metric)[:100]
     return name if name == metric and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
 
 
-@matplotlib.rc_context(STYLE)
+def check(results: Results, options: FigureOptions) -> None:
+    """Checks whether the sweep has the keys, metrics and values of a requested figure."""
+    check_keys(options, {key: [value.item() if hasattr(value, "item") else value for value in results.runs[key].dropna().unique()]
+                         for key in results.keys})
+    check_metrics(options, metrics_at_end(results), results.metrics)
+    for metric in options.metrics:
+        values = results.series[metric] if options.x == TIME else results.values(metric)
+        if values.isna().all():
+            raise options.fail("metric", f"is '{metric}', which has no value in any run")
+        if ("x" if options.kind == "ecdf" else "y") in options.log and values.min() <= 0:
+            raise options.fail("log", f"is '{options.log}', but '{metric}' has the value {values.min():g}, and a logarithmic axis needs values above 0")
+
+
+def metrics_at_end(results: Results) -> list[str]:
+    """Returns the columns of numbers that each run has at its end, metrics first."""
+    known = results.metrics + results.convergence_times
+    return known + [name for name in results.runs.select_dtypes("number").columns if name not in {*known, *results.keys, "seed"}]
+
+
+def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
+    """Draws the requested figure of each metric, and of each combination of the keys that it does not show. Yields name, figure and caption."""
+    for metric in options.metrics:
+        data = results.series if options.x == TIME else results.complete
+        others = _other_keys(data, results.configuration, [key for key in (options.x, options.by) if key and key != TIME])
+        combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
+        if len(combinations) > MAX_PANELS:
+            raise options.fail("by", f"leaves {len(combinations)} combinations of {', '.join(others)}, each with its own figure; the maximum is {MAX_PANELS}")
+        for values, part in combinations:
+            rest = [f"{key}={text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(others, values)]
+            name = "-".join([metric, options.kind, *([options.x] if options.x else []), *([options.by] if options.by else []), *rest])
+            with matplotlib.rc_context({**STYLE, **STYLES[options.style]}):
+                figure = Figure(figsize=options.size, layout="constrained")
+                caption = _draw(figure, results, part, metric, options)
+            yield file_name(name), figure, caption + (f" {label(values, others)}." if others else "")
+
+
+def _other_keys(data: pd.DataFrame, keys: list[str], shown: list[str]) -> list[str]:
+    """Returns the keys that a figure does not show, without those that depend on the shown ones, such as keys of the same `zip`."""
+    return [key for key in keys if key not in shown and (data.groupby(shown)[key].nunique().max() if shown else data[key].nunique()) > 1]
+
+
+def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> str:
+    """Draws a figure of one pair of axes. Returns its caption."""
+    axes = figure.add_subplot()
+    if options.kind == "heat":
+        counts = _heat(figure, axes, results, data, metric, options)
+        return _caption(results, data, metric, "heat", options.x, counts)
+    if options.kind == "ecdf":
+        counts = _distribution(axes, results, data, metric, options.by)
+    elif options.kind == "box":
+        counts = _boxes(axes, results, data, metric, options.x, options.by)
+    elif options.x == TIME:
+        counts = _line_over_time(axes, results, data, metric, options.by)
+    else:
+        counts = _line(axes, results, data, metric, str(options.x), options.by)
+    if options.kind == "ecdf":
+        axes.set(xlabel=_axis(results, metric), ylabel="converged runs" if metric.startswith(CONVERGED) else "runs", ylim=(-0.02, 1.02))
+        axes.yaxis.set_major_formatter(PercentFormatter(1, 0))
+    else:
+        axes.set(xlabel="simulated time [s]" if options.x == TIME else _axis(results, str(options.x)), ylabel=_axis(results, metric))
+    for name, set_scale in (("x", axes.set_xscale), ("y", axes.set_yscale)):
+        if name in options.log:
+            set_scale("log")
+    if options.kind == "line" and options.x != TIME and "x" in options.log:
+        ticks = sorted(data[options.x].unique())
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.xaxis.set_minor_formatter(NullFormatter())
+    (axes.set_xlim if options.kind == "ecdf" else axes.set_ylim)(*options.range)
+    if options.by:
+        _add_legend(figure, axes, results, options.by)
+    return _caption(results, data, metric, options.kind, options.x, counts)
+
+
+def _add_legend(figure: Figure, axes: Axes, results: Results, by: str) -> None:
+    """Adds a legend above the axes, with as many columns as fit."""
+    handles, labels = axes.get_legend_handles_labels()
+    # Names explain themselves, numbers do not.
+    title = None if pd.api.types.is_string_dtype(results.runs[by]) else _axis(results, by)
+    for columns in range(len(labels), 0, -1):
+        legend = figure.legend(handles, labels, title=title, loc="outside upper center", ncols=columns)
+        if columns == 1 or legend.get_window_extent().width <= figure.bbox.width:
+            return
+        legend.remove()
+
+
+def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:
+    counts = set()
+    parts = _split(results, data, by)
+    for index, (name, runs) in enumerate(parts):
+        table = runs.pivot_table(index="run", columns="second", values=metric)
+        counts.add(len(table))
+        if table.empty:
+            continue
+        bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
+        look = _look(index)
+        # Markers of different lines are at different times.
+        step = max(1, len(table.columns) // 6)
+        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // len(parts), step), **look)
+        axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=look["color"], alpha=0.2, linewidth=0)
+    return counts
+
+
+def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str, by: str | None) -> set[int]:
+    counts = set()
+    values, censored = results.values(metric), results.censored(metric)
+    for index, (name, runs) in enumerate(_split(results, data, by)):
+        rows = []
+        for place, part in runs.groupby(x):
+            found = values[part.index].dropna().to_numpy(float)
+            counts.add(len(found))
+            if len(found):
+                rows.append((place, found.mean(), *interval(found), censored[part.index].any()))
+        if not rows:
+            continue
+        places, means, low, high, is_bound = (np.array(column) for column in zip(*rows))
+        look = _look(index)
+        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=name, capsize=2, **look)
+        axes.plot(places[is_bound], means[is_bound], linestyle="", marker=look["marker"], color=look["color"], markerfacecolor="white", zorder=3)
+    return counts
+
+
+def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str | None, by: str | None) -> set[int]:
+    counts: set[int] = set()
+    labelled: set[str] = set()
+    values, censored = results.values(metric), results.censored(metric)
+    groups = _split(results, data, x)
+    names = [name for name, _ in _split(results, data, by)]
+    width = 0.8 / len(names)
+    for place, (_, group) in enumerate(groups):
+        for name, part in _split(results, group, by):
+            index = names.index(name)
+            # Sorted, so that neighbours are at different places.
+            sample = values[part.index].dropna().sort_values(kind="stable")
+            counts.add(len(part))
+            colour = COLOURS[(index if by else place) % len(COLOURS)]
+            at = place + (index - (len(names) - 1) / 2) * width
+            is_few = len(sample) <= MAX_POINTS
+            lines = {"color": colour}
+            box = axes.boxplot([sample.to_numpy(float)], positions=[at], widths=0.8 * width, patch_artist=True, showfliers=not is_few, whiskerprops=lines,
+                               capprops=lines, medianprops={"color": "black"}, flierprops={"markersize": 3}, manage_ticks=False)
+            box["boxes"][0].set(facecolor=to_rgba(colour, 0.35), edgecolor=colour, hatch=HATCHES[index] if by else "",
+                                label="" if name in labelled else name)
+            labelled.add(name)
+            if is_few:
+                spots = at + 0.5 * width * ((np.arange(len(sample)) * GOLDEN_RATIO) % 1 - 0.5)
+                ended = censored[sample.index].to_numpy(bool)
+                axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
+                axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
+    labels = [name for name, _ in groups]
+    is_long = sum(map(len, labels)) > 30
+    axes.set_xticks(range(len(groups)), labels, **({"rotation": 30, "ha": "right"} if is_long else {}))
+    axes.set_xlim(-0.6, len(groups) - 0.4)
+    axes.grid(False, axis="x")
+    return counts
+
+
+def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:
+    counts = set()
+    values, censored = results.values(metric), results.censored(metric)
+    low_end, end = values[data.index].min(), values[data.index].max()
+    start = 0 if metric.startswith(CONVERGED) else low_end - 0.03 * (end - low_end)
+    for index, (name, runs) in enumerate(_split(results, data, by)):
+        sample = values[runs.index].dropna()
+        is_censored = censored[sample.index].to_numpy(bool)
+        counts.add(len(sample))
+        times, *curves = kaplan_meier(sample.to_numpy(float), ~is_censored)
+        places = np.array([start, *times, end])
+        shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
+        look = _look(index)
+        axes.step(places, shares, where="post", label=name, markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **look)
+        axes.fill_between(places, low, high, step="post", color=look["color"], alpha=0.15, linewidth=0)
+        ends = np.unique(sample[is_censored])
+        axes.plot(ends, shares[np.searchsorted(places, ends, side="right") - 1], linestyle="", marker="|", markersize=8, color=look["color"], zorder=3)
+    return counts
+
+
+def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> set[int]:
+    x, y = str(options.x), str(options.by)
+    groups = data.assign(**{VALUE: results.values(metric), CENSORED: results.censored(metric)}).groupby([x, y], sort=False)
+    rows, columns = _order(data[y]), _order(data[x])
+    means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean(), groups[CENSORED].any()))
+    low, high = options.range
+    norm = Normalize(means.min().min() if low is None else low, means.max().max() if high is None else high)
+    image = axes.imshow(means, aspect="auto", origin="lower" if pd.api.types.is_numeric_dtype(data[y]) else "upper", cmap="viridis", norm=norm)
+    axes.set_xticks(range(len(columns)), [_value(results, value) for value in columns])
+    axes.set_yticks(range(len(rows)), [_value(results, value) for value in rows])
+    axes.set(xlabel=_axis(results, x), ylabel=_axis(results, y))
+    axes.grid(False)
+    figure.colorbar(image, ax=axes, label=_axis(results, metric), pad=0.02)
+    for (row, column), mean in np.ndenumerate(means.to_numpy(float)):
+        if np.isfinite(mean) and means.size <= MAX_CELLS:
+            number = f"{mean:.2g}" if abs(mean) < 100 else f"{mean:.0f}"
+            axes.text(column, row, ("≥" if bounds.iat[row, column] else "") + number, ha="center", va="center",
+                      fontsize=matplotlib.rcParams["font.size"] - 2, color="white" if norm(mean) < 0.6 else "black")
+    return set(groups[VALUE].count())
+
+
+def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: str | None, counts: set[int]) -> str:
+    title = _text(results, metric)
+    runs = f"{_runs(counts)} per configuration"
+    if kind == "line":
+        caption = f"{title} {'over simulated time' if x == TIME else f'against {_text(results, str(x))}'}: mean and 95 % bootstrap interval of {runs}."
+    elif kind == "heat":
+        caption = f"Mean {title} of {runs}."
+    elif kind == "ecdf":
+        estimate = "Kaplan-Meier estimate" if metric.startswith(CONVERGED) else "Empirical distribution"
+        caption = f"{estimate} of {title} of {runs}, with 95 % intervals."
+    else:
+        when = "" if metric.startswith(CONVERGED) else " at the end"
+        points = "points for all runs" if max(counts, default=0) <= MAX_POINTS else "values beyond"
+        caption = f"{title}{when} of {runs}: median, quartiles, whiskers to the last value within 1.5 interquartile ranges, and {points}."
+    if x == TIME:
+        return caption
+    censored, missing = results.censored(metric)[data.index].sum(), results.values(metric)[data.index].isna().sum()
+    if censored:
+        mark = {"line": "Hollow markers", "heat": "Cells with ≥", "box": "Triangles", "ecdf": "Vertical marks"}[kind]
+        effect = "are censored" if kind == "ecdf" else "count with their length"
+        caption += f" {mark}: {censored} of {len(data)} runs ended before they converged and {effect}."
+    return caption + (f" {missing} runs without a value are omitted." if missing else "")
+
+
+def _look(index: int) -> dict[str, Any]:
+    """Returns how a line differs from others, in colour and without."""
+    return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
+
+
+@matplotlib.rc_context({**STYLE, "lines.markersize": 4})
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
     """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and its caption."""
-    data = results.series
-    figure, panels, colour, groups = _panels(results, data)
-    counts = set()
+    figure, panels, colour, groups = _panels(results, results.series)
+    counts: set[int] = set()
     for axes, group in zip(panels, groups):
-        for index, (value, runs) in enumerate(_split(group, colour)):
-            table = runs.pivot_table(index="run", columns="second", values=metric)
-            counts.add(len(table))
-            if table.empty:
-                continue
-            bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
-            shade = COLOURS[index % len(COLOURS)]
-            axes.plot(table.columns, table.mean(), label=value, color=shade, linestyle=LINES[index // len(COLOURS) % len(LINES)])
-            axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=shade, alpha=0.2, linewidth=0)
+        counts |= _line_over_time(axes, results, group, metric, colour)
         axes.set_xlabel("simulated time [s]")
-    _finish(figure, panels, _axis(results, metric), colour, lines=True)
-    return figure, f"{_title(metric)} over simulated time: mean and 95 % bootstrap interval of {_runs(counts)} per configuration."
+    _finish(figure, panels, results, metric, colour)
+    return figure, _caption(results, results.series, metric, "line", TIME, counts)
 
 
 @matplotlib.rc_context(STYLE)
 def at_end(results: Results, metric: str) -> tuple[Figure, str]:
     """Draws box plots of a metric's values at the end of the runs. Returns the figure and its caption."""
     figure, panels, colour, groups = _panels(results, results.complete)
-    counts, missing = set(), 0
+    counts: set[int] = set()
     for axes, group in zip(panels, groups):
-        parts = list(_split(group, colour))
-        for index, (_, runs) in enumerate(parts):
-            values = runs[metric].dropna().to_numpy(float)
-            counts.add(len(runs))
-            missing += len(runs) - len(values)
-            box = axes.boxplot([values], positions=[index], widths=0.6, patch_artist=True, medianprops={"color": "black"}, flierprops={"markersize": 3})
-            box["boxes"][0].set(facecolor=COLOURS[index % len(COLOURS)], alpha=0.6)
-        axes.set_xticks(range(len(parts)), [value for value, _ in parts], rotation=30, ha="right")
-        axes.set_xlim(-0.6, len(parts) - 0.4)
-    _finish(figure, panels, _axis(results, metric), colour, lines=False)
-    rest = f" {missing} runs without a value are omitted." if missing else ""
-    when = "" if metric.startswith("converged.") else " at the end"
-    return figure, (f"{_title(metric)}{when} of {_runs(counts)} per configuration: median, quartiles, whiskers to the last value within 1.5 "
-                    f"interquartile ranges, and values beyond.{rest}")
+        counts |= _boxes(axes, results, group, metric, colour, None)
+    _finish(figure, panels, results, metric, None)
+    return figure, _caption(results, results.complete, metric, "box", colour, counts)
 
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame]]:
@@ -123,41 +403,54 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts]
 
 
-def _split(group: pd.DataFrame, colour: str | None) -> list[tuple[str, pd.DataFrame]]:
-    if colour is None:
-        return [("all runs", group)]
-    return [(text(value.item() if hasattr(value, "item") else value), part) for value, part in group.groupby(colour, sort=False)]
+def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[str, pd.DataFrame]]:
+    """Returns the parts of a table with each value of a key, and the names of the values."""
+    if key is None:
+        return [("all runs", data)]
+    return [(_value(results, value), data[data[key] == value]) for value in _order(data[key])]
 
 
-def _finish(figure: Figure, panels: list[Axes], axis: str, colour: str | None, lines: bool) -> None:
+def _order(values: "pd.Series[Any]") -> list[Any]:
+    """Returns the different values: numbers sorted, others in the order of the experiment."""
+    found = values.dropna().unique().tolist()
+    return sorted(found) if pd.api.types.is_numeric_dtype(values) else found
+
+
+def _finish(figure: Figure, panels: list[Axes], results: Results, metric: str, lines: str | None) -> None:
+    """Adds the label of the metric, and a legend for the key of lines."""
     for index, axes in enumerate(panels):
         if index % COLUMNS == 0:
-            axes.set_ylabel(axis)
-    if lines and colour:
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, title=colour, loc="outside upper center", ncols=len(labels))
+            axes.set_ylabel(_axis(results, metric))
+    if lines:
+        _add_legend(figure, panels[0], results, lines)
 
 
-def _axis(results: Results, metric: str) -> str:
-    unit = "s" if metric.startswith("converged.") else results.units.get(metric, "")
-    return _title(metric) + (f" [{unit}]" if unit else "")
+def _axis(results: Results, name: str) -> str:
+    """Returns the label of a metric or key, with its unit."""
+    if name in results.labels:
+        return results.labels[name]
+    unit = "s" if name.startswith(CONVERGED) else results.units.get(name, "")
+    return _text(results, name) + (f" [{unit}]" if unit else "")
 
 
-def _title(metric: str) -> str:
-    if metric.startswith("converged."):
-        return f"time to convergence of {_title(metric.removeprefix('converged.'))}"
-    return re.sub(r"[\x00-\x1f\x7f_]", " ", metric)
+def _text(results: Results, name: str) -> str:
+    """Returns the label of a metric or key, without its unit."""
+    if name in results.labels:
+        return re.sub(r" *\[[^\]]*\]$", "", results.labels[name])
+    if name.startswith(CONVERGED):
+        return f"time to convergence of {_text(results, name.removeprefix(CONVERGED))}"
+    return re.sub(r"[\x00-\x1f\x7f_]", " ", name)
+
+
+def _value(results: Results, value: Any) -> str:
+    """Returns the label of a key's value."""
+    name = text(value)
+    return results.labels.get(name, name)
 
 
 def _runs(counts: set[int]) -> str:
     low, high = min(counts, default=0), max(counts, default=0)
     return f"{high} run" + ("s" if high != 1 else "") if low == high else f"{low} to {high} runs"
-
-
-def _svg(figure: Figure) -> str:
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue().split("?>", 1)[1].split(".dtd\">", 1)[-1]
 
 
 def _table(results: Results, metric: str) -> str:
@@ -167,7 +460,7 @@ def _table(results: Results, metric: str) -> str:
     if effects.empty:
         return ""
     table = effects.to_html(index=False, float_format=lambda number: f"{number:.3g}", border=0)
-    return f"<details><summary>{html.escape(_title(metric))}: effect sizes</summary>{table}</details>"
+    return f"<details><summary>{html.escape(_text(results, metric))}: effect sizes</summary>{table}</details>"
 
 
 def _page(title: str, results: Results, sections: list[str]) -> str:

@@ -20,6 +20,20 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     where.add_argument("--slurm", action="store_true", help="write an array job for the remaining runs, slurm.sh, instead of running them")
 
 
+def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the arguments of ./collektive plot. The package checks their values, which may also be in an experiment file."""
+    parser.add_argument("folder", metavar="FOLDER", help="folder of a sweep")
+    parser.add_argument("--metric", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
+    parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (the default of the kind line)")
+    parser.add_argument("--by", metavar="KEY", help="key that colours, markers and line styles show; the vertical axis of a heat map")
+    parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
+    parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
+    parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis")
+    parser.add_argument("--size", metavar="WxH", help="size in inches (default: the width of a column, 2.2 high)")
+    parser.add_argument("--style", metavar="plain|ieee|acm", help="fonts and axes (default: plain)")
+    parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")
+
+
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")

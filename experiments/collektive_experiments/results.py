@@ -1,18 +1,19 @@
 """Loads and compares the tables of a sweep, for notebooks and figures."""
 import itertools
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from .experiment import text
+from .figure_options import CONVERGED
 from .positions import ExperimentError
+from .statistics import holm, paired_effect, unpaired_effect
 from .store import Store
 
-RESAMPLES = 2000
-"""Number of bootstrap samples. The ends of an interval are then accurate to about 1/40 of its length."""
+VALUE = "value\0"
+"""A column of values to compare, whose name no metric has."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,8 @@ class Results:
     """The keys that vary."""
     units: dict[str, str]
     """Units of the metrics that the experiment file measures, by column; empty if it names none."""
+    labels: dict[str, str] = field(default_factory=dict)
+    """Texts for figures, by metric, key or value."""
 
     @property
     def configuration(self) -> list[str]:
@@ -45,12 +48,30 @@ class Results:
         """The runs that are complete."""
         return self.runs[self.runs["status"] == "complete"]
 
+    @property
+    def convergence_times(self) -> list[str]:
+        """The columns of convergence times."""
+        return [name for name in self.runs.columns if name.startswith(CONVERGED)]
 
-def load(folder: str) -> Results:
-    """Reads the tables of a sweep's folder."""
+    def censored(self, metric: str) -> "pd.Series[bool]":
+        """Returns for each complete run whether it ended before it converged. Other metrics are never censored."""
+        values = self.complete[metric]
+        return values.isna() if metric.startswith(CONVERGED) else values.isna() & False
+
+    def values(self, metric: str) -> "pd.Series[float]":
+        """Returns the value of each complete run at its end. The convergence time of a censored run is its last second."""
+        complete = self.complete
+        if not metric.startswith(CONVERGED):
+            return complete[metric]
+        return complete[metric].fillna(complete["run"].map(self.series.groupby("run")["second"].max()))
+
+
+def load(folder: str, labels: dict[str, str] | None = None) -> Results:
+    """Reads the tables of a sweep's folder. `labels` replaces those of the experiment file."""
     settings = Store(folder).settings()
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
-    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {})
+    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
+                      settings.get("labels", {}) if labels is None else labels)
     return replace(results, units=dict(zip(results.metrics, settings["measure"].values())))
 
 
@@ -62,52 +83,29 @@ def _read(folder: str, name: str) -> pd.DataFrame:
                               "--resume") from error
 
 
-def interval(values: np.ndarray, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:
-    """
-    Returns the percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The seed of the resampling is fixed, so the
-    same values give the same interval. Returns NaN for fewer than two values.
-    """
-    if len(values) < 2:
-        return float("nan"), float("nan")
-    random = np.random.default_rng(0)
-    estimates = statistic(values[random.integers(0, len(values), (RESAMPLES, len(values)))], axis=1)
-    low, high = np.quantile(estimates, [(1 - confidence) / 2, (1 + confidence) / 2])
-    return float(low), float(high)
-
-
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
     Compares the end values of a metric, or any other number of the runs' table, between each two values of a key, for each combination of
-    the other keys. A row has both means, `difference` of the means with the 95 % bootstrap interval `difference_low` to `difference_high`, and
-    Cliff's `delta` with its interval: the probability that a run of `b` has the greater value, minus the probability that it has the smaller
-    one; from -1 to 1, 0 for no effect. `p` is the p-value of a permutation test of the difference. `n_a` and `n_b` count runs with a value.
+    the other keys. Runs of equal seeds are paired. A row has both means, `difference` of the means with the 95 % bootstrap interval
+    `difference_low` to `difference_high`, and the effect size `delta` with its interval: the probability that `b` has the greater value, minus
+    the probability that it has the smaller one; from -1 to 1, 0 for no effect. It is that of pairs or, if no seeds are equal, of independent
+    runs (Cliff's delta). `p` is the p-value of a permutation test of the difference, and `p_holm` the same corrected for all rows of the table.
+    `n_a` and `n_b` count runs with a value, and `pairs` their pairs. A run that has not converged has its length as its convergence time.
     """
     rows = []
     others = [key for key in results.configuration if key != by]
-    groups = results.complete.groupby(others, sort=False, dropna=False) if others else [((), results.complete)]
+    data = results.complete.assign(**{VALUE: results.values(metric)}).dropna(subset=VALUE)
+    groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]
     for place, group in groups:
-        samples = {value: part[metric].dropna().to_numpy(float) for value, part in group.groupby(by, sort=False)}
+        samples = {value: part.set_index("seed")[VALUE] for value, part in group.groupby(by, sort=False)}
         for first, second in itertools.combinations(samples, 2):
             a, b = samples[first], samples[second]
-            rows.append({**dict(zip(others, place)), "a": first, "b": second, "n_a": len(a), "n_b": len(b), **_effect(a, b)})
-    return pd.DataFrame(rows)
-
-
-def _effect(a: np.ndarray, b: np.ndarray) -> dict[str, float]:
-    names = ("mean_a", "mean_b", "difference", "difference_low", "difference_high", "delta", "delta_low", "delta_high", "p")
-    if len(a) < 2 or len(b) < 2:
-        return dict.fromkeys(names, float("nan"))
-    random = np.random.default_rng(0)
-    samples_a = a[random.integers(0, len(a), (RESAMPLES, len(a)))]
-    samples_b = b[random.integers(0, len(b), (RESAMPLES, len(b)))]
-    differences = np.quantile(samples_b.mean(axis=1) - samples_a.mean(axis=1), [0.025, 0.975])
-    deltas = np.quantile(np.sign(samples_b[:, None, :] - samples_a[:, :, None]).mean(axis=(1, 2)), [0.025, 0.975])
-    difference = b.mean() - a.mean()
-    both = np.concatenate([a, b])
-    shuffled = random.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
-    extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - 1e-12
-    values = (a.mean(), b.mean(), difference, *differences, np.sign(b[None, :] - a[:, None]).mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
-    return dict(zip(names, map(float, values)))
+            seeds = a.index.intersection(b.index)
+            effect = (paired_effect(a[seeds].to_numpy(float), b[seeds].to_numpy(float)) if len(seeds) else
+                      unpaired_effect(a.to_numpy(float), b.to_numpy(float)))
+            rows.append({**dict(zip(others, place)), "a": first, "b": second, "n_a": len(a), "n_b": len(b), "pairs": len(seeds), **effect})
+    table = pd.DataFrame(rows)
+    return table if table.empty else table.assign(p_holm=holm(table["p"].to_numpy(float)))
 
 
 def label(values: tuple[Any, ...], keys: list[str]) -> str:

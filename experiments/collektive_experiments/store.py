@@ -56,7 +56,7 @@ class Store:
                 if name.endswith(PART) and files.is_marked(os.path.join(folder, name)):
                     files.remove(os.path.join(folder, name))
         settings = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
-                 "measure": experiment.measure}
+                 "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
         if not os.listdir(self.runs):
             # The sweep has no results yet.
             files.remove(self.bundle)

@@ -12,10 +12,13 @@ from collections import deque
 from collections.abc import Iterable
 from typing import Protocol
 
+import pyarrow as pa
+
 from . import tables
 from .bundle import prepare
-from .experiment import Experiment, Run
-from .positions import ExperimentError
+from .experiment import Experiment, Run, check_labels
+from .figure_options import CONVERGED, check_metrics
+from .positions import ExperimentError, Located
 from .store import Store
 from .worker import Outcome, Worker, WorkerError
 
@@ -217,10 +220,23 @@ def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
         for name in experiment.measure:
             if name not in metrics:
                 raise located.error(f"the scene has no metric '{name}'; it has: {', '.join(metrics)}", "measure", name)
+        _check_figures(experiment, list(experiment.measure or metrics))
     except WorkerError as error:
         raise ExperimentError(str(error)) from error
     finally:
         worker.stop()
+
+
+def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
+    """Checks the names of metrics in `figures` and `labels`."""
+    converged = list(Located(experiment.scenario).root.get("converged", {}))
+    converged += [key.split(".")[1] for key in [*experiment.fixed, *experiment.keys] if key.startswith(CONVERGED)]
+    converged += experiment.fixed.get("converged", {})
+    numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
+    at_end = [*metrics, *(CONVERGED + name for name in dict.fromkeys(converged))]
+    for options in experiment.figures:
+        check_metrics(options, at_end + numbers, metrics)
+    check_labels(experiment, at_end + numbers)
 
 
 def _sample(values: list[object]) -> list[object]:

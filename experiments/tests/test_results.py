@@ -1,8 +1,9 @@
 """Statistics of experiments."""
 import numpy as np
 import pandas as pd
+import pytest
 
-from collektive_experiments import Results, compare, interval
+from collektive_experiments import Results, compare, holm, interval, kaplan_meier
 from collektive_experiments.figures import at_end, over_time
 
 
@@ -58,3 +59,61 @@ def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     assert axes.get_title() == "loss 0.1"
     assert "95 % bootstrap interval of 20 runs per configuration" in caption
     assert "of 20 runs per configuration" in at_end(results(2), "error")[1]
+
+
+def test_runs_of_equal_seeds_are_paired() -> None:
+    paired = results(0)
+    random = np.random.default_rng(4)
+    noise = np.tile(random.normal(0, 5, 20), 2)
+    paired.runs["error"] = noise + np.repeat([0, 0.3], 20) + random.normal(0, 0.05, 40)
+    row = compare(paired, "error", "program").iloc[0]
+    assert (row["pairs"], row["delta"]) == (20, 1)
+    assert 0.2 < row["difference_low"] < 0.3 < row["difference_high"] < 0.4
+    assert row["p"] < 0.01
+    # Without pairs, the difference is lost in the noise.
+    paired.runs["seed"] = range(40)
+    row = compare(paired, "error", "program").iloc[0]
+    assert row["pairs"] == 0 and row["p"] > 0.5
+
+
+def test_few_pairs_have_an_exact_p_value() -> None:
+    few = results(0, size=5)
+    few.runs["error"] = [1, 2, 3, 4, 5, 2, 4, 6, 8, 10]
+    assert compare(few, "error", "program").iloc[0]["p"] == 2 / 2 ** 5
+
+
+def test_holm_corrects_as_published_and_never_lowers_or_reorders() -> None:
+    assert holm(np.array([0.01, 0.04, 0.03, 0.005])) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    random = np.random.default_rng(5)
+    for size in range(1, 30):
+        values = random.random(size) ** 3
+        values[random.random(size) < 0.2] = np.nan
+        corrected = holm(values)
+        assert (np.isnan(corrected) == np.isnan(values)).all()
+        known = ~np.isnan(values)
+        assert (corrected[known] >= values[known]).all() and (corrected[known] <= 1).all()
+        assert (np.diff(corrected[known][np.argsort(values[known])]) >= 0).all()
+        assert (corrected[known] <= values[known] * known.sum() + 1e-12).all(), "at most Bonferroni's"
+
+
+def test_kaplan_meier_reproduces_a_published_curve() -> None:
+    # Freireich et al. 1963, 6-mercaptopurine: weeks in remission.
+    times = np.array([6, 6, 6, 7, 10, 13, 16, 22, 23, 6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35], float)
+    moments, shares, low, high = kaplan_meier(times, np.arange(21) < 9)
+    assert list(moments) == [6, 7, 10, 13, 16, 22, 23]
+    assert 1 - shares == pytest.approx([0.857, 0.807, 0.753, 0.690, 0.627, 0.538, 0.448], abs=5e-4)
+    # R: survfit(..., conf.type = "log-log")
+    assert (1 - high[0], 1 - low[0]) == pytest.approx((0.620, 0.952), abs=1e-3)
+
+
+def test_kaplan_meier_of_uncensored_runs_is_the_empirical_distribution() -> None:
+    random = np.random.default_rng(6)
+    for size in range(1, 30):
+        times = random.integers(1, 10, size).astype(float)
+        moments, shares, low, high = kaplan_meier(times, np.ones(size, bool))
+        assert shares == pytest.approx([(times <= moment).mean() for moment in moments])
+        assert ((low <= shares) & (shares <= high))[:-1].all()
+        # Censored runs lower the estimate, and runs that are all censored give none.
+        moments, shares, _, _ = kaplan_meier(times, random.random(size) < 0.5)
+        assert all(share <= (times <= moment).mean() + 1e-12 for moment, share in zip(moments, shares))
+    assert len(kaplan_meier(np.ones(3), np.zeros(3, bool))[0]) == 0

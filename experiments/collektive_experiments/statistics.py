@@ -1,0 +1,88 @@
+"""Statistics of samples: intervals, effect sizes, corrected p-values and Kaplan-Meier curves."""
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+
+RESAMPLES = 2000
+"""Number of bootstrap samples. The ends of an interval are then accurate to about 1/40 of its length."""
+MAX_EXACT_PAIRS = 12
+"""Up to this number of pairs, the permutation test enumerates all sign changes."""
+NORMAL_95 = 1.959963984540054
+"""The 97.5 % quantile of the normal distribution."""
+EFFECTS = ("mean_a", "mean_b", "difference", "difference_low", "difference_high", "delta", "delta_low", "delta_high", "p")
+
+
+def interval(values: Floats, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:
+    """
+    Returns the percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The seed of the resampling is fixed, so the
+    same values give the same interval. Returns NaN for fewer than two values.
+    """
+    if len(values) < 2:
+        return float("nan"), float("nan")
+    random = np.random.default_rng(0)
+    estimates = statistic(values[random.integers(0, len(values), (RESAMPLES, len(values)))], axis=1)
+    low, high = np.quantile(estimates, [(1 - confidence) / 2, (1 + confidence) / 2])
+    return float(low), float(high)
+
+
+def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
+    """Compares two independent samples. The p-value is that of a permutation test of the difference of means."""
+    if len(a) < 2 or len(b) < 2:
+        return dict.fromkeys(EFFECTS, float("nan"))
+    random = np.random.default_rng(0)
+    samples_a = a[random.integers(0, len(a), (RESAMPLES, len(a)))]
+    samples_b = b[random.integers(0, len(b), (RESAMPLES, len(b)))]
+    differences = np.quantile(samples_b.mean(axis=1) - samples_a.mean(axis=1), [0.025, 0.975])
+    deltas = np.quantile(np.sign(samples_b[:, None, :] - samples_a[:, :, None]).mean(axis=(1, 2)), [0.025, 0.975])
+    difference = b.mean() - a.mean()
+    both = np.concatenate([a, b])
+    shuffled = random.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
+    extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - 1e-12
+    values = (a.mean(), b.mean(), difference, *differences, np.sign(b[None, :] - a[:, None]).mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
+    return dict(zip(EFFECTS, map(float, values)))
+
+
+def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
+    """Compares two samples whose values at equal indices belong together. The p-value is that of a sign permutation test of the mean difference."""
+    if len(a) < 2:
+        return dict.fromkeys(EFFECTS, float("nan"))
+    differences = b - a
+    count = len(differences)
+    random = np.random.default_rng(0)
+    samples = differences[random.integers(0, count, (RESAMPLES, count))]
+    bounds = np.quantile(samples.mean(axis=1), [0.025, 0.975])
+    deltas = np.quantile(np.sign(samples).mean(axis=1), [0.025, 0.975])
+    is_exact = count <= MAX_EXACT_PAIRS
+    signs = ((np.arange(2 ** count)[:, None] >> np.arange(count)) & 1) * 2 - 1 if is_exact else random.choice((-1, 1), (RESAMPLES, count))
+    extreme = np.abs((signs * differences).mean(axis=1)) >= abs(differences.mean()) - 1e-12
+    p = extreme.mean() if is_exact else (extreme.sum() + 1) / (RESAMPLES + 1)
+    values = (a.mean(), b.mean(), differences.mean(), *bounds, np.sign(differences).mean(), *deltas, p)
+    return dict(zip(EFFECTS, map(float, values)))
+
+
+def holm(values: Floats) -> Floats:
+    """Corrects p-values for multiple comparisons with the method of Holm. NaN stays NaN and does not count."""
+    corrected = np.full(len(values), np.nan)
+    order = np.argsort(values, kind="stable")[:np.count_nonzero(~np.isnan(values))]
+    corrected[order] = np.minimum(1, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
+    return corrected
+
+
+def kaplan_meier(times: Floats, is_observed: npt.NDArray[np.bool_]) -> tuple[Floats, Floats, Floats, Floats]:
+    """
+    Estimates the share of runs in which an event has occurred by a time. The times of runs without the event are the ends of their observation.
+    Returns the times of events, the share from each of them on, and its 95 % interval (Greenwood's variance of log(-log)), which is NaN where the
+    share is 1. Without censored runs, the share is the empirical distribution function.
+    """
+    moments = np.unique(times[is_observed])
+    at_risk = (times[None, :] >= moments[:, None]).sum(axis=1)
+    events = ((times[None, :] == moments[:, None]) & is_observed).sum(axis=1)
+    survival = np.cumprod(1 - events / at_risk)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spread = NORMAL_95 * np.sqrt(np.cumsum(events / (at_risk * (at_risk - events)))) / np.log(survival)
+        low, high = 1 - survival ** np.exp(spread), 1 - survival ** np.exp(-spread)
+    is_bounded = survival > 0
+    return moments, 1 - survival, np.where(is_bounded, np.minimum(low, high), np.nan), np.where(is_bounded, np.maximum(low, high), np.nan)

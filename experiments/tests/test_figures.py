@@ -1,0 +1,210 @@
+"""Figures of ./collektive plot: kinds, options, errors and files."""
+import json
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from collektive_experiments import ExperimentError, draw, load, plot, read, read_options
+from collektive_experiments.__main__ import main
+
+LOSSES = (0.0, 0.1, 0.2, 0.4)
+PROGRAMS = ("path-vector", "bellman-ford")
+KINDS = {
+    "line": ["--x", "network.loss", "--by", "program"],
+    "time": ["--by", "program"],
+    "box": ["--kind", "box", "--x", "network.loss", "--by", "program"],
+    "heat": ["--kind", "heat", "--x", "network.loss", "--by", "program"],
+    "ecdf": ["--kind", "ecdf", "--by", "program"],
+}
+
+
+def write_sweep(folder: Path, seeds: int = 5, **settings: Any) -> str:
+    """Writes the tables of a sweep in which lossy runs of one program do not converge."""
+    random = np.random.default_rng(3)
+    keys = {"program": PROGRAMS, "network.loss": LOSSES, "seed": range(1, seeds + 1)}
+    rows: list[dict[str, Any]] = []
+    for program in PROGRAMS:
+        for loss in LOSSES:
+            for seed in keys["seed"]:
+                time = 2 + 10 * loss * (1 + PROGRAMS.index(program)) + random.normal(0, 0.3)
+                rows.append({"run": f"{program}{loss}{seed}", "program": program, "network.loss": loss, "seed": seed, "status": "complete", "digest": "0",
+                             "nodes": 49, "error": abs(random.normal(loss, 0.02)), "converged.error": time if time < 8 else None})
+    series = [{name: row[name] for name in ("run", *keys)} | {"second": second, "error": 5.0 - second / 2 + row["error"], "links": 3}
+              for row in rows for second in np.arange(0.0, 10.5, 0.5)]
+    folder.mkdir(exist_ok=True)
+    pd.DataFrame(rows).to_parquet(folder / "runs.parquet")
+    pd.DataFrame(series).to_parquet(folder / "series.parquet")
+    (folder / "sweep.json").write_text(json.dumps({"version": 2, "experiment": "e.json", "keys": list(keys), "set": {}, "measure": {"error": "m"}, **settings},
+                                                  indent=1))
+    return str(folder)
+
+
+@pytest.fixture(scope="module")
+def sweep(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A sweep's folder without figures. Tests must not change it."""
+    return write_sweep(tmp_path_factory.mktemp("figures") / "out")
+
+
+@pytest.fixture
+def out(sweep: str) -> Iterator[Path]:
+    """The sweep's folder, whose figures are deleted after the test."""
+    yield Path(sweep)
+    shutil.rmtree(Path(sweep) / "figures", ignore_errors=True)
+    (Path(sweep) / "figures.html").unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_kind_is_a_vector_file_with_embedded_fonts(out: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(out), "--metric", "error", *KINDS[kind], "--size", "3.3x2.2", "--style", "ieee"]) == 0
+    paths = capsys.readouterr().out.split()
+    assert len(paths) == (8 if kind in ("time", "ecdf") else 2), "a figure for each value of a key that is neither x nor by"
+    pdf = Path(paths[1]).read_bytes()
+    assert b"/MediaBox [ 0 0 237.6 158.4 ]" in pdf
+    assert b"/FontFile2" in pdf and b"/Type3" not in pdf
+    assert b"STIXGeneral" in pdf
+
+
+def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
+    options = {"metric": ["error", "converged.error"], "x": "network.loss", "by": "program", "kind": "box"}
+
+    def contents() -> list[bytes]:
+        return [Path(path).read_bytes() for path in plot(str(out), options=read_options(options, problem))]
+    assert contents() == contents()
+
+
+def problem(option: str, message: str) -> ExperimentError:
+    return ExperimentError(f"{option} {message}")
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (["--kind", "pie"], "--kind is 'pie', it must be one of: line, box, heat, ecdf"),
+    (["--style", "nature"], "--style is 'nature', it must be one of: plain, ieee, acm"),
+    (["--log", "z"], "--log is 'z', it must be one of: x, y, xy"),
+    (["--size", "3.3"], "--size is '3.3', it must be a width and a height in inches, such as 3.3x2.2"),
+    (["--size", "3..3x2"], "--size is '3..3x2', it must be a width and a height in inches"),
+    (["--size", "330x220"], "--size is '330x220', width and height must be from 1 to 20 inches"),
+    (["--range", "3"], "--range is '3', it must be two numbers"),
+    (["--range", "0:1:2"], "--range is '0:1:2', it must be two numbers"),
+    (["--range", "1:0"], "--range is '1:0', the first limit must be below the second"),
+    (["--range", "0:inf"], "--range is '0:inf', its limits must be finite"),
+    (["--range", "0:1", "--log", "y"], "--range is '0:1', but a logarithmic axis needs limits above 0"),
+    (["--x", "loss"], "--x is 'loss', which does not vary; these vary: program, network.loss, time"),
+    (["--x", "program"], "--x is 'program', whose values are not numbers; use the kind 'box'"),
+    (["--x", "network.loss", "--log", "x"], "--log is 'x', but 'network.loss' has the value 0.0, and a logarithmic axis needs values above 0"),
+    (["--x", "seed"], "--x is 'seed', but runs with different seeds are repetitions"),
+    (["--by", "programme"], "--by is 'programme', which does not vary; these vary: program, network.loss"),
+    (["--by", "program", "--x", "program", "--kind", "box"], "--by is 'program', which is also x"),
+    (["--kind", "box"], "--x is missing; the kind 'box' needs the key of the horizontal axis"),
+    (["--kind", "box", "--x", "time"], "--x is 'time', which only the kind 'line' can draw"),
+    (["--kind", "box", "--x", "program", "--log", "x"], "--log is 'x', but the x axis of the kind 'box' cannot be logarithmic"),
+    (["--kind", "heat", "--x", "program"], "--by is missing; the kind 'heat' needs the key of the vertical axis"),
+    (["--kind", "heat", "--x", "program", "--by", "network.loss", "--log", "y"], "--log is 'y', but the y axis of the kind 'heat' cannot be logarithmic"),
+    (["--kind", "ecdf", "--x", "network.loss"], "--x is 'network.loss', but the horizontal axis of the kind 'ecdf' is the metric; use by"),
+    (["--metric", "eror"], "--metric is 'eror', which does not exist; these exist: error"),
+    (["--metric", "eror", "--x", "network.loss"], "--metric is 'eror', which does not exist; these exist: error, converged.error, nodes"),
+    (["--metric", "digest", "--x", "network.loss"], "--metric is 'digest', which does not exist"),
+    (["--metric", "converged.error"], "--metric is 'converged.error', which has one value per run; name a key with x, or use the kind 'ecdf'"),
+    (["--metric", "error", "error"], "--metric contains 'error' twice"),
+    (["--experiment", "missing.json"], "'missing.json' cannot be read"),
+])
+def test_wrong_options_are_one_line_before_anything_is_written(out: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(out), *(words if "--metric" in words else ["--metric", "error", *words])]) == 1
+    output, errors = capsys.readouterr()
+    assert output == "" and errors.count("\n") == 1
+    assert message in errors
+    assert not (out / "figures").exists()
+
+
+def test_options_of_a_figure_need_a_metric(sweep: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", sweep, "--x", "network.loss"]) == 1
+    assert capsys.readouterr().err == "collektive: plot: --metric must name at least one metric\n"
+
+
+@pytest.mark.parametrize(("line", "keys", "message"), [
+    (5, '"figures": 3', "'figures' must be a list of objects"),
+    (6, '"figures": [\n3]', "'figures[0]' is 3, it must be an object"),
+    (7, '"figures": [\n{"metric": "error",\n"colour": "red"}]', "'figures[0].colour' is unknown; known here: metric, x, by"),
+    (6, '"figures": [{"metric": "error",\n"size": 3}]', "'figures[0].size' must be a string"),
+    (5, '"figures": [{"x": "time"},\n{}]', "'figures[0].metric' must name at least one metric"),
+    (6, '"figures": [{"metric": ["error"]},\n{"metric": ["error", 3]}]', "'figures[1].metric' must name at least one metric"),
+    (6, '"figures": [{"metric": "error",\n"x": "los"}]', "'figures[0].x' is 'los', which does not vary; these vary: loss, program"),
+    (6, '"figures": [{"metric": "error", "x": "loss",\n"log": "x"}]', "'figures[0].log' is 'x', but 'loss' has the value 0"),
+    (6, '"figures": [{"metric": "error",\n"by": "program"}]', "'figures[0].by' is 'program', which has more than 10 values"),
+    (5, '"labels": []', "'labels' must be an object"),
+    (6, '"labels": {\n"error": ""}', "'labels.error' is \"\", it must be a text of one line"),
+])
+def test_wrong_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, keys: str, message: str) -> None:
+    (tmp_path / "scenario.json").write_text("{}")
+    path = tmp_path / "experiment.json"
+    path.write_text('{"version": 1,\n"scenario": "scenario.json",\n"vary": {"loss": [0, 1],\n"program": "1-11", "seed": "1-2"},\n' + keys + "}")
+    with pytest.raises(ExperimentError) as error:
+        read(str(path))
+    assert f"experiment.json:{line}: {message}" in str(error.value)
+
+
+def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) -> None:
+    labels = {"network.loss": "message loss", "error": "mean error [m]", "bellman-ford": "Bellman-Ford"}
+    folder = write_sweep(tmp_path / "out", seeds=3, figures=[{"metric": "error", "x": "network.loss", "by": "program"}], labels=labels)
+    paths = plot(folder)
+    assert f"{folder}/figures/error-line-network.loss-program.pdf" in paths
+    page = (tmp_path / "out/figures.html").read_text()
+    assert page.count("<svg") == 4
+    assert {"message loss", "mean error [m]", "Bellman-Ford"} <= set(re.findall(">([^<]+)</text>", page))
+    assert "mean error against message loss: mean and 95 % bootstrap interval of 3 runs per configuration." in page
+    # The figures of another file replace them.
+    (tmp_path / "scenario.json").write_text("{}")
+    experiment: dict[str, Any] = {"version": 1, "scenario": "scenario.json", "vary": {"program": list(PROGRAMS), "network.loss": list(LOSSES), "seed": [1]}}
+    (tmp_path / "e.json").write_text(json.dumps({**experiment, "labels": {"eror": "x"}}))
+    assert main(["plot", folder, "--experiment", str(tmp_path / "e.json")]) == 1
+    (tmp_path / "e.json").write_text(json.dumps(experiment))
+    assert "mean error" not in Path(plot(folder, experiment=read(str(tmp_path / "e.json")))[-1]).read_text()
+
+
+def test_two_figures_of_one_name_are_an_error(tmp_path: Path) -> None:
+    figure = {"metric": "error", "x": "network.loss"}
+    with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe a figure that exists: 'error-line-network.loss-"):
+        plot(write_sweep(tmp_path / "out", seeds=1, figures=[figure, figure]))
+    assert not (tmp_path / "out/figures").exists()
+
+
+def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None:
+    results = load(sweep)
+    censored = results.censored("converged.error")
+    assert 0 < censored.sum() < len(censored)
+    assert set(results.values("converged.error")[censored]) == {10.0}
+    for kind, mark in (("line", "Hollow markers"), ("box", "Triangles"), ("heat", "Cells with ≥"), ("ecdf", "Vertical marks")):
+        options = read_options({"metric": "converged.error", "kind": kind, "by": "program"} | ({} if kind == "ecdf" else {"x": "network.loss"}), problem)
+        captions = [caption for _, _, caption in draw(results, options)]
+        assert f"{mark}: {censored.sum()} of " in "".join(captions) or kind == "ecdf"
+        assert mark in captions[-1]
+
+
+def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", seeds=2)
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        table.assign(label=table["network.loss"].map(lambda loss: f"loss {loss}")).to_parquet(f"{folder}/{name}.parquet")
+    settings = json.loads((tmp_path / "out/sweep.json").read_text())
+    (tmp_path / "out/sweep.json").write_text(json.dumps({**settings, "keys": ["program", "network.loss", "label", "seed"]}))
+    options = read_options({"metric": "nodes", "x": "network.loss", "by": "program"}, problem)
+    assert len(list(draw(load(folder), options))) == 1
+
+
+def test_axes_have_scales_limits_and_single_points(sweep: str) -> None:
+    def axes(**options: str) -> Any:
+        (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}, problem))
+        return figure.axes[0]
+    line = axes(x="network.loss", log="y", range="0.001:")
+    assert (line.get_yscale(), line.get_ylim()[0]) == ("log", 0.001)
+    assert len({(curve.get_linestyle(), curve.get_marker()) for curve in line.get_lines() if curve.get_linestyle() != "None"} - {("None", "None")}) >= 2
+    box = axes(kind="box", x="network.loss")
+    points = [curve for curve in box.get_lines() if curve.get_marker() == "o"]
+    assert sum(len(curve.get_xdata()) for curve in points) == 40
+    assert [tick.get_text() for tick in box.get_xticklabels()] == ["0", "0.1", "0.2", "0.4"]
+    assert axes(kind="heat", x="network.loss").images[0].get_array().shape == (2, 4)
