@@ -15,6 +15,8 @@ TIME = "time"
 """The value of `x` for a figure over simulated time."""
 CONVERGED = "converged."
 """Prefix of the columns of convergence times."""
+CENSORED = "censored."
+"""Prefix of the columns of the last time at which a metric could have converged, in runs in which it did not."""
 MAX_GROUPS = 10
 """More lines in one figure cannot be told apart."""
 MIN_INCHES, MAX_INCHES = 1, 20

@@ -14,11 +14,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter, PercentFormatter
+from matplotlib.ticker import LogFormatter, NullFormatter, PercentFormatter
 
 from . import files
 from .experiment import Experiment, check_labels, read_figures, text
-from .figure_options import CONVERGED, TIME, FigureOptions, check_keys, check_metrics
+from .figure_options import CENSORED, CONVERGED, TIME, FigureOptions, check_keys, check_metrics
 from .positions import ExperimentError, Located
 from .results import VALUE, Results, compare, label, load
 from .statistics import interval, kaplan_meier
@@ -36,22 +36,36 @@ SMALL: Any = {"font.size": 8, "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.
               "lines.linewidth": 1.2, "lines.markersize": 4, "axes.linewidth": 0.6, "grid.linewidth": 0.4, "hatch.linewidth": 0.5,
               "legend.handlelength": 2.6, "legend.columnspacing": 1.2, "legend.borderaxespad": 0.2, "figure.constrained_layout.w_pad": 0.02,
               "figure.constrained_layout.h_pad": 0.02}
-# STIX resembles the text fonts of both publishers and is a part of Matplotlib, so figures are equal on all machines.
-PAPER: Any = {**SMALL, "font.family": "STIXGeneral", "svg.fonttype": "path"}
-STYLES: dict[str, Any] = {
+# STIX resembles the text fonts of both publishers. Matplotlib contains both fonts, so figures are equal on all machines.
+PAPER: Any = {**SMALL, "font.family": ["STIXGeneral", "DejaVu Sans"], "svg.fonttype": "path"}
+STYLES: Any = {
     "plain": SMALL,
     "ieee": {**PAPER, "axes.spines.top": True, "axes.spines.right": True, "xtick.direction": "in", "ytick.direction": "in"},
     "acm": PAPER,
 }
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MAX_PANELS = 24
 MAX_POINTS = 20
 """Up to this number of runs, single points are drawn over a box plot."""
-CENSORED = "censored\0"
-"""A column that tells censored runs, whose name no metric has."""
+BOUND = "bound\0"
+"""A column that marks censored runs, whose name no metric has."""
 GOLDEN_RATIO = 0.618034
 """Spreads the points of a box plot."""
 MAX_CELLS = 64
 """Up to this number of cells, a heat map contains numbers."""
+
+
+class PowerFormatter(LogFormatter):
+    """Labels a logarithmic axis without the markup of formulas, which is off because names of metrics may contain it."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """Returns the label of a tick, which is empty for some minor ones."""
+        if not super().__call__(x, pos):
+            return ""
+        if 1e-3 <= x < 1e4:
+            return f"{x:g}"
+        factor, exponent = f"{x:.0e}".split("e")
+        return (f"{factor}·" if factor != "1" else "") + "10" + str(int(exponent)).translate(SUPERSCRIPTS)
 
 
 @dataclass(frozen=True)
@@ -62,8 +76,8 @@ class Drawing:
     pdf: bytes
 
     def write(self, path: str) -> Iterator[str]:
-        """Writes both files. Yields their paths."""
-        for ending, content in ((".svg", self.svg), (".pdf", self.pdf)):
+        """Writes both files and the caption. Yields their paths."""
+        for ending, content in ((".svg", self.svg), (".pdf", self.pdf), (".txt", self.caption.encode() + b"\n")):
             with files.create(path + ending) as file:
                 file.write(content)
             files.publish(path + ending)
@@ -77,13 +91,13 @@ class Drawing:
 @matplotlib.rc_context(STYLE)
 def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptions | None = None, experiment: Experiment | None = None) -> list[str]:
     """
-    Writes figures of a sweep as SVG and PDF to `figures/` in its folder, and returns their paths.
+    Writes figures of a sweep as SVG and PDF, with captions as text, to `figures/` in its folder, and returns their paths.
 
     With `options`, these are the requested figures. Otherwise they are `METRIC-time` and `METRIC-end` of each metric, with colours for the first
     key that varies and panels for the others, the figures of the experiment file, and `figures.html` with all figures and captions. `experiment`
     replaces the figures and labels that the experiment file had during the sweep.
     """
-    results = load(folder, experiment and experiment.labels)
+    results = load(folder, experiment.labels if experiment else None)
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete run to plot: the message of each is in runs.parquet")
     requests = [options] if options else _requests(folder, experiment)
@@ -123,7 +137,7 @@ def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]
     return read_figures(Located(os.path.join(folder, "sweep.json")))
 
 
-def _render(figure: Figure, caption: str, style: dict[str, Any]) -> Drawing:
+def _render(figure: Figure, caption: str, style: Any) -> Drawing:
     """Renders a figure, with the style in which it was drawn: Matplotlib creates ticks and fonts when it renders."""
     svg, pdf = io.BytesIO(), io.BytesIO()
     with matplotlib.rc_context(style):
@@ -154,7 +168,8 @@ def check(results: Results, options: FigureOptions) -> None:
 def metrics_at_end(results: Results) -> list[str]:
     """Returns the columns of numbers that each run has at its end, metrics first."""
     known = results.metrics + results.convergence_times
-    return known + [name for name in results.runs.select_dtypes("number").columns if name not in {*known, *results.keys, "seed"}]
+    others = {*known, *results.keys, "seed", *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
+    return known + [name for name in results.runs.select_dtypes("number").columns if name not in others]
 
 
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
@@ -168,7 +183,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
         for values, part in combinations:
             rest = [f"{key}={text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(others, values)]
             name = "-".join([metric, options.kind, *([options.x] if options.x else []), *([options.by] if options.by else []), *rest])
-            with matplotlib.rc_context({**STYLE, **STYLES[options.style]}):
+            with matplotlib.rc_context(STYLE), matplotlib.rc_context(STYLES[options.style]):
                 figure = Figure(figsize=options.size, layout="constrained")
                 caption = _draw(figure, results, part, metric, options)
             yield file_name(name), figure, caption + (f" {label(values, others)}." if others else "")
@@ -198,9 +213,11 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
         axes.yaxis.set_major_formatter(PercentFormatter(1, 0))
     else:
         axes.set(xlabel="simulated time [s]" if options.x == TIME else _axis(results, str(options.x)), ylabel=_axis(results, metric))
-    for name, set_scale in (("x", axes.set_xscale), ("y", axes.set_yscale)):
+    for name, set_scale, axis in (("x", axes.set_xscale, axes.xaxis), ("y", axes.set_yscale, axes.yaxis)):
         if name in options.log:
             set_scale("log")
+            axis.set_major_formatter(PowerFormatter())
+            axis.set_minor_formatter(PowerFormatter())
     if options.kind == "line" and options.x != TIME and "x" in options.log:
         ticks = sorted(data[options.x].unique())
         axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
@@ -287,8 +304,11 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
                 axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
                 axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
     labels = [name for name, _ in groups]
-    is_long = sum(map(len, labels)) > 30
-    axes.set_xticks(range(len(groups)), labels, **({"rotation": 30, "ha": "right"} if is_long else {}))
+    axes.set_xticks(range(len(groups)), labels)
+    if sum(map(len, labels)) > 30:
+        axes.tick_params("x", rotation=30)
+        for tick in axes.get_xticklabels():
+            tick.set_horizontalalignment("right")
     axes.set_xlim(-0.6, len(groups) - 0.4)
     axes.grid(False, axis="x")
     return counts
@@ -316,9 +336,9 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
 
 def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> set[int]:
     x, y = str(options.x), str(options.by)
-    groups = data.assign(**{VALUE: results.values(metric), CENSORED: results.censored(metric)}).groupby([x, y], sort=False)
+    groups = data.assign(**{VALUE: results.values(metric), BOUND: results.censored(metric)}).groupby([x, y], sort=False)
     rows, columns = _order(data[y]), _order(data[x])
-    means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean(), groups[CENSORED].any()))
+    means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean(), groups[BOUND].any()))
     low, high = options.range
     norm = Normalize(means.min().min() if low is None else low, means.max().max() if high is None else high)
     image = axes.imshow(means, aspect="auto", origin="lower" if pd.api.types.is_numeric_dtype(data[y]) else "upper", cmap="viridis", norm=norm)
@@ -354,8 +374,8 @@ def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: st
     censored, missing = results.censored(metric)[data.index].sum(), results.values(metric)[data.index].isna().sum()
     if censored:
         mark = {"line": "Hollow markers", "heat": "Cells with ≥", "box": "Triangles", "ecdf": "Vertical marks"}[kind]
-        effect = "are censored" if kind == "ecdf" else "count with their length"
-        caption += f" {mark}: {censored} of {len(data)} runs ended before they converged and {effect}."
+        effect = "are censored" if kind == "ecdf" else "count with the end of their observation"
+        caption += f" {mark}: {censored} of {len(data)} runs did not converge and {effect}."
     return caption + (f" {missing} runs without a value are omitted." if missing else "")
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from .experiment import text
-from .figure_options import CONVERGED
+from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .statistics import holm, paired_effect, unpaired_effect
 from .store import Store
@@ -54,16 +54,14 @@ class Results:
         return [name for name in self.runs.columns if name.startswith(CONVERGED)]
 
     def censored(self, metric: str) -> "pd.Series[bool]":
-        """Returns for each complete run whether it ended before it converged. Other metrics are never censored."""
+        """Returns for each complete run whether it has no convergence time but a bound of it. Other metrics are never censored."""
         values = self.complete[metric]
-        return values.isna() if metric.startswith(CONVERGED) else values.isna() & False
+        return values.isna() & self.values(metric).notna()
 
     def values(self, metric: str) -> "pd.Series[float]":
-        """Returns the value of each complete run at its end. The convergence time of a censored run is its last second."""
-        complete = self.complete
-        if not metric.startswith(CONVERGED):
-            return complete[metric]
-        return complete[metric].fillna(complete["run"].map(self.series.groupby("run")["second"].max()))
+        """Returns the value of each complete run at its end. The convergence time of a censored run is the last one that could be observed."""
+        values = self.complete[metric]
+        return values.fillna(self.complete[CENSORED + metric.removeprefix(CONVERGED)]) if metric.startswith(CONVERGED) else values
 
 
 def load(folder: str, labels: dict[str, str] | None = None) -> Results:
@@ -72,6 +70,9 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
     results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
                       settings.get("labels", {}) if labels is None else labels)
+    if not {CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times} <= set(results.runs.columns):
+        raise ExperimentError(f"the tables of '{folder}' are from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
+                              f"--out {folder} --resume")
     return replace(results, units=dict(zip(results.metrics, settings["measure"].values())))
 
 
@@ -90,7 +91,7 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     `difference_low` to `difference_high`, and the effect size `delta` with its interval: the probability that `b` has the greater value, minus
     the probability that it has the smaller one; from -1 to 1, 0 for no effect. It is that of pairs or, if no seeds are equal, of independent
     runs (Cliff's delta). `p` is the p-value of a permutation test of the difference, and `p_holm` the same corrected for all rows of the table.
-    `n_a` and `n_b` count runs with a value, and `pairs` their pairs. A run that has not converged has its length as its convergence time.
+    `n_a` and `n_b` count runs with a value, and `pairs` their pairs. A run that has not converged counts with its `censored` time.
     """
     rows = []
     others = [key for key in results.configuration if key != by]

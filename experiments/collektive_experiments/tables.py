@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 
 from . import files
 from .experiment import Experiment, Run, text
+from .figure_options import CENSORED, CONVERGED
 from .store import Store
 
 BATCH = 2000
@@ -79,17 +80,17 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     """Writes the tables of all finished runs. Returns the number of runs in the written table."""
     columns = _Columns(experiment, store)
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
-                      *((f"converged.{name}", pa.float64()) for name in columns.converged), *RUN_TIMES,
+                      *((prefix + name, pa.float64()) for name in columns.converged for prefix in (CONVERGED, CENSORED)), *RUN_TIMES,
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])
     series = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), *((name, pa.float64()) for name in columns.metrics),
                         *((name, pa.int64()) for name in COUNTS), *((name, pa.float64()) for name in TIMES)])
     with Table(os.path.join(store.folder, "runs"), runs, with_csv) as run_table, Table(os.path.join(store.folder, "series"), series, with_csv) as series_table:
         for run, record in columns.records():
             first = {"run": run.name, **columns.values(run)}
-            run_table.add({**first, **columns.results(run, record)})
             if record["status"] == "complete":
                 for row in columns.series(run):
                     series_table.add({**first, **row})
+            run_table.add({**first, **columns.results(run, record)})
     if columns.nodes:
         nodes = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
         with Table(os.path.join(store.folder, "nodes"), nodes, with_csv) as node_table:
@@ -119,6 +120,7 @@ class _Columns:
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
         self.rows: dict[str, int] = {}
+        self._ends: dict[str, float] = {}
         self.nodes: dict[str, pa.DataType] = {}
         for run, record in self.records():
             manifest = self._manifest(run)
@@ -132,10 +134,10 @@ class _Columns:
         self.parameters: list[tuple[str, pa.DataType]] = list(types.items())
         self._names: dict[str, str] = {}
         taken = {"run", "second", *types, *(name for name, _ in RUN_COLUMNS + RUN_TIMES), *COUNTS, *TIMES, *(f"version.{name}" for name in VERSIONS),
-                 *(f"converged.{name}" for name in converged)}
+                 *(prefix + name for name in converged for prefix in (CONVERGED, CENSORED))}
         for name in experiment.measure or metrics:
             column = name
-            while column in taken or column.startswith(("converged.", "version.")):
+            while column in taken or column.startswith((CONVERGED, CENSORED, "version.")):
                 column = "metric." + column
             taken.add(column)
             self._names[name] = column
@@ -155,14 +157,18 @@ class _Columns:
         return {key: _value(found.get(key), kind) for key, kind in self.parameters}
 
     def results(self, run: Run, record: Record) -> dict[str, Any]:
-        """Returns the rest of the run's row. Incomplete runs have no results."""
+        """Returns the rest of the run's row, after its series. Incomplete runs have no results."""
         row = {"status": record["status"], "message": record["message"] or None}
         if record["status"] != "complete":
             return row
         manifest = self._manifest(run)
         row |= {name: manifest.get(name) for name in ("digest", "nodes", "ticks", "errors", *(name for name, _ in RUN_TIMES))}
         row |= {column: self._number(run, name, manifest["end"].get(name)) for name, column in self._names.items()}
-        row |= {f"converged.{name}": manifest["converged"].get(name) for name in self.converged}
+        for name in self.converged:
+            row[CONVERGED + name] = time = manifest["converged"].get(name)
+            if time is None and name in manifest["converged"]:
+                # A later stay in the band would be too short to count.
+                row[CENSORED + name] = max(0.0, round(self._ends[run.name] - manifest["scenario"]["converged"][name]["seconds"], 6))
         row |= {f"version.{name}": manifest["versions"].get(name) for name in VERSIONS}
         return row
 
@@ -175,6 +181,7 @@ class _Columns:
             metrics = dict(zip(names, cells[1:]))
             rest = cells[1 + len(names):]
             self.rows[run.name] += 1
+            self._ends[run.name] = float(cells[0])
             yield {"second": float(cells[0]), **{column: self._number(run, name, metrics.get(name)) for name, column in self._names.items()},
                    **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
 

@@ -34,7 +34,8 @@ def write_sweep(folder: Path, seeds: int = 5, **settings: Any) -> str:
             for seed in keys["seed"]:
                 time = 2 + 10 * loss * (1 + PROGRAMS.index(program)) + random.normal(0, 0.3)
                 rows.append({"run": f"{program}{loss}{seed}", "program": program, "network.loss": loss, "seed": seed, "status": "complete", "digest": "0",
-                             "nodes": 49, "error": abs(random.normal(loss, 0.02)), "converged.error": time if time < 8 else None})
+                             "nodes": 49, "error": abs(random.normal(loss, 0.02)), "converged.error": time if time < 8 else None,
+                             "censored.error": None if time < 8 else 8.0})
     series = [{name: row[name] for name in ("run", *keys)} | {"second": second, "error": 5.0 - second / 2 + row["error"], "links": 3}
               for row in rows for second in np.arange(0.0, 10.5, 0.5)]
     folder.mkdir(exist_ok=True)
@@ -63,7 +64,7 @@ def out(sweep: str) -> Iterator[Path]:
 def test_each_kind_is_a_vector_file_with_embedded_fonts(out: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--metric", "error", *KINDS[kind], "--size", "3.3x2.2", "--style", "ieee"]) == 0
     paths = capsys.readouterr().out.split()
-    assert len(paths) == (8 if kind in ("time", "ecdf") else 2), "a figure for each value of a key that is neither x nor by"
+    assert len(paths) == 3 * (4 if kind in ("time", "ecdf") else 1), "a figure for each value of a key that is neither x nor by"
     pdf = Path(paths[1]).read_bytes()
     assert b"/MediaBox [ 0 0 237.6 158.4 ]" in pdf
     assert b"/FontFile2" in pdf and b"/Type3" not in pdf
@@ -177,7 +178,7 @@ def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None
     results = load(sweep)
     censored = results.censored("converged.error")
     assert 0 < censored.sum() < len(censored)
-    assert set(results.values("converged.error")[censored]) == {10.0}
+    assert set(results.values("converged.error")[censored]) == {8.0}
     for kind, mark in (("line", "Hollow markers"), ("box", "Triangles"), ("heat", "Cells with ≥"), ("ecdf", "Vertical marks")):
         options = read_options({"metric": "converged.error", "kind": kind, "by": "program"} | ({} if kind == "ecdf" else {"x": "network.loss"}), problem)
         captions = [caption for _, _, caption in draw(results, options)]
@@ -202,6 +203,8 @@ def test_axes_have_scales_limits_and_single_points(sweep: str) -> None:
         return figure.axes[0]
     line = axes(x="network.loss", log="y", range="0.001:")
     assert (line.get_yscale(), line.get_ylim()[0]) == ("log", 0.001)
+    format_tick = line.yaxis.get_major_formatter()
+    assert [format_tick(value) for value in (0.0001, 0.01, 1, 1000, 100000)] == ["10⁻⁴", "0.01", "1", "1000", "10⁵"]
     assert len({(curve.get_linestyle(), curve.get_marker()) for curve in line.get_lines() if curve.get_linestyle() != "None"} - {("None", "None")}) >= 2
     box = axes(kind="box", x="network.loss")
     points = [curve for curve in box.get_lines() if curve.get_marker() == "o"]

@@ -53,6 +53,9 @@ def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> No
     assert list(runs.loc[runs["network.loss"] == 0, "agreeing"]) == [5, 5, 10, 10]
     assert "seen" not in runs.columns, "only what is measured"
     assert list(runs.loc[runs["network.loss"] == 0, "converged.agreeing"]) == [1.0] * 4 or runs["converged.agreeing"].isna().any()
+    # 1 s, minus 0.2 s in the band.
+    assert set(runs.loc[runs["converged.agreeing"].isna(), "censored.agreeing"]) <= {0.8}
+    assert (runs["converged.agreeing"].isna() != runs["censored.agreeing"].isna()).all()
 
 
 def test_each_simulated_second_is_a_row_and_each_node_too(lamps: Project) -> None:
@@ -114,6 +117,9 @@ def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -
     ({"vary": {"fields.lamps": [1, "many"]}}, 7, "'lamps' is \"many\", it must be of type whole number"),
     ({"set": {"network.los": 1}}, 5, "unknown key 'network.los'"),
     ({"vary": {"seed": [1]}, "measure": ["glow"]}, 9, "the scene has no metric 'glow'; it has: agreeing, seen"),
+    ({"set": {"converged.seen": {"from": 1}}, "figures": [{"metric": "converged.glow", "kind": "ecdf"}]}, 11,
+     "'figures[0].metric' is 'converged.glow', which does not exist; these exist: agreeing, seen, converged.seen, nodes"),
+    ({"vary": {"seed": [1]}, "labels": {"glow": "x"}}, 10, "'labels.glow' is unknown: it is not one of the varied keys (seed)"),
 ])
 def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
         lamps: Project, keys: dict[str, object], line: int, message: str, tmp_path: Path) -> None:
@@ -248,9 +254,10 @@ def test_the_worked_study_runs_to_its_figures(tmp_path: Path, monkeypatch: pytes
     # Without loss all converge; with it, distances alone take longer than paths.
     assert results.runs["converged.error"].notna().all()
     assert effects.loc[(0.4, "path-vector", "bellman-ford"), "difference"] > 0
-    assert {"error-time.svg", "error-time.pdf", "error-end.svg", "reached-time.svg", "converged.error-end.pdf"} <= set(os.listdir(out / "figures"))
+    assert {"error-time.svg", "error-time.pdf", "error-end.svg", "reached-time.svg", "converged.error-end.pdf",
+            "converged.error-line-network.loss-program.pdf", "converged.error-box-network.loss-program.txt"} <= set(os.listdir(out / "figures"))
     page = (out / "figures.html").read_text()
-    assert page.count("<svg") == 5
+    assert page.count("<svg") == 7
     assert "95 % bootstrap interval of 3 runs per configuration" in page
     # The page's Python, in the folder of the sweep.
     monkeypatch.chdir(tmp_path)
