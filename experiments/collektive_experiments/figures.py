@@ -4,6 +4,8 @@ import html
 import io
 import os
 import re
+import sys
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +20,7 @@ from matplotlib.ticker import LogFormatter, NullFormatter, PercentFormatter
 
 from . import files
 from .experiment import Experiment, check_labels, read_figures, text
-from .figure_options import CENSORED, CONVERGED, TIME, FigureOptions, check_keys, check_metrics
+from .figure_options import CENSORED, CONVERGED, TIME, Fail, FigureOptions, check_keys, check_metrics
 from .positions import ExperimentError, Located
 from .results import VALUE, Results, compare, label, load
 from .statistics import interval, kaplan_meier
@@ -51,6 +53,8 @@ BOUND = "bound\0"
 """A column that marks censored runs, whose name no metric has."""
 GOLDEN_RATIO = 0.618034
 """Spreads the points of a box plot."""
+TOLERANCE, MIN_AXES = 0.02, 0.5
+"""Inches that a figure may exceed its size, and the minimum width and height of axes."""
 MAX_CELLS = 64
 """Up to this number of cells, a heat map contains numbers."""
 
@@ -111,7 +115,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
         for name, figure, caption in draw(results, request):
             if name in drawn:
                 raise request.fail("metric", f"and the other options describe a figure that exists: '{name}'; remove one")
-            drawn[name] = _render(figure, caption, STYLES[request.style])
+            drawn[name] = _render(figure, caption, STYLES[request.style], request.fail)
     if not options:
         for metric in metrics or [*results.metrics, *results.convergence_times]:
             if metric in results.metrics:
@@ -137,13 +141,26 @@ def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]
     return read_figures(Located(os.path.join(folder, "sweep.json")))
 
 
-def _render(figure: Figure, caption: str, style: Any) -> Drawing:
+def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) -> Drawing:
     """Renders a figure, with the style in which it was drawn: Matplotlib creates ticks and fonts when it renders."""
     svg, pdf = io.BytesIO(), io.BytesIO()
-    with matplotlib.rc_context(style):
+    with matplotlib.rc_context(style), warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
         figure.savefig(svg, format="svg", metadata={"Date": None})
         figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
+        if fail and not _fits(figure):
+            raise fail("size", f"leaves too little space for labels: {figure.get_figwidth():g}x{figure.get_figheight():g}; enlarge it, or set shorter labels")
+    for message in dict.fromkeys(str(warning.message) for warning in found):
+        print(f"collektive: {message}", file=sys.stderr)
     return Drawing(caption, svg.getvalue(), pdf.getvalue())
+
+
+def _fits(figure: Figure) -> bool:
+    """Returns whether nothing is cut off at the edges, and the axes have a readable size."""
+    drawn, axes = figure.get_tightbbox(), figure.axes[0].get_position()
+    width, height = figure.get_size_inches()
+    is_inside = min(drawn.x0, drawn.y0) > -TOLERANCE and drawn.x1 < width + TOLERANCE and drawn.y1 < height + TOLERANCE
+    return bool(is_inside and min(axes.width * width, axes.height * height) > MIN_AXES)
 
 
 def file_name(metric: str) -> str:
@@ -243,7 +260,7 @@ def _add_legend(figure: Figure, axes: Axes, results: Results, by: str) -> None:
 def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:
     counts = set()
     parts = _split(results, data, by)
-    for index, (name, runs) in enumerate(parts):
+    for index, name, runs in parts:
         table = runs.pivot_table(index="run", columns="second", values=metric)
         counts.add(len(table))
         if table.empty:
@@ -252,7 +269,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
         look = _look(index)
         # Markers of different lines are at different times.
         step = max(1, len(table.columns) // 6)
-        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // len(parts), step), **look)
+        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // (parts[-1][0] + 1), step), **look)
         axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=look["color"], alpha=0.2, linewidth=0)
     return counts
 
@@ -260,7 +277,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
 def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str, by: str | None) -> set[int]:
     counts = set()
     values, censored = results.values(metric), results.censored(metric)
-    for index, (name, runs) in enumerate(_split(results, data, by)):
+    for index, name, runs in _split(results, data, by):
         rows = []
         for place, part in runs.groupby(x):
             found = values[part.index].dropna().to_numpy(float)
@@ -278,32 +295,31 @@ def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str,
 
 def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str | None, by: str | None) -> set[int]:
     counts: set[int] = set()
-    labelled: set[str] = set()
+    labelled: set[int] = set()
     values, censored = results.values(metric), results.censored(metric)
     groups = _split(results, data, x)
-    names = [name for name, _ in _split(results, data, by)]
-    width = 0.8 / len(names)
-    for place, (_, group) in enumerate(groups):
-        for name, part in _split(results, group, by):
-            index = names.index(name)
+    boxes = 1 if by is None else results.runs[by].nunique()
+    width = 0.8 / boxes
+    for place, (_, _, group) in enumerate(groups):
+        for index, name, part in _split(results, group, by):
             # Sorted, so that neighbours are at different places.
             sample = values[part.index].dropna().sort_values(kind="stable")
             counts.add(len(part))
             colour = COLOURS[(index if by else place) % len(COLOURS)]
-            at = place + (index - (len(names) - 1) / 2) * width
+            at = place + (index - (boxes - 1) / 2) * width
             is_few = len(sample) <= MAX_POINTS
             lines = {"color": colour}
             box = axes.boxplot([sample.to_numpy(float)], positions=[at], widths=0.8 * width, patch_artist=True, showfliers=not is_few, whiskerprops=lines,
                                capprops=lines, medianprops={"color": "black"}, flierprops={"markersize": 3}, manage_ticks=False)
             box["boxes"][0].set(facecolor=to_rgba(colour, 0.35), edgecolor=colour, hatch=HATCHES[index] if by else "",
-                                label="" if name in labelled else name)
-            labelled.add(name)
+                                label="" if index in labelled else name)
+            labelled.add(index)
             if is_few:
                 spots = at + 0.5 * width * ((np.arange(len(sample)) * GOLDEN_RATIO) % 1 - 0.5)
                 ended = censored[sample.index].to_numpy(bool)
                 axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
                 axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
-    labels = [name for name, _ in groups]
+    labels = [name for _, name, _ in groups]
     axes.set_xticks(range(len(groups)), labels)
     if sum(map(len, labels)) > 30:
         axes.tick_params("x", rotation=30)
@@ -319,7 +335,7 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
     values, censored = results.values(metric), results.censored(metric)
     low_end, end = values[data.index].min(), values[data.index].max()
     start = 0 if metric.startswith(CONVERGED) else low_end - 0.03 * (end - low_end)
-    for index, (name, runs) in enumerate(_split(results, data, by)):
+    for index, name, runs in _split(results, data, by):
         sample = values[runs.index].dropna()
         is_censored = censored[sample.index].to_numpy(bool)
         counts.add(len(sample))
@@ -423,11 +439,12 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts]
 
 
-def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[str, pd.DataFrame]]:
-    """Returns the parts of a table with each value of a key, and the names of the values."""
+def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[int, str, pd.DataFrame]]:
+    """Returns the parts of a table with each value of a key, with the value's index, which is the same in all figures, and its name."""
     if key is None:
-        return [("all runs", data)]
-    return [(_value(results, value), data[data[key] == value]) for value in _order(data[key])]
+        return [(0, "all runs", data)]
+    parts = [(index, _value(results, value), data[data[key] == value]) for index, value in enumerate(_order(results.runs[key]))]
+    return [part for part in parts if len(part[2])]
 
 
 def _order(values: "pd.Series[Any]") -> list[Any]:

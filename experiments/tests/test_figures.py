@@ -112,6 +112,7 @@ def problem(option: str, message: str) -> ExperimentError:
     (["--metric", "digest", "--x", "network.loss"], "--metric is 'digest', which does not exist"),
     (["--metric", "converged.error"], "--metric is 'converged.error', which has one value per run; name a key with x, or use the kind 'ecdf'"),
     (["--metric", "error", "error"], "--metric contains 'error' twice"),
+    (["--by", "program", "--size", "1x1"], "--size leaves too little space for labels: 1x1; enlarge it, or set shorter labels"),
     (["--experiment", "missing.json"], "'missing.json' cannot be read"),
 ])
 def test_wrong_options_are_one_line_before_anything_is_written(out: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
