@@ -365,7 +365,7 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     figure.colorbar(image, ax=axes, label=_axis(results, metric), pad=0.02)
     for (row, column), mean in np.ndenumerate(means.to_numpy(float)):
         if np.isfinite(mean) and means.size <= MAX_CELLS:
-            number = f"{mean:.2g}" if abs(mean) < 100 else f"{mean:.0f}"
+            number = f"{mean:#.2g}".rstrip(".") if abs(mean) < 100 else f"{mean:.0f}"
             axes.text(column, row, ("≥" if bounds.iat[row, column] else "") + number, ha="center", va="center",
                       fontsize=matplotlib.rcParams["font.size"] - 2, color="white" if norm(mean) < 0.6 else "black")
     return set(groups[VALUE].count())
