@@ -18,7 +18,7 @@ CONVERGED = "converged."
 CENSORED = "censored."
 """Prefix of the columns of the last time at which a metric could have converged, in runs in which it did not."""
 MAX_GROUPS = 10
-"""More lines in one figure cannot be told apart."""
+"""More lines in one figure are not distinct."""
 MIN_INCHES, MAX_INCHES = 1, 20
 SIZE = re.compile(r"([0-9.]{1,9})x([0-9.]{1,9})")
 
@@ -130,7 +130,7 @@ def _range(value: str, fail: Fail) -> tuple[float | None, float | None]:
     try:
         low, high = (float(part) if part.strip() else None for part in parts)
     except ValueError:
-        raise fail("range", f"is '{value}', it must be two numbers, such as 0:1, of which one may be left out") from None
+        raise fail("range", f"is '{value}', it must be one or two limits, such as 0:1, 0: or :1") from None
     if any(limit is not None and not math.isfinite(limit) for limit in (low, high)):
         raise fail("range", f"is '{value}', its limits must be finite")
     if low is not None and high is not None and low >= high:

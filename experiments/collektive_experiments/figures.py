@@ -156,7 +156,7 @@ def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) 
 
 
 def _fits(figure: Figure) -> bool:
-    """Returns whether nothing is cut off at the edges, and the axes have a readable size."""
+    """Returns whether all labels are inside the figure, and the axes have a readable size."""
     drawn, axes = figure.get_tightbbox(), figure.axes[0].get_position()
     width, height = figure.get_size_inches()
     is_inside = min(drawn.x0, drawn.y0) > -TOLERANCE and drawn.x1 < width + TOLERANCE and drawn.y1 < height + TOLERANCE

@@ -29,7 +29,7 @@ def interval(values: Floats, statistic: Any = np.mean, confidence: float = 0.95)
 
 
 def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
-    """Compares two independent samples. The p-value is that of a permutation test of the difference of means."""
+    """Compares two independent samples. The p-value is from a permutation test of the difference of means."""
     if len(a) < 2 or len(b) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
     random = np.random.default_rng(0)
@@ -46,7 +46,7 @@ def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
 
 
 def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
-    """Compares two samples whose values at equal indices belong together. The p-value is that of a sign permutation test of the mean difference."""
+    """Compares two samples whose values at equal indices belong together. The p-value is from a sign permutation test of the mean difference."""
     if len(a) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
     differences = b - a
