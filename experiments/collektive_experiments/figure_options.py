@@ -42,7 +42,11 @@ class FigureOptions:
     fail: Fail
 
 
-def read_options(given: Mapping[str, Any], fail: Fail) -> FigureOptions:
+def _fail(option: str, problem: str) -> ExperimentError:
+    return ExperimentError(f"'{option}' {problem}")
+
+
+def read_options(given: Mapping[str, Any], fail: Fail = _fail) -> FigureOptions:
     """Reads options that have a value. Checks everything except the names of keys and metrics."""
     for option, value in given.items():
         if option not in KEYS:

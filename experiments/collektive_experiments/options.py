@@ -28,7 +28,7 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--by", metavar="KEY", help="key that colours, markers and line styles show; the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
     parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
-    parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis")
+    parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis (write --range=A:B if A is negative)")
     parser.add_argument("--size", metavar="WxH", help="size in inches (default: the width of a column, 2.2 high)")
     parser.add_argument("--style", metavar="plain|ieee|acm", help="fonts and axes (default: plain)")
     parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")

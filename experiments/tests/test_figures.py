@@ -75,12 +75,8 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
     options = {"metric": ["error", "converged.error"], "x": "network.loss", "by": "program", "kind": "box"}
 
     def contents() -> list[bytes]:
-        return [Path(path).read_bytes() for path in plot(str(out), options=read_options(options, problem))]
+        return [Path(path).read_bytes() for path in plot(str(out), options=read_options(options))]
     assert contents() == contents()
-
-
-def problem(option: str, message: str) -> ExperimentError:
-    return ExperimentError(f"{option} {message}")
 
 
 @pytest.mark.parametrize(("words", "message"), [
@@ -181,7 +177,7 @@ def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None
     assert 0 < censored.sum() < len(censored)
     assert set(results.values("converged.error")[censored]) == {8.0}
     for kind, mark in (("line", "Hollow markers"), ("box", "Triangles"), ("heat", "Cells with ≥"), ("ecdf", "Vertical marks")):
-        options = read_options({"metric": "converged.error", "kind": kind, "by": "program"} | ({} if kind == "ecdf" else {"x": "network.loss"}), problem)
+        options = read_options({"metric": "converged.error", "kind": kind, "by": "program"} | ({} if kind == "ecdf" else {"x": "network.loss"}))
         captions = [caption for _, _, caption in draw(results, options)]
         assert f"{mark}: {censored.sum()} of " in "".join(captions) or kind == "ecdf"
         assert mark in captions[-1]
@@ -194,13 +190,13 @@ def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None
         table.assign(label=table["network.loss"].map(lambda loss: f"loss {loss}")).to_parquet(f"{folder}/{name}.parquet")
     settings = json.loads((tmp_path / "out/sweep.json").read_text())
     (tmp_path / "out/sweep.json").write_text(json.dumps({**settings, "keys": ["program", "network.loss", "label", "seed"]}))
-    options = read_options({"metric": "nodes", "x": "network.loss", "by": "program"}, problem)
+    options = read_options({"metric": "nodes", "x": "network.loss", "by": "program"})
     assert len(list(draw(load(folder), options))) == 1
 
 
 def test_axes_have_scales_limits_and_single_points(sweep: str) -> None:
     def axes(**options: str) -> Any:
-        (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}, problem))
+        (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}))
         return figure.axes[0]
     line = axes(x="network.loss", log="y", range="0.001:")
     assert (line.get_yscale(), line.get_ylim()[0]) == ("log", 0.001)
