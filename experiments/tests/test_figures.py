@@ -2,7 +2,7 @@
 import json
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,13 +24,13 @@ KINDS = {
 }
 
 
-def write_sweep(folder: Path, seeds: int = 5, **settings: Any) -> str:
+def write_sweep(folder: Path, seeds: int = 5, losses: Sequence[float] = LOSSES, **settings: Any) -> str:
     """Writes the tables of a sweep in which lossy runs of one program do not converge."""
     random = np.random.default_rng(3)
-    keys = {"program": PROGRAMS, "network.loss": LOSSES, "seed": range(1, seeds + 1)}
+    keys = {"program": PROGRAMS, "network.loss": losses, "seed": range(1, seeds + 1)}
     rows: list[dict[str, Any]] = []
     for program in PROGRAMS:
-        for loss in LOSSES:
+        for loss in losses:
             for seed in keys["seed"]:
                 time = 2 + 10 * loss * (1 + PROGRAMS.index(program)) + random.normal(0, 0.3)
                 rows.append({"run": f"{program}{loss}{seed}", "program": program, "network.loss": loss, "seed": seed, "status": "complete", "digest": "0",
@@ -148,26 +148,27 @@ def test_wrong_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, k
 
 def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) -> None:
     labels = {"network.loss": "message loss", "error": "mean error [m]", "bellman-ford": "Bellman-Ford"}
-    folder = write_sweep(tmp_path / "out", seeds=3, figures=[{"metric": "error", "x": "network.loss", "by": "program"}], labels=labels)
+    folder = write_sweep(tmp_path / "out", 3, (0, 0.4), figures=[{"metric": "error", "x": "network.loss", "by": "program"}], labels=labels)
     paths = plot(folder)
     assert f"{folder}/figures/error-line-network.loss-program.pdf" in paths
     page = (tmp_path / "out/figures.html").read_text()
     assert page.count("<svg") == 4
     assert {"message loss", "mean error [m]", "Bellman-Ford"} <= set(re.findall(">([^<]+)</text>", page))
     assert "mean error against message loss: mean and 95 % bootstrap interval of 3 runs per configuration." in page
-    # The figures of another file replace them.
+    # The figures and labels of another file replace them.
     (tmp_path / "scenario.json").write_text("{}")
     experiment: dict[str, Any] = {"version": 1, "scenario": "scenario.json", "vary": {"program": list(PROGRAMS), "network.loss": list(LOSSES), "seed": [1]}}
     (tmp_path / "e.json").write_text(json.dumps({**experiment, "labels": {"eror": "x"}}))
     assert main(["plot", folder, "--experiment", str(tmp_path / "e.json")]) == 1
     (tmp_path / "e.json").write_text(json.dumps(experiment))
-    assert "mean error" not in Path(plot(folder, experiment=read(str(tmp_path / "e.json")))[-1]).read_text()
+    paths = plot(folder, options=read_options({"metric": "nodes", "x": "network.loss"}), experiment=read(str(tmp_path / "e.json")))
+    assert "nodes against network.loss" in Path(paths[2]).read_text()
 
 
 def test_two_figures_of_one_name_are_an_error(tmp_path: Path) -> None:
     figure = {"metric": "error", "x": "network.loss"}
     with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe a figure that exists: 'error-line-network.loss-"):
-        plot(write_sweep(tmp_path / "out", seeds=1, figures=[figure, figure]))
+        plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
     assert not (tmp_path / "out/figures").exists()
 
 
