@@ -38,7 +38,7 @@ static _Thread_local bool is_engine;
 static void lose_in_child(void) {
     atomic_store(&engine.forked, true);
     if (engine_state() != CLK_STATE_RUNNING || atomic_flag_test_and_set(&engine.losing)) return;
-    snprintf(engine.reason, sizeof engine.reason, "this process was forked from the process that runs the JVM");
+    snprintf(engine.reason, sizeof engine.reason, "this process was forked from the one that runs the JVM; use the parent, or call exec");
     engine_set_state(CLK_STATE_LOST);
 }
 
@@ -64,7 +64,8 @@ void engine_set_state(int32_t state) {
 int32_t engine_check_running(void) {
     switch (engine_state()) {
         case CLK_STATE_RUNNING: return CLK_OK;
-        case CLK_STATE_LOST: return error_set(CLK_JVM_LOST, "the JVM is lost (%s); restart the process to get a new one", engine.reason);
+        case CLK_STATE_LOST:
+            return error_set(CLK_JVM_LOST, "the JVM has crashed or stopped responding (%s); restart the process", engine.reason);
         case CLK_STATE_STOPPED:
             return error_set(CLK_JVM_NOT_RUNNING, "the JVM was stopped, and a process can start one only once; restart the process");
         default: return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
@@ -91,7 +92,7 @@ void engine_lose(const char *format, ...) {
     vsnprintf(engine.reason, sizeof engine.reason, format, arguments);
     va_end(arguments);
     engine_set_state(CLK_STATE_LOST);
-    log_format(CLK_LOG_ERROR, "the JVM is lost: %s", engine.reason);
+    log_format(CLK_LOG_ERROR, "the JVM has crashed or stopped responding: %s", engine.reason);
     wake_all();
 }
 
@@ -105,7 +106,7 @@ void engine_end(void) {
 int32_t engine_enter(int64_t deadline) {
     prim_run_once(&engine.once, init);
     if (prim_semaphore_wait_until(&engine.turn, deadline)) return CLK_OK;
-    return error_set(CLK_TIMEOUT, "the engine was busy with another call for the whole time limit; nothing was done");
+    return error_set(CLK_TIMEOUT, "the engine was busy with another call for the whole limit and did not execute this one; retry it");
 }
 
 void engine_leave(void) {

@@ -330,7 +330,7 @@ void own_turn_times_out(void) {
     CHECK_OK(open_session(&shared_session));
     begin_sleep(&sleeper, 3000);
     int64_t begin = now_ns();
-    CHECK_CODE(CLK_TIMEOUT, "nothing was done", clk_session_open(request, 0, 8, 200, &session, &answer));
+    CHECK_CODE(CLK_TIMEOUT, "did not execute this one", clk_session_open(request, 0, 8, 200, &session, &answer));
     CHECK(now_ns() - begin >= 200000000 && now_ns() - begin < 2500000000);
     end_sleep(&sleeper);
     CHECK_OK(open_session(&session));

@@ -185,9 +185,9 @@ void class_path_beyond_ascii(void) {
 static void check_lost(void) {
     clk_session session;
     CHECK(clk_jvm_state() == CLK_STATE_LOST);
-    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", clk_session_open(1, 0, 8, 1000, &session, &answer));
-    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", start(NULL));
-    CHECK_CODE(CLK_JVM_LOST, "the JVM is lost", clk_jvm_stop(1000));
+    CHECK_CODE(CLK_JVM_LOST, "the JVM has crashed or stopped responding", clk_session_open(1, 0, 8, 1000, &session, &answer));
+    CHECK_CODE(CLK_JVM_LOST, "the JVM has crashed or stopped responding", start(NULL));
+    CHECK_CODE(CLK_JVM_LOST, "the JVM has crashed or stopped responding", clk_jvm_stop(1000));
 }
 
 void class_path_without_host(void) {
