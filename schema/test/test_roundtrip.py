@@ -28,7 +28,7 @@ def kotlin(*words: str) -> list[str]:
 
 @pytest.mark.parametrize("writer, reader", [(csharp, kotlin), (kotlin, csharp)], ids=["to Kotlin", "to C#"])
 @pytest.mark.parametrize("schema", SCHEMAS)
-def test_what_one_side_writes_the_other_reads(schema: str, writer: Callable[..., list[str]], reader: Callable[..., list[str]], tmp_path: Path) -> None:
+def test_written_data_is_read_back(schema: str, writer: Callable[..., list[str]], reader: Callable[..., list[str]], tmp_path: Path) -> None:
     name, file = f"test.{schema}Schema", str(tmp_path / "data")
     subprocess.run(writer("write", name, file, RECORDS, SEED), check=True)
     read = subprocess.run(reader("read", name, file), check=True, capture_output=True, text=True).stdout

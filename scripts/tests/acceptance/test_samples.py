@@ -59,7 +59,7 @@ class SamplesTest(Folder):
             self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
 
     def test_the_drones_form_each_shape_in_its_turn_though_their_leader_fails(self) -> None:
-        rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "hold": 8, "failAfter": 10})
+        rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "shapeSeconds": 8, "failAfter": 10})
         # Just before the next shape; the leader fails in the second one.
         for row in rows[7], rows[15], rows[23]:
             self.assertGreater(row["formed"], 0.9 * 299, row)

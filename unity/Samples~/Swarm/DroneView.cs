@@ -34,7 +34,7 @@ namespace Collektive.Samples.Swarm
 
         private void Awake()
         {
-            // A sphere of the editor's brings the mesh, and a material that fits the render pipeline.
+            // Takes the mesh and a material for the render pipeline from a primitive.
             var model = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             mesh = model.GetComponent<MeshFilter>().sharedMesh;
             for (var i = 0; i < Colors.Length; i++)

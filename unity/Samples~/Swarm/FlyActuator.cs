@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Swarm
 {
-    /// <summary>Flies towards where the program wants the drone to be.</summary>
+    /// <summary>Flies towards the target of the program.</summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Fly Actuator")]
     public sealed class FlyActuator : MoveActuator<ActuatorData>
     {

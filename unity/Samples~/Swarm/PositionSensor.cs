@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Swarm
 {
-    /// <summary>Perceives where the drone is.</summary>
+    /// <summary>Measures the drone's position.</summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorData>
     {

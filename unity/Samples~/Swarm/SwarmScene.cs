@@ -26,7 +26,7 @@ namespace Collektive.Samples.Swarm
 
         /// <summary>Simulated seconds from one shape to the next.</summary>
         [Min(1)]
-        public float hold = 15;
+        public float shapeSeconds = 15;
 
         /// <summary>Simulated seconds after which the leader fails.</summary>
         [Min(0)]
@@ -78,9 +78,9 @@ namespace Collektive.Samples.Swarm
         /// <inheritdoc/>
         protected override void Build(SimulationManager manager)
         {
-            if (drones < 1 || !(hold > 0) || !(speed > 0))
+            if (drones < 1 || !(shapeSeconds > 0) || !(speed > 0))
             {
-                manager.Fail("the scene has " + drones + " drones that fly " + speed + " m/s and hold a shape for " + hold
+                manager.Fail("the scene has " + drones + " drones that fly " + speed + " m/s and hold a shape for " + shapeSeconds
                     + " s: use at least one drone, and a time and a speed above 0");
                 return;
             }
@@ -126,7 +126,7 @@ namespace Collektive.Samples.Swarm
             drone.transform.position = place + new Vector3(random.Range(-0.3f, 0.3f), random.Range(0.3f, 0.9f), random.Range(-0.3f, 0.3f));
             var parameters = drone.AddComponent<Node>().Parameters;
             parameters.Add(new NodeParameter("radius", radius.ToString(CultureInfo.InvariantCulture)));
-            parameters.Add(new NodeParameter("hold", hold.ToString(CultureInfo.InvariantCulture)));
+            parameters.Add(new NodeParameter("shapeSeconds", shapeSeconds.ToString(CultureInfo.InvariantCulture)));
             parameters.Add(new NodeParameter("speed", speed.ToString(CultureInfo.InvariantCulture)));
             drone.AddComponent<RadiusNeighbourhood>().Radius = Near;
             drone.AddComponent<PositionSensor>();

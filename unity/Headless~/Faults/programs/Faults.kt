@@ -16,7 +16,7 @@ import java.util.logging.LogManager
 import kotlin.concurrent.thread
 
 /** Counts its rounds, and causes the parameter's fault in a round whose sensor is 1. */
-@Program("fault", parameters = [Parameter("fault", "none", "What goes wrong when the value is 1.")])
+@Program("fault", parameters = [Parameter("fault", "none", "The fault that occurs when the value is 1.")])
 public fun Aggregate<Int>.fault(sensors: SensorData, device: Device): ActuatorData {
     val rounds = evolve(0) { it + 1 }
     if (sensors.value() == 1f) misbehave(device.parameters["fault"], sensors)

@@ -49,7 +49,7 @@ public fun Aggregate<Int>.crowd(sensors: SensorData, device: Device): ActuatorDa
     return ActuatorData(velocity = way.velocity(pace), density = crowding.toFloat(), warned = isWarned)
 }
 
-/** The direction in which a walker wants to go: a sum of vectors on the ground. */
+/** The desired direction of a walker: a sum of vectors on the ground. */
 private class Steering {
     private var x = 0.0
     private var z = 0.0
@@ -65,10 +65,10 @@ private class Steering {
     /** Pushes away from an obstacle at a vector, [gap] metres apart, and a little to the right of it. */
     fun avoid(toX: Double, toZ: Double, gap: Double) {
         val length = sqrt(toX * toX + toZ * toZ)
-        if (gap > COMFORT || length < TOO_SMALL) return
-        val push = PUSH * (1 - gap / COMFORT) * (1 - gap / COMFORT) / length
-        x += push * (-toX + SIDESTEP * toZ)
-        z += push * (-toZ - SIDESTEP * toX)
+        if (gap > PERSONAL_SPACE || length < TOO_SMALL) return
+        val push = PUSH * (1 - gap / PERSONAL_SPACE) * (1 - gap / PERSONAL_SPACE) / length
+        x += push * (-toX + RIGHT_BIAS * toZ)
+        z += push * (-toZ - RIGHT_BIAS * toX)
     }
 
     fun velocity(speed: Double): Vector3Value {
@@ -80,11 +80,11 @@ private class Steering {
 
 /** In metres: diameter of a body, gap below which a walker gives way, radius within which walkers are counted. */
 private const val BODY = 0.5
-private const val COMFORT = 1.2
+private const val PERSONAL_SPACE = 1.2
 private const val DENSITY_RADIUS = 2.0
 private const val DENSITY_AREA = Math.PI * DENSITY_RADIUS * DENSITY_RADIUS
 
 /** Weight of avoidance relative to the goal, and the share of it that points to the right. */
 private const val PUSH = 4.0
-private const val SIDESTEP = 0.5
+private const val RIGHT_BIAS = 0.5
 private const val TOO_SMALL = 1e-6

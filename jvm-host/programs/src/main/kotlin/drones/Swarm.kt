@@ -20,7 +20,7 @@ import kotlin.math.sqrt
     "swarm",
     parameters = [
         Parameter("radius", "20.0", "Radius of the shapes in metres. All drones must fit on a sphere of this radius."),
-        Parameter("hold", "15.0", "Seconds between two shapes."),
+        Parameter("shapeSeconds", "15.0", "Seconds between two shapes."),
         Parameter("speed", "8.0", "Maximum speed of a drone in metres per second."),
     ],
 )
@@ -28,10 +28,10 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
     val here = Point3D(Triple(position.x().toDouble(), position.y().toDouble(), position.z().toDouble()))
     val radius = device.parameters.double("radius")
-    val leads = boundedElection(MOST_HOPS) == localId
+    val leads = boundedElection(MAX_HOPS) == localId
     val turn = share(NOT_YET) { turns ->
-        val told = turns.all.values.list.max()
-        if (leads) maxOf(told, (device.time / device.parameters.double("hold")).toInt()) else told
+        val receivedTurn = turns.all.values.list.max()
+        if (leads) maxOf(receivedTurn, (device.time / device.parameters.double("shapeSeconds")).toInt()) else receivedTurn
     }
     var way = here.awayFrom(neighboring(here).neighbors.values.list)
     var off = 0.0
@@ -39,7 +39,7 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
         val fromMiddle = here - Point3D(Triple(0.0, MIDDLE * radius, 0.0))
         val toShape = SHAPES[turn % SHAPES.size].wayTo(fromMiddle, radius)
         off = toShape.length
-        way += toShape * PULL + fromMiddle.around() * (SWIRL * device.parameters.double("speed"))
+        way += toShape * PULL + fromMiddle.around() * (ROTATION_SHARE * device.parameters.double("speed"))
     }
     return ActuatorData(
         target = (here + way).toVector(),
@@ -56,8 +56,8 @@ private fun Point3D.awayFrom(others: List<Point3D>): Point3D {
     var z = 0.0
     for (other in others) {
         val distance = distanceTo(other)
-        if (distance >= COMFORT || distance < TOO_SMALL) continue
-        val push = PUSH * (COMFORT / distance - 1)
+        if (distance >= MIN_DISTANCE || distance < TOO_SMALL) continue
+        val push = PUSH * (MIN_DISTANCE / distance - 1)
         x += push * (this.x - other.x)
         y += push * (this.y - other.y)
         z += push * (this.z - other.z)
@@ -76,7 +76,7 @@ private fun Point3D.toVector() = Vector3Value(x = x.toFloat(), y = y.toFloat(), 
 private val ORIGIN = Point3D(Triple(0.0, 0.0, 0.0))
 
 /** Leaders of the whole swarm: no two drones are farther from each other. */
-private const val MOST_HOPS = 120
+private const val MAX_HOPS = 120
 private const val NOT_YET = -1
 
 /** Height of the shapes' middle, in radii. */
@@ -86,9 +86,9 @@ private const val MIDDLE = 1.75
 private const val PULL = 1.5
 
 /** Metres between drones below which they push each other away, and how strongly. */
-private const val COMFORT = 1.5
+private const val MIN_DISTANCE = 1.5
 private const val PUSH = 3.0
 
 /** Share of the speed with which drones turn around the axis. */
-private const val SWIRL = 0.4
+private const val ROTATION_SHARE = 0.4
 private const val TOO_SMALL = 1e-6

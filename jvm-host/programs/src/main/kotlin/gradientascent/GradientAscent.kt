@@ -42,7 +42,7 @@ public fun Aggregate<Int>.gradientAscent(sensors: SensorData, device: Device): A
     return ActuatorData(Vector3Value((here.x + scale * x).toFloat(), here.y, (here.z + scale * z).toFloat()))
 }
 
-/** What a node shares with its neighbours: its position, and the intensity that it senses there. */
+/** The message to neighbours: the position of the node, and the intensity there. */
 private class Sample(val x: Float, val y: Float, val z: Float, val intensity: Float) {
     fun distanceTo(other: Sample): Double = length((other.x - x).toDouble(), (other.y - y).toDouble(), (other.z - z).toDouble())
 }

@@ -48,7 +48,7 @@ public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorD
     val heading = evolve(device.random.nextDouble(2 * StrictMath.PI)) { it + TURN * (device.random.nextDouble() - 0.5) }
     val drive = Drive()
     if (role == EXPLORER) {
-        drive.add(StrictMath.cos(heading), StrictMath.sin(heading), WANDER)
+        drive.add(StrictMath.cos(heading), StrictMath.sin(heading), HEADING_WEIGHT)
         drive.spread(Other(here, toBase), others, device.parameters.double("spacing"))
     }
     drive.avoid(sensors)
@@ -75,7 +75,7 @@ private fun Aggregate<Int>.staysWith(casualty: Int): Boolean {
 /** The position of a robot, and its distance from the base along links, in metres. */
 private data class Other(val place: Point2D, val toBase: Double)
 
-/** The direction in which a robot wants to go: a sum of vectors on the ground. */
+/** The desired direction of a robot: a sum of vectors on the ground. */
 private class Drive {
     private var x = 0.0
     private var z = 0.0
@@ -111,8 +111,8 @@ private class Drive {
             val toX = obstacle.x().toDouble()
             val toZ = obstacle.z().toDouble()
             val length = sqrt(toX * toX + toZ * toZ)
-            if (length > COMFORT || length < TOO_SMALL) continue
-            add(-toX, -toZ, PUSH * (1 - length / COMFORT) / length)
+            if (length > MIN_DISTANCE || length < TOO_SMALL) continue
+            add(-toX, -toZ, PUSH * (1 - length / MIN_DISTANCE) / length)
         }
     }
 
@@ -130,13 +130,13 @@ private const val WITH_CASUALTY = 2
 private const val BASE = 3
 
 /** Weight of a robot's own heading, and radians by which it turns in a round at most, to either side. */
-private const val WANDER = 0.5
+private const val HEADING_WEIGHT = 0.5
 private const val TURN = 0.6
 
 /** How much more a robot keeps away from those nearer to the base than from others. */
 private const val OUTWARDS = 5.0
 
 /** Metres from the centre of a robot below which it gives way to what does not, and the weight of that. */
-private const val COMFORT = 1.3
+private const val MIN_DISTANCE = 1.3
 private const val PUSH = 3.0
 private const val TOO_SMALL = 1e-6

@@ -81,6 +81,6 @@ class SwarmTest {
 
     private companion object {
         const val MANY = 160
-        val PARAMETERS = mapOf("radius" to "20.0", "hold" to "1.0", "speed" to "8.0")
+        val PARAMETERS = mapOf("radius" to "20.0", "shapeSeconds" to "1.0", "speed" to "8.0")
     }
 }

@@ -20,7 +20,7 @@ public interface DeviceRuntime {
     /**
      * Makes the state of the last round current and returns the export of that round.
      *
-     * The export stays readable until the first [round] after the next [commit], or longer while it is [held][Export.hold].
+     * The export stays readable until the first [round] after the next [commit], or longer while it is [retained][Export.retain].
      */
     public fun commit(): Export
 }
@@ -56,7 +56,7 @@ public interface DeviceRuntimes {
      *
      * Call it only while no round runs. Cheap if nothing can be freed.
      */
-    public fun tidy(devices: List<DeviceRuntime>)
+    public fun freeUnused(devices: List<DeviceRuntime>)
 }
 
 /** Decides which values must not outlive a round. Thread-safe. */

@@ -5,32 +5,32 @@ import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 /**
  * The messages of one device's round to all its neighbours. Receivers read it in place, on any thread.
  *
- * The device reuses it for a later round once another export has replaced it and it is not held.
+ * The device reuses it for a later round once another export has replaced it and it is not retained.
  */
 public abstract class Export protected constructor() {
     @Volatile
-    private var holders = 0
+    private var references = 0
 
     /** The tick in which the export was sent. The engine sets it before neighbours can read the export. */
     public var tick: Long = 0
 
-    /** Whether a holder still prevents the reuse of this export. */
-    public val isHeld: Boolean get() = holders > 0
+    /** Whether a reference still prevents the reuse of this export. */
+    public val isRetained: Boolean get() = references > 0
 
     /** Prefetches the data that neighbours read into the CPU cache. The result only keeps the JIT from removing the reads. */
     public open fun touch(): Int = 0
 
     /** Prevents the reuse of this export until the matching [release]. */
-    public fun hold() {
-        HOLDERS.incrementAndGet(this)
+    public fun retain() {
+        REFERENCES.incrementAndGet(this)
     }
 
-    /** Ends one [hold]. */
+    /** Ends one [retain]. */
     public fun release() {
-        check(HOLDERS.decrementAndGet(this) >= 0) { "export released more often than held" }
+        check(REFERENCES.decrementAndGet(this) >= 0) { "export released more often than retained" }
     }
 
     private companion object {
-        val HOLDERS: AtomicIntegerFieldUpdater<Export> = AtomicIntegerFieldUpdater.newUpdater(Export::class.java, "holders")
+        val REFERENCES: AtomicIntegerFieldUpdater<Export> = AtomicIntegerFieldUpdater.newUpdater(Export::class.java, "references")
     }
 }

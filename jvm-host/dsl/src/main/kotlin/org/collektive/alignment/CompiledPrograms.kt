@@ -22,7 +22,7 @@ public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
 }
 
 /** Runs when [failure] leaves an aligned call or branch, before [popToken]. */
-public fun noteFailure(aggregate: Aggregate<*>?, failure: Throwable) {
+public fun recordFailure(aggregate: Aggregate<*>?, failure: Throwable) {
     if (aggregate is AlignmentStack) aggregate.recordFailure(failure)
 }
 

@@ -36,7 +36,7 @@ internal class Channel {
             sentAt = sentAt.copyOf(capacity)
             arrivals = arrivals.copyOf(capacity)
         }
-        export.hold()
+        export.retain()
         exports[count] = export
         sentAt[count] = tick
         arrivals[count++] = arrival

@@ -45,8 +45,8 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
      * @param data reads the sensor data and packs the answers; called on the threads that run the rounds.
      * @param deadline time limit of all rounds, on the clock of `System.nanoTime()`.
      * @return the outcome, valid until the next call.
-     * @throws TickRefused when the tick is invalid; nothing has changed.
-     * @throws RoundsNotFinished when rounds still run at the deadline; the engine must then be closed.
+     * @throws InvalidTickException when the tick is invalid; nothing has changed.
+     * @throws RoundTimeoutException when rounds still run at the deadline; the engine must then be closed.
      */
     public fun step(tick: Tick, data: RoundData, deadline: Long): TickResult {
         check(!pool.isClosed) { "the engine is closed" }
@@ -56,7 +56,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         result.nodeCount = nodes.size
         result.linkCount = linkCount
         if (!isSequential) order.arrange(nodes, linkCount, tick.number)
-        runtimes.tidy(runtimesOfNodes)
+        runtimes.freeUnused(runtimesOfNodes)
         findDue(tick)
         val begin = System.nanoTime()
         runRounds(data, deadline)
@@ -187,7 +187,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         } finally {
             pool.abandon()
         }
-        throw RoundsNotFinished(clock.tick, dump)
+        throw RoundTimeoutException(clock.tick, dump)
     }
 
     private fun runRange(data: RoundData, thread: RoundThread, worker: Int, begin: Int, end: Int) {
@@ -243,5 +243,5 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
 public class InvalidAnswerException(message: String) : IllegalStateException(message)
 
 /** Thrown when rounds still run at the deadline; [threads] is a dump of their stacks. */
-public class RoundsNotFinished(tick: Long, public val threads: String) :
+public class RoundTimeoutException(tick: Long, public val threads: String) :
     IllegalStateException("tick $tick: rounds did not finish within the time limit")

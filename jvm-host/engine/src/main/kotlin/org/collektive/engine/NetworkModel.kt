@@ -54,10 +54,10 @@ public class NetworkModel(
         retention.isInfinite() && burstShare == 0.0
 
     /** Probability that a link leaves the bad state with a message. */
-    internal val leavesBad = 1.0 / burstLength
+    internal val burstEndProbability = 1.0 / burstLength
 
     /** Probability that a link enters the bad state with a message. */
-    internal val entersBad = leavesBad * burstShare / (1.0 - burstShare)
+    internal val burstStartProbability = burstEndProbability * burstShare / (1.0 - burstShare)
 
     private fun requireAmount(name: String, value: Double) {
         require(value >= 0.0 && value.isFinite()) { "the network's $name must be finite and 0 or greater, but is $value" }

@@ -50,4 +50,4 @@ public class Tick {
 public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
 
 /** Thrown when a tick is invalid. Nothing has changed; [message] names the tick, the id and the value. */
-public class TickRefused(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")
+public class InvalidTickException(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

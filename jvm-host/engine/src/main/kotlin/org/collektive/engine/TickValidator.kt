@@ -22,7 +22,7 @@ internal class TickValidator(private val nodes: NodeList) {
     /**
      * Validates [tick].
      *
-     * @throws TickRefused at the first error.
+     * @throws InvalidTickException at the first error.
      */
     fun check(tick: Tick, expectedNumber: Long) {
         validation++
@@ -142,5 +142,5 @@ internal class TickValidator(private val nodes: NodeList) {
 
     private fun isAdded(id: Int) = addedIds.binarySearch(id, 0, addedCount) >= 0
 
-    private fun refuse(tick: Tick, message: String): Nothing = throw TickRefused(tick.number, message)
+    private fun refuse(tick: Tick, message: String): Nothing = throw InvalidTickException(tick.number, message)
 }

@@ -34,8 +34,8 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         val number = uniform(words[0], words[1])
         val isBad = when (channel.burst) {
             Burst.UNKNOWN -> number < model.burstShare
-            Burst.GOOD -> number < model.entersBad
-            Burst.BAD -> number >= model.leavesBad
+            Burst.GOOD -> number < model.burstStartProbability
+            Burst.BAD -> number >= model.burstEndProbability
         }
         channel.burst = if (isBad) Burst.BAD else Burst.GOOD
         return isBad

@@ -189,7 +189,7 @@ class EngineTest {
         with(test) {
             val ids = IntArray(100) { it }
             step { add(*ids) }
-            val error = assertFailsWith<RoundsNotFinished> { step(limitMillis = 200) { due(*ids) } }
+            val error = assertFailsWith<RoundTimeoutException> { step(limitMillis = 200) { due(*ids) } }
             assertEquals("tick 2: rounds did not finish within the time limit", error.message)
             assertTrue("in the round of node 2" in error.threads)
             assertTrue("EngineTest" in error.threads, "the stack shows where")

@@ -82,7 +82,7 @@ class InvalidTicksTest {
                 }
                 val second = step { due(1, 2, 3) }.toMap()
                 if (bad != null) {
-                    val error = assertFailsWith<TickRefused> {
+                    val error = assertFailsWith<InvalidTickException> {
                         step {
                             nodesRemoved.add(3)
                             add(3, 100)

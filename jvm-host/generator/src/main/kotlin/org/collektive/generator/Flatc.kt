@@ -43,7 +43,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         val code = process.waitFor()
         if (code > SIGNAL) {
             throw GeneratorException(
-                "${schema.fileName}:1: flatc cannot read this file: it ended with signal ${code - SIGNAL}; make it simpler",
+                "${schema.fileName}:1: flatc crashed on this file (signal ${code - SIGNAL}); simplify the schema",
             )
         }
         if (code != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n${placed(messages)}")

@@ -40,7 +40,7 @@ internal class Kotlin(private val schema: UserSchema) {
         "name" to value(type).substringAfterLast('.'),
         // Arrays are compared by identity, so a class with arrays cannot be compared by value.
         "modifier" to if (type.fields.isEmpty() || type.fields.any { isArray(it.type) }) "" else "data ",
-        "documentation" to documentation(type.documentation.ifEmpty { "What a program writes as `${type.name.simple}`." }),
+        "documentation" to documentation(type.documentation.ifEmpty { "The value that a program writes as `${type.name.simple}`." }),
         "anyDocumented" to type.fields.any { it.documentation.isNotEmpty() },
         "documented" to type.fields.filter { it.documentation.isNotEmpty() }.map {
             mapOf("member" to lowerCamel(it.name), "documentation" to documentation(it.documentation))

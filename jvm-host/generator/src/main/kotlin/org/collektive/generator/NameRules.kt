@@ -35,7 +35,7 @@ internal class NameRules(
                 checkWord("${enum.name()}.$value", value)
                 if (value in ENUM_MEMBERS) refuse("${enum.name()}.$value", "generated code has a member of this name; rename the value")
                 if ("${value}_" in values && value in ReservedNames.reserved) {
-                    refuse("${enum.name()}.$value", "in generated code its name is ${value}_, which is another value; rename one of them")
+                    refuse("${enum.name()}.$value", "generated code renames it to ${value}_, the name of another value; rename one of them")
                 }
             }
         }
@@ -106,13 +106,13 @@ internal class NameRules(
             if (type.isStruct) checkInner(field)
             if (!field.name().first().isLetter()) refuse(place, "a name must begin with a letter; rename the field")
             seen.put(member, field.name())?.let {
-                refuse(place, "generated code calls both this field and $it $member; rename one of them")
+                refuse(place, "this field and $it are both named $member in generated code; rename one of them")
             }
             taken[member]?.let { refuse(place, "generated code of $it has a member of this name; rename one of them") }
         }
     }
 
-    /** What makes a struct has a parameter for each number in it, whose name C# cannot write if a keyword is in its middle. */
+    /** Constructors of structs have a parameter for each number, whose name is invalid in C# if a keyword is in its middle. */
     private fun checkInner(field: BinaryField) {
         if (field.type().baseType() != BaseType.Obj) return
         val inner = schema.objects(field.type().index())

@@ -248,15 +248,15 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** The generated code must not become too large: types can be nested in many ways and have many fields. */
+    /** The generated code must not become too large: nested types can expand to many fields. */
     private fun checkExtent(user: UserSchema) {
-        var ways = 0
+        var expandedFields = 0
         fun visit(type: Composite, outer: List<Composite>) {
             if (outer.size > MAX_DEPTH) throw error(TOO_DEEP, "${type.name}")
             for (field in type.fields) {
-                if (++ways > MAX_WAYS) {
+                if (++expandedFields > MAX_EXPANDED_FIELDS) {
                     throw error(
-                        "types are nested in more than $MAX_WAYS ways; use fewer or flatter types",
+                        "its nested types expand to more than $MAX_EXPANDED_FIELDS fields; use fewer or flatter types",
                         "${outer.first().name}",
                     )
                 }
@@ -267,7 +267,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         for (root in user.roots) visit(root, listOf(root))
         for (struct in user.structs) {
             if (slots(struct) > MAX_PARAMETERS) {
-                throw error("it has more numbers than a method can have parameters, $MAX_PARAMETERS; use a table", "${struct.name}")
+                throw error("its numbers need more than $MAX_PARAMETERS parameters in generated code; use a table", "${struct.name}")
             }
         }
         val fields = user.tables.sumOf { it.fields.size }
@@ -311,7 +311,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         /** As `FrameChecker` reads frames. */
         const val MAX_DEPTH = 64
         const val TOO_DEEP = "types are nested more than $MAX_DEPTH levels deep, which frames do not support; use fewer levels"
-        const val MAX_WAYS = 20_000
+        const val MAX_EXPANDED_FIELDS = 20_000
 
         /** A constructor of Java has 255 parameters, some of which Kotlin takes. */
         const val MAX_PARAMETERS = 240

@@ -110,7 +110,8 @@ public object Host {
             if (thread.isAlive) {
                 shim.log(
                     LogLevel.WARNING,
-                    "thread \"${thread.name}\" of a program did not end within the limit and stops with the JVM; end it when it is interrupted",
+                    "thread \"${thread.name}\" of a program was still running and was stopped with the JVM; " +
+                        "end the thread when it is interrupted",
                 )
             }
         }

@@ -26,7 +26,7 @@ public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null 
     override fun device(id: Int): DeviceRuntime = MailboxRuntime(id, rule)
 
     /** Devices share nothing. */
-    override fun tidy(devices: List<DeviceRuntime>) {}
+    override fun freeUnused(devices: List<DeviceRuntime>) {}
 }
 
 private class MailboxRuntime(private val id: Int, private val rule: SharingRule) :

@@ -66,7 +66,7 @@ internal class AggregateDevice<ID : Any>(
     override fun commit(): Export {
         val last = valid
         valid = running
-        running = if (last.isHeld) replacementOf(last) else last
+        running = if (last.isRetained) replacementOf(last) else last
         return valid
     }
 
@@ -74,7 +74,7 @@ internal class AggregateDevice<ID : Any>(
     private fun replacementOf(held: RoundRecord): RoundRecord {
         for (index in older.indices) {
             val record = older[index]
-            if (record.isHeld) continue
+            if (record.isRetained) continue
             older[index] = held
             return record
         }
@@ -85,7 +85,7 @@ internal class AggregateDevice<ID : Any>(
     /** Runs [action] on the paths that neighbours or this device's next round can still read. */
     fun forEachPath(action: (PathNode) -> Unit) {
         valid.forEachPath(action)
-        for (record in older) if (record.isHeld) record.forEachPath(action)
+        for (record in older) if (record.isRetained) record.forEachPath(action)
     }
 
     override fun push(token: Any?) = stack.push(token)
@@ -96,9 +96,9 @@ internal class AggregateDevice<ID : Any>(
 
     override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()
 
-    override fun claimPath(value: Any?): PathNode {
+    override fun reservePath(value: Any?): PathNode {
         val path = stack.path(this)
-        if (!running.claim(path)) throw clash(path, value)
+        if (!running.reserve(path)) throw clash(path, value)
         return path
     }
 
@@ -196,7 +196,7 @@ internal class AggregateDevice<ID : Any>(
 
     override fun <I : Any, T> projected(field: Field<I, T>): Field<I, T> {
         val path = stack.projectionPath(this)
-        if (running.claim(path)) running.send(path, Unit)
+        if (running.reserve(path)) running.send(path, Unit)
         val inbox = checkNotNull(inbox)
         val ids = inbox.ids
         val keptIds = arrayOfNulls<Any>(field.neighborCount)

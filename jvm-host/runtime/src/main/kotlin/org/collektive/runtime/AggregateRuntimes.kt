@@ -11,7 +11,7 @@ public class AggregateRuntimes(private val rule: SharingRule = SharingRule { nul
 
     override fun device(id: Int): DeviceRuntime = AggregateDevice(id, paths, stacks, rule)
 
-    override fun tidy(devices: List<DeviceRuntime>) {
+    override fun freeUnused(devices: List<DeviceRuntime>) {
         if (!paths.needsSweep) return
         paths.keepOnly { keep ->
             for (device in devices) (device as AggregateDevice<*>).forEachPath(keep)

@@ -60,7 +60,7 @@ internal class MailboxRound<ID : Any>(
         while (entries.isNotEmpty() && entries.last() > depth) entries.removeLast()
     }
 
-    override fun claimPath(value: Any?): Path {
+    override fun reservePath(value: Any?): Path {
         val path = path(stack)
         if (!visited.add(path)) throw AlignmentClashException(path, outbound.defaultAt(path), SharedData<ID, Any?>(value), place)
         return path

@@ -33,7 +33,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
      * Reserves the current path for a primitive that starts from [value], and returns it; throws [AlignmentClashException] when it is
      * in use.
      */
-    protected abstract fun claimPath(value: Any?): Path
+    protected abstract fun reservePath(value: Any?): Path
 
     /** The value that the last round stored at [path], or [initial] if it stored none. */
     protected abstract fun <T> keptAt(path: Path, initial: T): T
@@ -81,14 +81,14 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     }
 
     override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
-        val path = claimPath(initial)
+        val path = reservePath(initial)
         val value = transform(keptAt(path, initial))
         keep(path, value)
         return rejectField(value, "evolve")
     }
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
-        val path = claimPath(initial)
+        val path = reservePath(initial)
         val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
         keep(path, kept)
         return rejectField(result, "evolving")
@@ -99,7 +99,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         dataSharingMethod: DataSharingMethod<Shared>,
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return {
-        val path = claimPath(initial)
+        val path = reservePath(initial)
         val received = receive(path, keptAt(path, initial), dataSharingMethod)
         val (toSend, result) = YieldingContext<Field<ID, Shared>, Return>().body(received)
         send(path, toSend, dataSharingMethod)
@@ -108,7 +108,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     }
 
     override fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared> {
-        val path = claimPath(local)
+        val path = reservePath(local)
         sendToAll(path, local, dataSharingMethod)
         return receive(path, local, dataSharingMethod)
     }

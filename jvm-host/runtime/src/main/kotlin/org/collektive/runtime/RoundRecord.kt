@@ -32,7 +32,7 @@ internal class RoundRecord : Export() {
     }
 
     /** Reserves [path] for a primitive; `false` when it is taken. */
-    fun claim(path: PathNode): Boolean {
+    fun reserve(path: PathNode): Boolean {
         if (path === path0 || path === path1) return false
         if (count == 0) {
             path0 = path
@@ -42,14 +42,14 @@ internal class RoundRecord : Export() {
             path1 = path
             kept1 = Nothing
             sent1 = Nothing
-        } else if (!claimSlot(path)) {
+        } else if (!reserveSlot(path)) {
             return false
         }
         count++
         return true
     }
 
-    private fun claimSlot(path: PathNode): Boolean {
+    private fun reserveSlot(path: PathNode): Boolean {
         if (2 * WIDTH * (count - 1) > slots.size) grow()
         val slot = slotOf(path)
         if (slots[slot] === path) return false

@@ -10,9 +10,9 @@ import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.json.Json
-import org.collektive.alignment.noteFailure
 import org.collektive.alignment.popToken
 import org.collektive.alignment.pushToken
+import org.collektive.alignment.recordFailure
 import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
 import kotlin.test.assertContains
@@ -29,7 +29,7 @@ class ErrorsTest {
         try {
             return body()
         } catch (failure: Throwable) {
-            noteFailure(this, failure)
+            recordFailure(this, failure)
             throw failure
         } finally {
             popToken(this, depth)

@@ -43,18 +43,18 @@ class ExportTest {
 
     @Test
     fun `a held export does not change`() {
-        val held = List(5) { value -> send(value).also(Export::hold) }
+        val held = List(5) { value -> send(value).also(Export::retain) }
         repeat(10) { send(100 + it) }
         for (value in held.indices) assertEquals<Any?>(mapOf(1 to value), received(held[value]))
     }
 
     @Test
-    fun `the paths of a held export survive tidy`() {
-        val held = send(7).also(Export::hold)
+    fun `the paths of a retained export survive freeUnused`() {
+        val held = send(7).also(Export::retain)
         repeat(5000) { turn ->
             sender.round(inboxOf(null)) { alignedOn(turn) { neighboring(0).local.value } }
             sender.commit()
-            runtimes.tidy(listOf(sender, receiver))
+            runtimes.freeUnused(listOf(sender, receiver))
         }
         assertEquals<Any?>(mapOf(1 to 7), received(held))
     }
@@ -65,7 +65,7 @@ class ExportTest {
         fun round(pivot: Any) {
             sender.round(inboxOf(null)) { alignedOn(pivot) { neighboring(0).local.value } }
             sender.commit()
-            runtimes.tidy(listOf(sender, receiver))
+            runtimes.freeUnused(listOf(sender, receiver))
         }
         val first = Pivot().let {
             round(it)
@@ -81,7 +81,7 @@ class ExportTest {
         val made = HashSet<Export>()
         val last = ArrayDeque<Export>()
         repeat(50) { value ->
-            val export = send(value).also(Export::hold)
+            val export = send(value).also(Export::retain)
             made += export
             last.addLast(export)
             if (last.size > 3) last.removeFirst().release()
@@ -94,7 +94,7 @@ class ExportTest {
     }
 
     @Test
-    fun `releasing more often than holding is an error`() {
+    fun `releasing more often than retaining is an error`() {
         assertFailsWith<IllegalStateException> { send(0).release() }
     }
 }

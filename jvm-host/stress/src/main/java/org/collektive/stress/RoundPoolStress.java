@@ -30,7 +30,7 @@ public class RoundPoolStress {
     return System.nanoTime() + TimeUnit.SECONDS.toNanos(20);
   }
 
-  private static int notDone(RoundPool pool, int[] counts, int times) {
+  private static int countMissed(RoundPool pool, int[] counts, int times) {
     if (!pool.run(COUNT_UP, counts, COUNT, RANGE, deadline())) return -1;
     int wrong = 0;
     for (int count : counts) if (count != times) wrong++;
@@ -47,8 +47,8 @@ public class RoundPoolStress {
 
     @Actor
     public void caller(II_Result result) {
-      result.r1 = notDone(POOL, counts, 1);
-      result.r2 = notDone(POOL, counts, 2);
+      result.r1 = countMissed(POOL, counts, 1);
+      result.r2 = countMissed(POOL, counts, 2);
     }
   }
 
@@ -64,9 +64,9 @@ public class RoundPoolStress {
     @Actor
     public void caller(II_Result result) {
       POOL.wake();
-      result.r1 = notDone(POOL, counts, 1);
+      result.r1 = countMissed(POOL, counts, 1);
       POOL.wake();
-      result.r2 = notDone(POOL, counts, 2);
+      result.r2 = countMissed(POOL, counts, 2);
     }
   }
 

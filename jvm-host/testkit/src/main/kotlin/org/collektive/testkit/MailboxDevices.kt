@@ -32,7 +32,7 @@ public class MailboxDevices(
     override fun device(id: Int): DeviceRuntime = MailboxDevice(id)
 
     /** Devices share nothing. */
-    override fun tidy(devices: List<DeviceRuntime>) {}
+    override fun freeUnused(devices: List<DeviceRuntime>) {}
 
     private inner class MailboxDevice(private val id: Int) :
         DeviceRuntime,

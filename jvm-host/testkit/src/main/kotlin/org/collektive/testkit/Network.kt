@@ -76,7 +76,7 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
     /** Runs one round of each node in [due] and returns the results or exceptions. Successful rounds send their messages at the end. */
     public fun <R> outcomes(due: Collection<Int> = ids, program: Aggregate<Int>.() -> R): Map<Int, Result<R>> {
         now++
-        runtimes.tidy(nodes.values.map { it.device })
+        runtimes.freeUnused(nodes.values.map { it.device })
         val rounds = due.map { id -> Callable { runCatching { node(id).round(program) } } }
         val results = if (isParallel) POOL.invokeAll(rounds).map { it.get() } else rounds.map { it.call() }
         return due.zip(results).toMap().onEach { (id, result) -> if (result.isSuccess) node(id).send() }

@@ -31,7 +31,7 @@ public class ReferenceDevices(private val isAligned: Boolean = true, private val
         if (isAligned) AlignedDevice(id, ignoresClashes) else ReferenceDevice(id, ignoresClashes)
 
     /** Devices share nothing. */
-    override fun tidy(devices: List<DeviceRuntime>) {}
+    override fun freeUnused(devices: List<DeviceRuntime>) {}
 }
 
 /** A device without [AlignmentStack], as in other implementations of the API. */

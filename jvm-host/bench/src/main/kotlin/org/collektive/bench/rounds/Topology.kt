@@ -25,7 +25,7 @@ public class Topology internal constructor(
         public fun named(name: String, size: Int): Topology = when (name) {
             "grid8" -> grid(size)
             "rgg10" -> randomGeometric(size, meanDegree = 10.0)
-            else -> throw IllegalArgumentException("no topology '$name', only grid8 and rgg10")
+            else -> throw IllegalArgumentException("unknown topology '$name'; use grid8 or rgg10")
         }
 
         /** A square grid with spacing 1, ids row by row; each device is linked to the 8 around it. */

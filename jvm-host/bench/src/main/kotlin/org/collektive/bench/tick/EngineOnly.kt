@@ -48,7 +48,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) :
 
     override fun sensors(worker: Int, index: Int): Any = views[worker].at(now.place(index), now.frame)
 
-    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findFault(answer)
+    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findProblem(answer)
 
     override fun close() = engine.close()
 

@@ -49,7 +49,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionArguments(call).any()
 
             // These call no primitives themselves, but may call a function that does.
-            dsl.isFieldMember(callee) || isKotlins(callee) -> functionArguments(call).any(::carries)
+            dsl.isFieldMember(callee) || isKotlinBuiltIn(callee) -> functionArguments(call).any(::carries)
 
             callee.isLocal && leadsToPrimitive(callee) -> true
 
@@ -61,7 +61,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
 
     /** Whether [callee] is part of Kotlin's standard library, or an operator such as `==` and `!!`. */
-    fun isKotlins(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
+    fun isKotlinBuiltIn(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
 
     private fun carries(value: IrExpression): Boolean = when (value) {
         is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)

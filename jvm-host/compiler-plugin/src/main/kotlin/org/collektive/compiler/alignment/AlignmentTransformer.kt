@@ -238,7 +238,7 @@ internal class AlignmentTransformer(
 
     private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
         val mustAlign = reach.mustAlign(call)
-        if (reach.isKotlins(call.symbol.owner)) functionArguments(call).forEach { eachBodies += it.function }
+        if (reach.isKotlinBuiltIn(call.symbol.owner)) functionArguments(call).forEach { eachBodies += it.function }
         call.transformChildren(this, null)
         return if (mustAlign) aligned(call) else call
     }
@@ -273,11 +273,11 @@ internal class AlignmentTransformer(
             arguments[0] = aggregate()
             arguments[1] = irGet(depth)
         }
-        +irTry(body.type, body, listOf(noteAndRethrow(aggregate)), pop)
+        +irTry(body.type, body, listOf(recordAndRethrow(aggregate)), pop)
     }
 
-    /** Generates `catch (failure: Throwable) { noteFailure(aggregate, failure); throw failure }`. */
-    private fun IrBlockBuilder.noteAndRethrow(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
+    /** Generates `catch (failure: Throwable) { recordFailure(aggregate, failure); throw failure }`. */
+    private fun IrBlockBuilder.recordAndRethrow(aggregate: IrBlockBuilder.() -> IrExpression): IrCatch {
         val failure = buildVariable(
             scope.getLocalDeclarationParent(),
             startOffset,
@@ -286,7 +286,7 @@ internal class AlignmentTransformer(
             Name.identifier("failure"),
             plugin.irBuiltIns.throwableType,
         )
-        val note = irCall(dsl.noteFailure).apply {
+        val note = irCall(dsl.recordFailure).apply {
             arguments[0] = aggregate()
             arguments[1] = irGet(failure)
         }

@@ -37,7 +37,7 @@ internal class DslSymbols private constructor(
     val fieldContext: IrSimpleFunctionSymbol,
     val pushToken: IrSimpleFunctionSymbol,
     val popToken: IrSimpleFunctionSymbol,
-    val noteFailure: IrSimpleFunctionSymbol,
+    val recordFailure: IrSimpleFunctionSymbol,
     val project: IrSimpleFunctionSymbol,
 ) {
     fun isAggregate(type: IrType) = type.isSubtypeOfClass(aggregate)
@@ -114,7 +114,7 @@ internal class DslSymbols private constructor(
                 fieldContext = field.getPropertyGetter(DslNames.context.asString()) ?: return null,
                 pushToken = finder.findFunctions(DslNames.pushToken).singleOrNull() ?: return null,
                 popToken = finder.findFunctions(DslNames.popToken).singleOrNull() ?: return null,
-                noteFailure = finder.findFunctions(DslNames.noteFailure).singleOrNull() ?: return null,
+                recordFailure = finder.findFunctions(DslNames.recordFailure).singleOrNull() ?: return null,
                 project = finder.findFunctions(DslNames.project).singleOrNull() ?: return null,
             )
         }

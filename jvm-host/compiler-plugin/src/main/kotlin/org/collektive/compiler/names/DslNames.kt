@@ -26,6 +26,6 @@ internal object DslNames {
 
     val pushToken = CallableId(alignmentPackage, Name.identifier("pushToken"))
     val popToken = CallableId(alignmentPackage, Name.identifier("popToken"))
-    val noteFailure = CallableId(alignmentPackage, Name.identifier("noteFailure"))
+    val recordFailure = CallableId(alignmentPackage, Name.identifier("recordFailure"))
     val project = CallableId(alignmentPackage, Name.identifier("project"))
 }

@@ -21,14 +21,14 @@ public class AlignmentClashException private constructor(
 ) : IllegalStateException(message) {
     /** The clash at [path]. */
     public constructor(path: Path, previous: PayloadRepresentation<*>?, current: SharedData<*, *>) :
-        this(path, previous, current, "$CLASH, '$path'$ADVICE")
+        this(path, previous, current, "$CLASH, '$path'$HINT")
 
     /** The clash at [path], which the program reached at [place]. */
     public constructor(path: Path, previous: PayloadRepresentation<*>?, current: SharedData<*, *>, place: ProgramPlace) :
-        this(path, previous, current, withPlace(CLASH + ADVICE, place))
+        this(path, previous, current, withPlace(CLASH + HINT, place))
 
     private companion object {
         const val CLASH = "two primitives ran at one path in one round"
-        const val ADVICE = "; wrap one of them, or each iteration of a loop, in alignedOn(key) { }"
+        const val HINT = "; wrap one of them, or each iteration of a loop, in alignedOn(key) { }"
     }
 }

@@ -4,20 +4,20 @@ import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.frames.OFFSET_BYTES
 import java.nio.ByteBuffer
 
-/** Writes the table `Actuators` of a frame. Created by generated code. [findFault] is thread-safe. */
+/** Writes the table `Actuators` of a frame. Created by generated code. [findProblem] is thread-safe. */
 public sealed class ActuatorWriter(private val type: Class<*>) {
     /**
      * Returns why [result] cannot be written, with the path of the field (`words[1] is null`), or `null` if it can.
      *
      * Check each result after its round, because one invalid result corrupts the whole answer.
      */
-    public fun findFault(result: Any?): String? = when {
+    public fun findProblem(result: Any?): String? = when {
         result == null -> "the program returned null"
         !type.isInstance(result) -> "the program returned a ${result.javaClass.name} instead of a ${type.name}"
-        else -> fault(result)
+        else -> problem(result)
     }
 
-    internal abstract fun fault(result: Any): String?
+    internal abstract fun problem(result: Any): String?
 
     internal fun table(builder: FlatBufferBuilder, vector: Int): Int {
         builder.startTable(1)
@@ -40,7 +40,7 @@ public class StructWriter(type: Class<*>, public val bytes: Int, private val ali
         public fun pack(target: ByteBuffer, place: Int, result: Any)
     }
 
-    override fun fault(result: Any): String? = null
+    override fun problem(result: Any): String? = null
 
     /**
      * Writes the valid [result] to [target], which is little-endian, at [place]. The bytes there must be zero or an earlier result.
@@ -72,12 +72,12 @@ public class TableWriter(type: Class<*>, private val packer: Packer, private val
     /** Validates results that have the right class; generated code implements it. */
     public fun interface Rule {
         /** Returns why [result] cannot be written, or `null` if it can. */
-        public fun fault(result: Any): String?
+        public fun problem(result: Any): String?
     }
 
     private var offsets = IntArray(0)
 
-    override fun fault(result: Any): String? = rule.fault(result)
+    override fun problem(result: Any): String? = rule.problem(result)
 
     /**
      * Writes the first [count] of [results], in order, and returns the table's offset in [builder]. All of them must be valid.

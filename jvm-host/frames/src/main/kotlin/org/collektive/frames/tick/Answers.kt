@@ -54,7 +54,7 @@ private class StructAnswers(private val writer: StructWriter) : Answers() {
     }
 
     override fun pack(worker: Int, index: Int, answer: Any): String? {
-        writer.findFault(answer)?.let { return it }
+        writer.findProblem(answer)?.let { return it }
         writer.pack(packed, index * bytes, answer)
         val entry = index * entryBytes
         RoundDigest.putHeader(entries, entry, due[index], bytes)
@@ -91,7 +91,7 @@ private class TableAnswers(private val writer: TableWriter) : Answers() {
     private var answers = arrayOfNulls<Any?>(0)
     private var ranges = IntArray(0)
 
-    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findFault(answer)
+    override fun pack(worker: Int, index: Int, answer: Any): String? = writer.findProblem(answer)
 
     override fun write(result: TickResult, buffer: AnswerBuffer, digest: RoundDigest): Int {
         val count = gather(result)

@@ -133,11 +133,11 @@ internal class GeneratedCodeTest {
     @Test
     fun `the fault of a result that cannot be written names the reason`() {
         val blocks = GeneratedSchemas.blocks.actuatorWriter()
-        assertEquals("the program returned null", blocks.findFault(null))
-        assertEquals("the program returned a java.lang.String instead of a test.blocks.ActuatorData", blocks.findFault("x"))
+        assertEquals("the program returned null", blocks.findProblem(null))
+        assertEquals("the program returned a java.lang.String instead of a test.blocks.ActuatorData", blocks.findProblem("x"))
 
         val features = GeneratedSchemas.features.actuatorWriter()
-        fun fault(field: String, value: Any?) = features.findFault(made(field to value))
+        fun fault(field: String, value: Any?) = features.findProblem(made(field to value))
         assertNull(fault("text", "a \ud83d\ude80"))
         assertEquals("label contains an unpaired surrogate", fault("label", "x\ud83d"))
         assertEquals("words[1] is null", fault("words", listOf("a", null)))
@@ -162,12 +162,12 @@ internal class GeneratedCodeTest {
         val round = all.newInstance(null, null, null, children)
         children += round
         val writer = GeneratedSchemas.features.actuatorWriter()
-        val fault = assertNotNull(writer.findFault(made("tree" to round)))
+        val fault = assertNotNull(writer.findProblem(made("tree" to round)))
         assertEquals("tree" + ".children[0]".repeat(63) + " is nested deeper than 64 tables", fault)
         var deep = all.newInstance(null, null, null, null)
         repeat(62) { deep = all.newInstance(null, null, deep, null) }
         val result = made("tree" to deep)
-        assertNull(writer.findFault(result))
+        assertNull(writer.findProblem(result))
         write(GeneratedSchemas.features, arrayOf(result))
     }
 

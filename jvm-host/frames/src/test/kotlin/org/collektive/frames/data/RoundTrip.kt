@@ -67,7 +67,7 @@ internal object RoundTrip {
             repeat(records) {
                 val count = random.nextInt(6)
                 val results = Array<Any?>(count) { Objects.randomResult(schema, random) }
-                results.forEach { result -> check(writer.findFault(result) == null) { "${writer.findFault(result)}" } }
+                results.forEach { result -> check(writer.findProblem(result) == null) { "${writer.findProblem(result)}" } }
                 val builder = FlatBufferBuilder(256)
                 val offset = writer.writeAll(builder, results)
                 builder.finish(offset)

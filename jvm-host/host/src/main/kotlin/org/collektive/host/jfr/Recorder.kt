@@ -115,7 +115,7 @@ internal class Recorder(private val shim: ShimCalls) {
     }
 
     private fun text(failure: Throwable): String = when (failure) {
-        is NoSuchFileException -> "no such file or folder: ${failure.file}"
+        is NoSuchFileException -> "the file or folder does not exist: ${failure.file}; correct its path"
         is IOException -> "cannot write the file: ${failure.message ?: failure}; free disk space or choose another file"
         is IllegalStateException, is IllegalArgumentException -> failure.message ?: failure.toString()
         else -> failure.toString()

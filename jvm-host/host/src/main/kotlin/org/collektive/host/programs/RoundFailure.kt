@@ -32,7 +32,7 @@ internal object RoundFailure {
 
             failure is StackOverflowError -> "$failure: infinite recursion"
 
-            failure is OutOfMemoryError -> "$failure${remedy(failure)}"
+            failure is OutOfMemoryError -> "$failure${settingToRaise(failure)}"
 
             failure is IncompatibleClassChangeError || failure is NoClassDefFoundError && failure.cause is ClassNotFoundException ->
                 "$failure: a jar is missing or of another version; rebuild the programs with the jars that run them"
@@ -43,7 +43,7 @@ internal object RoundFailure {
     }
 
     /** Returns which setting to raise, with its names in the inspector and in scenario files. */
-    private fun remedy(failure: OutOfMemoryError): String {
+    private fun settingToRaise(failure: OutOfMemoryError): String {
         val message = failure.message.orEmpty()
         val megabytes = Runtime.getRuntime().maxMemory() shr MEBI_BITS
         return when {

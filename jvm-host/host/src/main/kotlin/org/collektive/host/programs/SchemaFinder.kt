@@ -29,7 +29,7 @@ public object SchemaFinder {
     public fun find(name: String, types: Map<String, Long>, all: List<DataSchema>, jars: List<ProgramJar>): DataSchema {
         val schema = all.find { it.name == name } ?: throw HostException(
             HostError.SCHEMA,
-            "schema $name is missing in ${paths(jars)}, which contain ${all.map(DataSchema::name)}; $ADVICE",
+            "schema $name is missing in ${paths(jars)}, which contain ${all.map(DataSchema::name)}; $HINT",
         )
         for (type in (types.keys + schema.types.keys).sorted()) {
             if (types[type] == schema.types[type]) continue
@@ -38,15 +38,15 @@ public object SchemaFinder {
                 !in schema.types -> "it is missing in the programs' jar"
                 else -> "its fields differ"
             }
-            throw HostException(HostError.SCHEMA, "type $type of schema $name differs between C# and the programs' jar ($how); $ADVICE")
+            throw HostException(HostError.SCHEMA, "type $type of schema $name differs between C# and the programs' jar ($how); $HINT")
         }
         return schema
     }
 
     private fun cannotLoad(jars: List<ProgramJar>, e: Throwable) =
-        HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $ADVICE", e)
+        HostException(HostError.SCHEMA, "the generated code in ${paths(jars)} cannot be loaded: $e; $HINT", e)
 
     private fun paths(jars: List<ProgramJar>) = jars.joinToString { it.path }
 
-    private const val ADVICE = "run ./collektive generate for the schema, then rebuild the programs and the C# code"
+    private const val HINT = "run ./collektive generate for the schema, then rebuild the programs and the C# code"
 }

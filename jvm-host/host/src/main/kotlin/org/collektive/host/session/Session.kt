@@ -2,9 +2,9 @@ package org.collektive.host.session
 
 import org.collektive.engine.Engine
 import org.collektive.engine.IntList
-import org.collektive.engine.RoundsNotFinished
+import org.collektive.engine.InvalidTickException
+import org.collektive.engine.RoundTimeoutException
 import org.collektive.engine.Tick
-import org.collektive.engine.TickRefused
 import org.collektive.engine.TickResult
 import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.MalformedFrameException
@@ -86,9 +86,9 @@ public class Session internal constructor(
 
     private fun runRounds(tick: Tick, begin: Long, deadline: Long): TickResult = try {
         engine.step(tick, data, deadline)
-    } catch (e: TickRefused) {
+    } catch (e: InvalidTickException) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
-    } catch (e: RoundsNotFinished) {
+    } catch (e: RoundTimeoutException) {
         shim.log(LogLevel.ERROR, "${e.message}; stack traces of its threads:")
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
         throw fail(e) {

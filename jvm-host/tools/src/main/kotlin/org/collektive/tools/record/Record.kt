@@ -51,7 +51,7 @@ internal class Record private constructor(private val path: Path, private val ch
     /**
      * Returns the next step, or `null` after the last one.
      *
-     * @throws RecordDamaged when the step cannot be read.
+     * @throws DamagedRecordException when the step cannot be read.
      */
     fun next(): RecordedStep? {
         val step = chunk()
@@ -85,11 +85,11 @@ internal class Record private constructor(private val path: Path, private val ch
         val magic = read(minOf(size, RecordWriter.MAGIC.size.toLong()).toInt()).array()
         val name = RecordWriter.MAGIC_TEXT.encodeToByteArray()
         if (magic.size < RecordWriter.MAGIC.size || !magic.copyOf(name.size).contentEquals(name)) {
-            throw RecordRefused("$path is not a record: it does not start with '${RecordWriter.MAGIC_TEXT}'")
+            throw InvalidRecordException("$path is not a record: it does not start with '${RecordWriter.MAGIC_TEXT}'")
         }
         val version = (magic[name.size].toInt() and 0xFF) or (magic[name.size + 1].toInt() and 0xFF shl 8)
         if (version != RecordWriter.VERSION.toInt()) {
-            throw RecordRefused(
+            throw InvalidRecordException(
                 "$path has record version $version, but this release reads version ${RecordWriter.VERSION}: use the release that wrote it",
             )
         }
@@ -144,7 +144,7 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 
     private fun damaged(at: Long, what: String) =
-        RecordDamaged("$path is damaged at byte $at, ${if (tick == 0L) "before the first tick" else "after tick $tick"}: $what")
+        DamagedRecordException("$path is damaged at byte $at, ${if (tick == 0L) "before the first tick" else "after tick $tick"}: $what")
 
     companion object {
         private const val UINT = 0xFFFF_FFFFL
@@ -152,30 +152,30 @@ internal class Record private constructor(private val path: Path, private val ch
         /**
          * Opens the record at [path].
          *
-         * @throws RecordRefused when the file is not a record, or has another version.
-         * @throws RecordDamaged when the part before the first step is damaged.
+         * @throws InvalidRecordException when the file is not a record, or has another version.
+         * @throws DamagedRecordException when the part before the first step is damaged.
          */
         fun open(path: Path): Record {
             // Opening a pipe would block.
             if (Files.exists(path) &&
                 !Files.isRegularFile(path)
             ) {
-                throw RecordRefused("$path is not a regular file: enter the path of a record")
+                throw InvalidRecordException("$path is not a regular file: enter the path of a record")
             }
             val channel = try {
                 FileChannel.open(path, READ)
             } catch (_: NoSuchFileException) {
-                throw RecordRefused(
+                throw InvalidRecordException(
                     "the record $path does not exist; correct the path, or create a record with the scenario's outputs.record",
                 )
             } catch (e: IOException) {
-                throw RecordRefused("cannot read the record $path: $e")
+                throw InvalidRecordException("cannot read the record $path: $e")
             }
             return try {
                 Record(path, channel)
             } catch (e: IOException) {
                 channel.close()
-                throw RecordRefused("cannot read the record $path: $e")
+                throw InvalidRecordException("cannot read the record $path: $e")
             } catch (e: RuntimeException) {
                 channel.close()
                 throw e
@@ -191,7 +191,7 @@ internal class RecordedStep(val request: ByteBuffer, val answer: StepResponseRea
 internal sealed class RecordException(message: String) : RuntimeException(message)
 
 /** Thrown when a file is not a record, or the command cannot use it. */
-internal class RecordRefused(message: String) : RecordException(message)
+internal class InvalidRecordException(message: String) : RecordException(message)
 
 /** Thrown when a record is damaged after some position. */
-internal class RecordDamaged(message: String) : RecordException(message)
+internal class DamagedRecordException(message: String) : RecordException(message)

@@ -15,11 +15,13 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
         val types = left.settings.types
         for ((name, hash) in types.entries + right.settings.types.entries) {
             if (types[name] != hash || right.settings.types[name] != hash) {
-                throw RecordRefused("the schemas of the records differ in type $name")
+                throw InvalidRecordException("the schemas of the records differ in type $name")
             }
         }
         if (left.settings.schema() != right.settings.schema()) {
-            throw RecordRefused("the schemas of the records differ: ${left.settings.schema()} in A, ${right.settings.schema()} in B")
+            throw InvalidRecordException(
+                "the schemas of the records differ: ${left.settings.schema()} in A, ${right.settings.schema()} in B",
+            )
         }
         if (runtimes.first != runtimes.second) {
             report.line(

@@ -50,18 +50,18 @@ internal class RecordedTypes(private val reflection: ReflectionReader, namespace
         /**
          * Returns the types of the [schema], which one of the [jars] contains.
          *
-         * @throws RecordRefused when they are missing or damaged.
+         * @throws InvalidRecordException when they are missing or damaged.
          */
         fun of(schema: String, jars: List<JarBytes>): RecordedTypes {
             val entry = ReflectionReader.entry(schema)
             val binary = jars.firstNotNullOfOrNull { it.entry(entry) }
-                ?: throw RecordRefused(
+                ?: throw InvalidRecordException(
                     "none of ${jars.map(JarBytes::path)} contains $entry: generate the code of the schema again and rebuild the jar",
                 )
             return try {
                 RecordedTypes(ReflectionReader(binary), schema.substringBeforeLast('.'))
             } catch (e: MalformedFrameException) {
-                throw RecordRefused("$entry is damaged: ${e.message}")
+                throw InvalidRecordException("$entry is damaged: ${e.message}")
             }
         }
     }

@@ -41,7 +41,7 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
 
             "diff" -> diff(arguments.drop(1), report)
 
-            else -> throw RecordRefused(
+            else -> throw InvalidRecordException(
                 "usage: replay FILE [--trust] [--own FOLDER]... [--programs JAR]... [--runtime NAME] [--runtime-jars FOLDER] " +
                     "[--out RECORD] | diff A B",
             )
@@ -58,11 +58,11 @@ internal fun records(arguments: List<String>, results: PrintStream, messages: Pr
 }
 
 private fun replay(arguments: List<String>, report: Report): Int {
-    val file = arguments.firstOrNull() ?: throw RecordRefused("replay: the path of the record is missing")
+    val file = arguments.firstOrNull() ?: throw InvalidRecordException("replay: the path of the record is missing")
     val isTrusted = "--trust" in arguments
     val options = (arguments.drop(1) - "--trust").chunked(2).map { option ->
         if (option.first() !in OPTIONS || option.size < 2) {
-            throw RecordRefused("replay: '${option.first()}' is not an option, or its value is missing")
+            throw InvalidRecordException("replay: '${option.first()}' is not an option, or its value is missing")
         }
         option[0] to option[1]
     }
@@ -80,7 +80,7 @@ private fun replay(arguments: List<String>, report: Report): Int {
         last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
         val runtimeJars = last["--runtime-jars"]
         if (runtimeJars == null && !request.runtimeJars.isNullOrEmpty() && !isTrusted) {
-            throw RecordRefused(
+            throw InvalidRecordException(
                 "$file uses the runtime jars in ${request.runtimeJars}, and a replay runs their code with your permissions: " +
                     "set another folder with --runtime-jars FOLDER, or add --trust if you trust the author of the record",
             )
@@ -95,10 +95,10 @@ private fun replay(arguments: List<String>, report: Report): Int {
 }
 
 private fun runtime(name: String): AggregateRuntime = AggregateRuntime.entries.find { it.key == name }
-    ?: throw RecordRefused("replay: unknown runtime '$name'; use one of ${AggregateRuntime.entries.joinToString { it.key }}")
+    ?: throw InvalidRecordException("replay: unknown runtime '$name'; use one of ${AggregateRuntime.entries.joinToString { it.key }}")
 
 private fun diff(arguments: List<String>, report: Report): Int {
-    if (arguments.size != 2) throw RecordRefused("diff: the paths of two records are required")
+    if (arguments.size != 2) throw InvalidRecordException("diff: the paths of two records are required")
     Record.open(path(arguments[0])).use { left ->
         Record.open(path(arguments[1])).use { right -> return code(RecordDiff(left, right, report).run()) }
     }
@@ -117,7 +117,7 @@ private fun describe(record: Record): String {
 private fun path(name: String): Path = try {
     Path.of(name)
 } catch (_: InvalidPathException) {
-    throw RecordRefused("'$name' is not a path")
+    throw InvalidRecordException("'$name' is not a path")
 }
 
 private fun code(isEqual: Boolean) = if (isEqual) EQUAL else DIFFERENT

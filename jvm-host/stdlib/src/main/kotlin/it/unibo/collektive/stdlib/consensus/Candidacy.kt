@@ -6,7 +6,7 @@ import kotlinx.serialization.Serializable
  * The candidacy of [candidate], with its [strength] and its [distance] from here. A stronger candidacy is greater; of equally strong
  * ones, the nearer is greater. `compareTo` ignores [candidate], so it is inconsistent with `equals`.
  *
- * @property candidate the device that wants to lead.
+ * @property candidate the device that stands for election.
  * @property distance from the candidate to this device, in units of the election's metric.
  * @property strength what the election compares first.
  */

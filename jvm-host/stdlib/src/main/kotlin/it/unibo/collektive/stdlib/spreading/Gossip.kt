@@ -146,7 +146,8 @@ private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isCoherent(index: Int): 
     val path = neighborValue(index).path
     for (other in 0 until neighborCount) {
         val shorter = neighborValue(other).path
-        if (shorter.size < path.size && !shorter.agreesWith(neighborId(other), path, neighborId(index)) && isUsable(other)) return false
+        val isShorter = shorter.size < path.size && !shorter.hasSameHopOrder(neighborId(other), path, neighborId(index))
+        if (isShorter && isUsable(other)) return false
     }
     return true
 }

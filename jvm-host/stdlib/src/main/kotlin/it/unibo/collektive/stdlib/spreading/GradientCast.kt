@@ -115,7 +115,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         }
     }
 
-    /** What a source offers. Returns [former] itself if nothing changed. */
+    /** The offer of a source. Returns [former] itself if nothing changed. */
     private fun atSource(local: V, former: PathValue<ID, V, D>?): PathValue<ID, V, D> =
         former?.takeIf { it.length == 0 && it.distance == bottom && it.data == local } ?: PathValue(bottom, local, HopPath.empty<ID>())
 
@@ -158,7 +158,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     /** The distance from the source of [value] to here, before it is limited; of a neighbour that offers nothing its own distance. */
     private fun sum(value: PathValue<ID, V, D>?, step: D): D = if (value == null) step else accumulateDistance(value.distance, step)
 
-    /** What each neighbour offers, in the field's order. */
+    /** The offers of the neighbours, in the field's order. */
     private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
@@ -221,7 +221,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
 }
 
 /**
- * What a device chose in a round among [offers] of at most [maxDiameter] hops: the [best] one for itself and all neighbours but the one
+ * The choice of a device in a round among [offers] of at most [maxDiameter] hops: the [best] one for itself and all neighbours but the one
  * that made it, which gets [returned] through the [second] best.
  */
 private class Choice<ID : Any, V, D : Comparable<D>>(
@@ -233,7 +233,7 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
 )
 
 /**
- * What the neighbour [id], which is [step] away, offers: [value], or nothing; [distance] is from the source, or the neighbour, to here: the
+ * The offer of the neighbour [id], which is [step] away: [value], or nothing; [distance] is from the source, or the neighbour, to here: the
  * [sum], limited.
  */
 private class Offer<ID : Any, V, D : Comparable<D>>(
@@ -254,7 +254,7 @@ private class Offer<ID : Any, V, D : Comparable<D>>(
     fun contradicts(other: Offer<ID, V, D>): Boolean {
         val mine = path ?: return false
         val others = other.path ?: return false
-        return (mine.size < others.size || mine.size == others.size && compareTo(other) != 0) && !mine.agreesWith(id, others, other.id)
+        return (mine.size < others.size || mine.size == others.size && compareTo(other) != 0) && !mine.hasSameHopOrder(id, others, other.id)
     }
 
     override fun compareTo(other: Offer<ID, V, D>): Int = distance.compareTo(other.distance)

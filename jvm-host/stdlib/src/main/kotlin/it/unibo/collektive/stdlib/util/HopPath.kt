@@ -29,7 +29,7 @@ internal class HopPath<ID : Any> private constructor(
      * Whether the devices common to this path and [last], and to the [other] path and [otherLast], are in the same order. The last
      * devices differ.
      */
-    fun agreesWith(last: ID, other: HopPath<ID>, otherLast: ID): Boolean {
+    fun hasSameHopOrder(last: ID, other: HopPath<ID>, otherLast: ID): Boolean {
         val mine = prefixUpTo(otherLast)
         val others = other.prefixUpTo(last)
         return when {

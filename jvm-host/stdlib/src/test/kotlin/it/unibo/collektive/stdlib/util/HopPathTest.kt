@@ -34,7 +34,7 @@ class HopPathTest {
             val a = pool.shuffled(random).take(random.nextInt(1, 6))
             val b = pool.shuffled(random).take(random.nextInt(1, 6))
             if (a.last() != b.last()) {
-                assertEquals(commonInOrder(a, b), path(a.dropLast(1)).agreesWith(a.last(), path(b.dropLast(1)), b.last()), "$a and $b")
+                assertEquals(commonInOrder(a, b), path(a.dropLast(1)).hasSameHopOrder(a.last(), path(b.dropLast(1)), b.last()), "$a and $b")
                 if (commonInOrder(a, b)) agreeing++
             }
         }
@@ -44,9 +44,9 @@ class HopPathTest {
     @Test
     fun `branches of one path agree`() {
         val stem = path((0 until 20).toList())
-        assertTrue((stem + 50).agreesWith(51, stem, 60))
-        assertTrue(stem.agreesWith(50, stem, 51))
-        assertFalse((stem + 50).agreesWith(51, stem + 51, 50))
+        assertTrue((stem + 50).hasSameHopOrder(51, stem, 60))
+        assertTrue(stem.hasSameHopOrder(50, stem, 51))
+        assertFalse((stem + 50).hasSameHopOrder(51, stem + 51, 50))
     }
 
     @Test
